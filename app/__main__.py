@@ -1,4 +1,4 @@
-"""Start: the window for `open`, a drawing or nothing; the command line for everything else."""
+"""Start: the window for `open`, a file or nothing; the command line for everything else."""
 
 from __future__ import annotations
 
@@ -69,9 +69,9 @@ def _open(files: list[str]) -> int:
     if files and files[0] in ("-h", "--help"):
         return command_line(["--help"])
     if files and files[0].startswith("-"):
-        return _refuse(f"open has no option {files[0]}; name a drawing, or nothing for the sample part")
+        return _refuse(f"open has no option {files[0]}; name a file, or nothing to choose from the last ones")
     if files and not Path(files[0]).is_file():
-        return _refuse(f"{files[0]}: there is no such file; name a drawing, or nothing for the sample part")
+        return _refuse(f"{files[0]}: there is no such file; name one, or nothing to choose from the last ones")
     return _window(Path(files[0]) if files else None)
 
 

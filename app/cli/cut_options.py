@@ -243,6 +243,13 @@ def _look_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--engine", choices=[engine.value for engine in Engine], default=Engine.AUTO.value, help=ENGINE_HELP
     )
+    group.add_argument(
+        "--facet",
+        metavar="D",
+        type=number("facet"),
+        help="size of the facets of the engine patent, which it asks for (mm; default: as it was published, about two "
+        "cells); try several and compare",
+    )
 
 
 def _part_options(group: argparse._ArgumentGroup) -> None:
@@ -303,6 +310,8 @@ def check_cut_arguments(arguments: argparse.Namespace) -> None:
         twice = next((given for given in numbers if numbers.count(given) > 1), None)
         if twice is not None:
             raise InputError(f"--{option} {twice}=…: {option} {twice} is given twice; give each number once")
+    if arguments.facet is not None and arguments.engine not in (Engine.AUTO.value, Engine.PATENT.value):
+        raise InputError(f"--facet is of the engine patent, not of {arguments.engine}; take one of them away")
     _ensure_part(arguments)
 
 

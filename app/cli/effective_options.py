@@ -16,7 +16,7 @@ from .values import number
 Kind = TypeVar("Kind")
 
 _DEFAULTS = CorrectionOptions()
-_ONLY = ("epsilon", "nearness", "ends", "before", "after", "move", "select", "embodiment")
+_ONLY = ("epsilon", "across", "nearness", "ends", "before", "after", "move", "select", "embodiment")
 
 
 def add_effective_options(parser: OptionParser) -> None:
@@ -31,6 +31,12 @@ def add_effective_options(parser: OptionParser) -> None:
     )
     group.add_argument(
         "--epsilon", metavar="E", type=number("epsilon"), help="points so near to one segment belong to one facet (mm)"
+    )
+    group.add_argument(
+        "--across",
+        action="store_true",
+        default=None,
+        help="tell points apart by the facets of the surface that neighbouring passes lie on, not path by path",
     )
     group.add_argument(
         "--nearness",
@@ -90,10 +96,10 @@ def effective_method(arguments: argparse.Namespace) -> EffectiveMethod | None:
     if arguments.embodiment != 2:
         if late := [name for name in ("before", "after", "move", "select") if name in given]:
             raise InputError(f"--{late[0]} belongs to --embodiment 2; give that too, or leave it out")
-        return EffectiveMethod(choose, nearness=arguments.nearness)
+        return EffectiveMethod(choose, None, arguments.nearness, bool(arguments.across))
     move = CorrectionMove.PERPENDICULAR if arguments.move == "perpendicular" else CorrectionMove.NEAREST
     correct = second_embodiment(arguments.select, arguments.before, arguments.after, move)
-    return EffectiveMethod(choose, correct, arguments.nearness)
+    return EffectiveMethod(choose, correct, arguments.nearness, bool(arguments.across))
 
 
 def _pair(kinds: dict[str, Kind]) -> Callable[[str], tuple[Kind, float]]:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ..core.atomic import read_whole, sweep
+from ..core.atomic import sweep
 from ..core.errors import InputError
 from ..core.progress import Progress
 from .output import on_terminal, say, show
@@ -15,27 +16,6 @@ from .signals import StopFlag
 
 EVERY = 5.0
 """Seconds between lines that tell how far a job is, where they are no terminal's."""
-
-
-def read_input(path: Path) -> bytes:
-    """Return a file's bytes.
-
-    Raises:
-        InputError: it is missing, no file, unreadable, empty or too large.
-    """
-    try:
-        if path.is_dir():
-            raise InputError(f"{path} is a folder; name a file in it")
-        data = read_whole(path)
-    except FileNotFoundError as error:
-        raise InputError(f"{path} does not exist; check the name") from error
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{path} cannot be read: {getattr(error, 'strerror', None) or error}; name another file"
-        ) from error
-    if not data:
-        raise InputError(f"{path} is empty; export it again")
-    return data
 
 
 def check_outputs(outputs: Mapping[str, Path], inputs: Sequence[Path]) -> None:
@@ -65,6 +45,11 @@ def check_outputs(outputs: Mapping[str, Path], inputs: Sequence[Path]) -> None:
             taken.append(identity(path))
     for folder in {path.parent for path in outputs.values()}:
         sweep(folder)
+
+
+def named_files(arguments: argparse.Namespace, *options: str) -> dict[str, Path]:
+    """Return the files that some options name, by option; those that were not given are not among them."""
+    return {option: path for option in options if (path := getattr(arguments, option)) is not None}
 
 
 def identity(path: Path) -> object:

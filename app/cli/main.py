@@ -22,7 +22,7 @@ DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
 HELP = f"""\
 Hitofude: from a line drawing to tool paths that can be trusted on a real machine.
 
-  hitofude [open] [FILE]              the window, with FILE or the sample part
+  hitofude [open] [FILE]              the window, with FILE or the last ones to choose from
 {listed()}
   hitofude --version                  this version
   hitofude --help                     this text

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from ..core.errors import InputError
+from ..core.input_file import read_input
 from ..drafting.expressions.numbers import length
-from ..formats.job.toml import ORIGIN_HELP, parse_origin, read_out_units, read_units
+from ..formats.job.toml import ORIGIN_HELP, StatedOrigin, parse_origin, read_out_units, read_units
 from ..formats.readers import offered_suffixes
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover
 from ..usecases.proposal.propose import ProposalOptions
 from .command import OptionParser
+from .files import check_outputs, named_files
 from .reading_options import add_reading_options, reading
 from .values import MACHINE_HELP, join_tolerance, machine_named, number, typed
 
@@ -222,7 +225,7 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         raise InputError(f"--{option} has no effect without --propose; add that, or leave it away")
     if arguments.propose and bitmap is not None:
         raise InputError("--propose has no effect on pixels, where all is pockets; leave it away, or --bitmap")
-    origin_xy, origin_z = arguments.origin or (None, None)
+    origin = arguments.origin or StatedOrigin()
     return MakeOptions(
         contour_diameter=arguments.contour_tool,
         pocket_diameter=arguments.pocket_tool,
@@ -237,8 +240,8 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         machine=arguments.machine,
         out_units=arguments.out_units,
         units=arguments.units,
-        origin_xy=origin_xy,
-        origin_z=origin_z,
+        origin_xy=origin.xy,
+        origin_z=origin.z,
         layers=tuple(arguments.layer),
         join_tolerance=arguments.join_tolerance,
         exact_path=arguments.exact_path,
@@ -247,3 +250,46 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         reading=reading(arguments),
         propose=ProposalOptions(thickness=arguments.thickness) if arguments.propose else None,
     )
+
+
+def read_make_options(arguments: argparse.Namespace) -> MakeOptions:
+    """Return what was asked for, its files read: the job, and tools to choose from.
+
+    Raises:
+        HitofudeError: an option cannot be used, or a file cannot be read.
+    """
+    return _with_tools(_with_job(make_options(arguments), arguments.job), arguments.tools)
+
+
+def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
+    """Return the options with the job file read, where there is one."""
+    if path is None:
+        return options
+    from ..formats.job.toml import read_job
+
+    file = read_job(path.name, read_input(path))
+    return replace(options, job=file.job, units=options.units or file.units)
+
+
+def _with_tools(options: MakeOptions, path: Path | None) -> MakeOptions:
+    """Return the options with the tools that a proposal chooses from: of a library, else of the job file."""
+    if options.propose is None or (path is None and options.job is None):
+        return options
+    from ..formats.tools.files import read_tools
+
+    own = options.job.tools if options.job is not None else ()
+    tools = own if path is None else read_tools(path.name, read_input(path)).library.tools
+    return replace(options, propose=replace(options.propose, tools=tuple(tools)))
+
+
+def make_files(arguments: argparse.Namespace) -> dict[str, Path]:
+    """Return the files to write by what they hold, checked before any work is done.
+
+    Raises:
+        InputError: one cannot be written, or is no picture.
+    """
+    outputs = named_files(arguments, "output", "report", "image", "write_job")
+    if "image" in outputs and outputs["image"].suffix.lower() not in (".svg", ".png"):
+        raise InputError(f"--image {outputs['image']}: a picture is .svg or .png; change the name")
+    check_outputs(outputs, [*named_files(arguments, "drawing", "job", "tools").values()])
+    return outputs

@@ -6,7 +6,7 @@ import argparse
 import math
 from collections.abc import Callable
 
-from ..core.errors import InputError
+from ..core.errors import InputError, ParameterError
 from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import length
 from ..model.job import LARGEST_JOIN
@@ -54,12 +54,12 @@ def machine_named(name: str) -> Machine:
 
 
 def typed(read: Callable[[str], object]) -> Callable[[str], object]:
-    """Return a reader whose InputError argparse shows."""
+    """Return a reader whose InputError or ParameterError argparse shows."""
 
     def wrapped(text: str) -> object:
         try:
             return read(text)
-        except InputError as error:
+        except (InputError, ParameterError) as error:
             raise argparse.ArgumentTypeError(f"is wrong: {error}") from error
 
     return wrapped

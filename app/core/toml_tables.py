@@ -16,6 +16,7 @@ from functools import cache
 from typing import Any, TypeVar
 
 from .errors import HitofudeError, InputError
+from .file_bytes import FileBytes
 
 Kind = TypeVar("Kind")
 
@@ -112,6 +113,22 @@ def _numbered(header: str, counts: dict[str, int], begins: bool) -> str:
     return path
 
 
+@dataclass(frozen=True)
+class _KeyPlace:
+    """A key where it stands."""
+
+    place: _Place
+    key: str
+
+    def error(self, text: str) -> InputError:
+        """Return the error that its value is wrong."""
+        return self.place.error(self.key, text)
+
+    def inside(self) -> _Place:
+        """Return the place of the table that it names."""
+        return self.place.inside(self.key)
+
+
 def read_tables(kind: type[Kind], file: str, data: bytes, ranges: Mapping[str, Range]) -> Kind:
     """Return the dataclass that a TOML text describes; fields with a default may be left out.
 
@@ -126,7 +143,7 @@ def read_tables(kind: type[Kind], file: str, data: bytes, ranges: Mapping[str, R
     Raises:
         InputError: the text is no TOML, or a key is missing, unknown, of the wrong kind or out of its range.
     """
-    return tables_of(kind, read_tree(file, data), (file, data), ranges)
+    return tables_of(kind, read_tree(file, data), FileBytes(file, data), ranges)
 
 
 def read_tree(file: str, data: bytes) -> dict[str, Any]:
@@ -193,12 +210,14 @@ def shown(value: Any) -> str:
     return brief(repr(value), QUOTED)
 
 
-def tables_of(kind: type[Kind], tree: dict[str, Any], source: tuple[str, bytes], ranges: Mapping[str, Range]) -> Kind:
-    """Return the dataclass that tables describe, as `read_tables` does; `source` is the file's name and bytes, for
-    errors.
+def tables_of(kind: type[Kind], tree: dict[str, Any], source: FileBytes, ranges: Mapping[str, Range]) -> Kind:
+    """Return the dataclass that tables describe, as `read_tables` does.
+
+    Args:
+        source: what they were read from, for errors.
     """
-    file, data = source
-    made: Kind = _table(kind, tree, _Place(file, tuple(data.decode("utf-8-sig").splitlines())), ranges)
+    lines = source.data.decode("utf-8-sig").splitlines()
+    made: Kind = _table(kind, tree, _Place(source.name, tuple(lines)), ranges)
     return made
 
 
@@ -213,7 +232,7 @@ def _table(kind: Any, data: dict[str, Any], place: _Place, ranges: Mapping[str, 
     for each in fields(kind):
         if each.name not in data and _required(each):
             raise place.error(each.name, f"is missing; add {_expected(hints[each.name])}.")
-    values = {key: _value(hints[key], value, (place, key), ranges) for key, value in data.items()}
+    values = {key: _value(hints[key], value, _KeyPlace(place, key), ranges) for key, value in data.items()}
     try:
         return kind(**values)
     except InputError:
@@ -232,36 +251,35 @@ def _required(each: Field[Any]) -> bool:
     return each.default is MISSING and each.default_factory is MISSING
 
 
-def _value(kind: Any, value: Any, at: tuple[_Place, str], ranges: Mapping[str, Range]) -> Any:
+def _value(kind: Any, value: Any, at: _KeyPlace, ranges: Mapping[str, Range]) -> Any:
     """Return a TOML value as what its field holds."""
-    place, key = at
     if isinstance(kind, types.UnionType):
         return _value(_meant(kind, value, at), value, at, ranges)
     if _is_table(kind) and isinstance(value, dict):
-        return _table(kind, value, place.inside(key), ranges)
+        return _table(kind, value, at.inside(), ranges)
     if isinstance(value, str) and value in (words := _words(kind)):
         return words[value]
     if typing.get_origin(kind) is tuple and isinstance(value, list) and _alike(typing.get_args(kind), value):
         whole = typing.get_args(kind) == (int, ...)
         return tuple(item if whole or isinstance(item, str) else float(_in_range(item, at, ranges)) for item in value)
     if (part := _repeated(kind)) is not None and isinstance(value, list):
-        return tuple(_item(part, item, at, (number, ranges)) for number, item in enumerate(value, 1))
+        return tuple(_item(part, item, at, number, ranges) for number, item in enumerate(value, 1))
     if kind in (int, float) and type(value) in (int, kind):
         return kind(_in_range(value, at, ranges))
     if kind in (str, bool) and isinstance(value, kind):
         return value
-    raise place.error(key, f"is {shown(value)}; expected is {_expected(kind)}.")
+    raise at.error(f"is {shown(value)}; expected is {_expected(kind)}.")
 
 
-def _meant(union: types.UnionType, value: Any, at: tuple[_Place, str]) -> Any:
+def _meant(union: types.UnionType, value: Any, at: _KeyPlace) -> Any:
     """Return which type of a union a value is of: that which is not None, or the dataclass of its kind."""
     choices = [part for part in typing.get_args(union) if part is not types.NoneType]
     if len(choices) == 1:
         return choices[0]
     if not isinstance(value, dict):
-        raise at[0].error(at[1], f"is {shown(value)}; expected is {_expected(union)}.")
+        raise at.error(f"is {shown(value)}; expected is {_expected(union)}.")
     kinds = {part.kind: part for part in choices}
-    place = at[0].inside(at[1])
+    place = at.inside()
     if "kind" not in value:
         raise place.error("kind", f"is missing; add kind = {_either(kinds)}.")
     if not isinstance(value["kind"], str) or value["kind"] not in kinds:
@@ -279,11 +297,10 @@ def _repeated(kind: Any) -> Any:
     return parts[0] if parts[1:] == (...,) and (_is_table(parts[0]) or typing.get_origin(parts[0]) is tuple) else None
 
 
-def _item(kind: Any, value: Any, at: tuple[_Place, str], rest: tuple[int, Mapping[str, Range]]) -> Any:
+def _item(kind: Any, value: Any, at: _KeyPlace, number: int, ranges: Mapping[str, Range]) -> Any:
     """Return one table or one tuple of a list of them, of which it is the number-th."""
-    (place, key), (number, ranges) = at, rest
     if _is_table(kind) and isinstance(value, dict):
-        return _table(kind, value, place.item(key, number), ranges)
+        return _table(kind, value, at.place.item(at.key, number), ranges)
     return _value(kind, value, at, ranges)
 
 
@@ -298,14 +315,13 @@ def _alike(parts: tuple[Any, ...], values: list[Any]) -> bool:
     return len(parts) == len(values) and all(type(value) in (int, float) for value in values)
 
 
-def _in_range(value: float, at: tuple[_Place, str], ranges: Mapping[str, Range]) -> float:
+def _in_range(value: float, at: _KeyPlace, ranges: Mapping[str, Range]) -> float:
     """Return a number if it is in the range of its key, or of the first table above it that has one."""
-    place, key = at
-    path = [re.sub(r"\[\d+\]$", "", part) for part in (*place.tables, key)]
+    path = [re.sub(r"\[\d+\]$", "", part) for part in (*at.place.tables, at.key)]
     found = [name for end in range(len(path), 0, -1) if (name := ".".join(path[:end])) in ranges]
     low, high = ranges[found[0]] if found else (float("-inf"), float("inf"))
     if not low <= value <= high:
-        raise place.error(key, f"is {value:g}; expected is a number from {low:g} to {high:g}.")
+        raise at.error(f"is {value:g}; expected is a number from {low:g} to {high:g}.")
     return value
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from enum import Flag, auto
 from pathlib import Path
+from typing import NamedTuple
 
 from ..core.errors import InputError
 from ..core.progress import NO_PROGRESS, Progress
@@ -18,7 +19,7 @@ from .expressions.errors import CommandError
 from .expressions.grammar import read_script
 from .expressions.syntax import Command, Quantity, Statement
 from .expressions.values import Curves, wrong
-from .history import HistoryState, UndoHistory
+from .history import ChangeNames, HistoryState, UndoHistory
 from .language.interpret import Interpreter, Outcome
 from .language.language import command_word
 from .recorded_lines import RecordedLine
@@ -50,6 +51,13 @@ class LogLine:
 
 
 Listener = Callable[[DocumentChange], None]
+
+
+class _Done(NamedTuple):
+    """What was done: a sentence for the log, and what has changed."""
+
+    reply: str
+    change: DocumentChange
 
 
 class Document:
@@ -103,8 +111,8 @@ class Document:
         return self._history.state
 
     @property
-    def history_names(self) -> tuple[tuple[str, ...], int]:
-        """Names of all changes, the oldest first, and how many of them are done; the rest is what redo brings."""
+    def history_names(self) -> ChangeNames:
+        """Names of all changes."""
         return self._history.names
 
     @property
@@ -291,11 +299,11 @@ class Document:
             self.selection = chosen
             self._tell(DocumentChange.SELECTION)
 
-    def _take(self, outcome: Outcome, line: str) -> tuple[str, DocumentChange]:
+    def _take(self, outcome: Outcome, line: str) -> _Done:
         before, after, state = self.session, outcome.session, self._history.state
         if after == replace(before, selection=after.selection):
             self.selection = after.selection
-            return outcome.reply, DocumentChange.SELECTION
+            return _Done(outcome.reply, DocumentChange.SELECTION)
         part_changed = after.part is not before.part
         job = replace(self.job, part=after.part) if part_changed else self.job
         for old, new in after.renamed:
@@ -315,18 +323,19 @@ class Document:
         )
         selected, self.selection = self.selection, after.selection
         change = self._after(part_changed)
-        return outcome.reply, change | (DocumentChange.SELECTION if selected != self.selection else DocumentChange(0))
+        reselected = DocumentChange.SELECTION if selected != self.selection else DocumentChange(0)
+        return _Done(outcome.reply, change | reselected)
 
-    def _step(self, back: bool, times: int) -> tuple[str, DocumentChange]:
+    def _step(self, back: bool, times: int) -> _Done:
         before = self.job
         names: list[str] = []
         while len(names) < times and (name := self._history.undo() if back else self._history.redo()) is not None:
             names.append(name)
         if not names:
-            return ("Nothing to undo." if back else "Nothing to redo."), DocumentChange.HISTORY
+            return _Done("Nothing to undo." if back else "Nothing to redo.", DocumentChange.HISTORY)
         change = self._after(part_changed=self.part is not before.part)
         what = names[0] if len(names) == 1 else f"{len(names)} steps"
-        return f"{what} {'undone' if back else 'done again'}.", change | DocumentChange.JOB
+        return _Done(f"{what} {'undone' if back else 'done again'}.", change | DocumentChange.JOB)
 
     def _after(self, part_changed: bool) -> DocumentChange:
         """Bring revision and selection in step with a new state; return what changed."""
@@ -401,8 +410,15 @@ def _evaluated(statements: tuple[Statement, ...], session: DraftingSession, inte
     return replace(outcome, name=words, reply=f"{words}; the drawing has {counted(curves, 'curve')}.")
 
 
-def _step_of(statements: tuple[Statement, ...]) -> tuple[bool, int] | None:
-    """Return whether to go back, and how many steps, where undo or redo is the only statement; else None."""
+class _HistorySteps(NamedTuple):
+    """Whether to go back in the history, and how many steps."""
+
+    back: bool
+    times: int
+
+
+def _step_of(statements: tuple[Statement, ...]) -> _HistorySteps | None:
+    """Return what undo or redo asks for, where it is the only statement; else None."""
     if len(statements) != 1 or not isinstance(statement := statements[0], Command):
         return None
     word = command_word(statement.word.text)
@@ -410,9 +426,9 @@ def _step_of(statements: tuple[Statement, ...]) -> tuple[bool, int] | None:
         return None
     match statement.arguments:
         case ():
-            return word == "undo", 1
+            return _HistorySteps(word == "undo", 1)
         case (Quantity(value=value, unit=""),) if value == int(value) and value >= 1:
-            return word == "undo", int(value)
+            return _HistorySteps(word == "undo", int(value))
     raise wrong(f"Write {word}, or {word} 3 for three steps.", statement.place)
 
 

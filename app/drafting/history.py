@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import chain, compress
 from operator import is_not
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from ..model.curves import Curve, Point, Spline
 from ..model.job import Job
@@ -59,6 +59,13 @@ class _Step:
     size: int
 
 
+class ChangeNames(NamedTuple):
+    """Names of all changes, the oldest first, and how many of them are done; the rest is what redo brings."""
+
+    names: tuple[str, ...]
+    done: int
+
+
 class UndoHistory:
     """Changes done and those taken back, each by name, as many as `most_bytes` hold; the latest one always.
 
@@ -85,9 +92,9 @@ class UndoHistory:
         return self._redo[-1].name if self._redo else None
 
     @property
-    def names(self) -> tuple[tuple[str, ...], int]:
-        """Names of all changes, the oldest first, and how many of them are done; the rest is what redo brings."""
-        return tuple(step.name for step in (*self._undo, *reversed(self._redo))), len(self._undo)
+    def names(self) -> ChangeNames:
+        """Names of all changes."""
+        return ChangeNames(tuple(step.name for step in (*self._undo, *reversed(self._redo))), len(self._undo))
 
     def change(self, name: str, state: HistoryState, merge: bool = False) -> None:
         """Go to a new state.

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
@@ -16,24 +16,33 @@ import numpy as np
 
 from ..core.errors import Cancelled, HitofudeError
 from ..core.progress import NO_PROGRESS, Progress
+from ..simulation.cutter import Cutter
 from ..simulation.engines import Graphics
 from ..simulation.field.differences import HeightDifference, height_difference
-from ..simulation.field.workpiece import Heights, Workpiece
+from ..simulation.field.workpiece import Grid, Heights, StockShape, Workpiece
 from ..simulation.gpu.depth_buffer import DepthBuffer, published
 from ..simulation.gpu.graphics import is_software, renderer_of
-from ..simulation.gpu.polyhedron import facet_error
+from ..simulation.gpu.polyhedron import facet_error, is_ball
 from ..simulation.gpu.quads import quad_heights
 from ..simulation.gpu.wedges import PolygonCounts, polygon_counts
+from ..simulation.sweeps.chains import Chains, chains_of
+from ..simulation.sweeps.course import Course
 from ..simulation.sweeps.sweeps import WORKERS
 from ..simulation.sweeps.trim import trim
 from ..usecases.cut import GRAPHICS
-from .die_programs import PROGRAMS, SIZE, DieProgram, block
+from .die_programs import PROGRAMS, SIZE, STOCK, DieProgram
+from .films.dexels import CutFilmInput
 
 if TYPE_CHECKING:
     import moderngl
 
 PORTIONS = 16
 """Parts in which the plain way is done, so that it can be stopped."""
+
+_CHORD = 1e-3
+"""mm; how far chords of an own program's arcs may be from them the plain way."""
+_NAME = 24
+"""Letters of a name that the table has room for."""
 
 PRINTED = (
     "As printed, 1024 x 1024 cells on a workstation of 195 MHz: 9,542 moves, radius 5 mm, 16.83 s by software, 0.99 s "
@@ -65,11 +74,60 @@ class FigureOptions:
     Attributes:
         programs: names out of `PROGRAMS`. cells: along each side of the block. repeat: runs, of which the best one
             counts.
+        own: NC programs beside them, as they are cut.
+        facets: sizes d of facets that the published way is also tried with, mm.
     """
 
     programs: tuple[str, ...] = tuple(PROGRAMS)
     cells: int = 1024
     repeat: int = 3
+    own: tuple[CutFilmInput, ...] = ()
+    facets: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredProgram:
+    """What is cut in every way.
+
+    Attributes:
+        name: of it. moves: straight ones that cut. radius: of its widest cutter, mm. course, cutters: as it is cut.
+        stock: the metal.
+    """
+
+    name: str
+    moves: int
+    radius: float
+    course: Course
+    cutters: Mapping[int, Cutter]
+    stock: StockShape
+
+    def piece(self, cells: int) -> Workpiece:
+        """Return the metal on a grid with so many cells along its longer side."""
+        return self.stock.over(Grid.over(self.stock.box, cells))
+
+    @property
+    def plain(self) -> Chains | None:
+        """The moves of its one ball, which the plain way can cut; None where it has other cutters."""
+        parts = chains_of(self.course, self.cutters, _CHORD)
+        alone = len(parts) == 1 and is_ball(parts[0][0])
+        return parts[0][1] if alone else None
+
+
+@dataclass(frozen=True, slots=True)
+class FacetTrial:
+    """The published way with facets of one size.
+
+    Attributes:
+        facet: d, mm. pitches: the same in distances of the dexels. polygons: that are drawn. seconds: of the best run.
+        apart: how far heights are from those of the engine of record, mm. error: stated, mm.
+    """
+
+    facet: float
+    pitches: float
+    polygons: int
+    seconds: float
+    apart: float
+    error: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,18 +135,25 @@ class FigureRow:
     """A program.
 
     Attributes:
-        name, program: which.
+        program: which.
         seconds: of the best run, by way; ways that need OpenGL are missing where there is none.
         apart: how far heights are from those of the engine of record, by way.
         polygons: of the published way. error: how far its facets are at most from the surface, mm.
+        pitch: of the dexels, mm. trials: of other sizes of facets.
     """
 
-    name: str
-    program: DieProgram
+    program: MeasuredProgram
     seconds: dict[HeightMethod, float]
     apart: dict[HeightMethod, HeightDifference]
     polygons: PolygonCounts
     error: float
+    pitch: float
+    trials: tuple[FacetTrial, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Of the program."""
+        return self.program.name
 
     def ratio(self, slower: HeightMethod, faster: HeightMethod) -> float | None:
         """Return how many times as long one way takes as another; None where one is missing."""
@@ -147,16 +212,10 @@ def figure_eleven(
             renderer = renderer_of(context)
         except HitofudeError as error:
             faults.append(str(error))
-        for k, name in enumerate(options.programs):
-            rows.append(
-                _row(
-                    name,
-                    options,
-                    context,
-                    faults,
-                    progress.part(k / len(options.programs), (k + 1) / len(options.programs)),
-                )
-            )
+        programs = [*(_die(name) for name in options.programs), *(_own(given) for given in options.own)]
+        for k, measured in enumerate(programs):
+            share = progress.part(k / len(programs), (k + 1) / len(programs))
+            rows.append(_row(measured, options, context, faults, share))
     progress.step(1.0)
     return FigureEleven(options, tuple(rows), renderer, " ".join(faults))
 
@@ -164,12 +223,27 @@ def figure_eleven(
 Run = Callable[[Progress], Heights]
 
 
+def _die(name: str) -> MeasuredProgram:
+    made = PROGRAMS[name]
+    return MeasuredProgram(name, made.moves, made.radius, made.course(), made.cutters, STOCK)
+
+
+def _own(given: CutFilmInput) -> MeasuredProgram:
+    moves = sum(len(chains) for _, chains in chains_of(given.course, given.cutters, _CHORD))
+    radius = max(float(cutter.radius) for cutter in given.cutters.values())
+    return MeasuredProgram(given.name, moves, radius, given.course, given.cutters, given.stock)
+
+
 def _row(
-    name: str, options: FigureOptions, context: moderngl.Context | None, faults: list[str], progress: Progress
+    program: MeasuredProgram,
+    options: FigureOptions,
+    context: moderngl.Context | None,
+    faults: list[str],
+    progress: Progress,
 ) -> FigureRow:
-    program, piece = PROGRAMS[name], block(options.cells)
+    name, piece = program.name, program.piece(options.cells)
     progress.step(0.0, f"Making program {name}")
-    course, cutters = program.course(), program.cutters
+    course, cutters = program.course, program.cutters
     with ExitStack() as stack:
         seconds, heights = {}, {}
         ways = _ways(program, piece, context, stack)
@@ -191,21 +265,54 @@ def _row(
         for way, other in heights.items()
         if way is not HeightMethod.RECORD
     }
-    facet = published(piece.grid).facet
-    return FigureRow(
-        name, program, seconds, found, polygon_counts(course, cutters, facet), facet_error(cutters[1], facet)
+    facet, record = published(piece.grid).facet, heights[HeightMethod.RECORD]
+    trials = tuple(_trials(program, piece, record, options, context))
+    error = _error(program, facet)
+    pitch = piece.grid.pitch
+    return FigureRow(program, seconds, found, polygon_counts(course, cutters, facet), error, pitch, trials)
+
+
+def _error(program: MeasuredProgram, facet: float) -> float:
+    used = np.unique(program.course.tool).tolist()
+    return max(
+        (facet_error(program.cutters[number], facet) for number in used if number in program.cutters), default=0.0
     )
 
 
+def _trials(
+    program: MeasuredProgram,
+    piece: Workpiece,
+    record: Heights,
+    options: FigureOptions,
+    context: moderngl.Context | None,
+) -> Iterator[FacetTrial]:
+    """Yield the published way with every size of facets that is asked for; nothing without OpenGL."""
+    if context is None:
+        return
+    usual = published(piece.grid)
+    for facet in options.facets:
+        engine = DepthBuffer(context, replace(usual, facet=facet))
+        try:
+            run = lambda reported, engine=engine: engine.heights(piece, program.course, program.cutters, reported)  # noqa: E731 (one run of this engine)
+            seconds, heights = _best(run, options.repeat, NO_PROGRESS)
+        finally:
+            engine.release()
+        counts = polygon_counts(program.course, program.cutters, facet)
+        apart = height_difference(record, heights).largest
+        yield FacetTrial(facet, facet / piece.grid.pitch, counts.drawn, seconds, apart, _error(program, facet))
+
+
 def _ways(
-    program: DieProgram, piece: Workpiece, context: moderngl.Context | None, stack: ExitStack
+    program: MeasuredProgram, piece: Workpiece, context: moderngl.Context | None, stack: ExitStack
 ) -> dict[HeightMethod, Run]:
     """Return what computes heights, by way; the stack gives back what they hold."""
-    course, cutters, cells = program.course(), program.cutters, piece.grid.cols
+    course, cutters = program.course, program.cutters
     ways: dict[HeightMethod, Run] = {
-        HeightMethod.RECORD: lambda reported: trim(piece, course, cutters, progress=reported).heights,
-        HeightMethod.PLAIN: lambda reported: plain_heights(program, cells, reported),
+        HeightMethod.RECORD: lambda reported: trim(piece, course, cutters, progress=reported).heights
     }
+    chains = program.plain
+    if chains is not None:
+        ways[HeightMethod.PLAIN] = lambda reported: plain_cut(piece, chains, program.radius, reported)
     if context is None:
         return ways
     engine = DepthBuffer(context, published(piece.grid))
@@ -229,20 +336,31 @@ def _best(run: Run, repeat: int, progress: Progress) -> tuple[float, Heights]:
 
 
 def plain_heights(program: DieProgram, cells: int, progress: Progress = NO_PROGRESS) -> Heights:
-    """Return what a program leaves, the plain way.
+    """Return what a program over the die leaves, the plain way.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    [(_, chains)] = chains_of(program.course(), program.cutters, _CHORD)
+    return plain_cut(STOCK.over(Grid.over(STOCK.box, cells)), chains, program.radius, progress)
+
+
+def plain_cut(piece: Workpiece, chains: Chains, radius: float, progress: Progress = NO_PROGRESS) -> Heights:
+    """Return what a ball leaves of a work piece, the plain way.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
     from ..simulation.sweeps.plain_kernels import plain_trim
 
-    heights, motions = np.zeros((cells, cells)), program.course().motions
-    bounds = np.linspace(0, len(motions), PORTIONS + 1).astype(int).tolist()
+    heights, grid = piece.heights.astype(np.float64), piece.grid
+    start, end = (np.ascontiguousarray(places - [grid.x0, grid.y0, 0.0]) for places in (chains.start, chains.end))
+    bounds = np.linspace(0, len(start), PORTIONS + 1).astype(int).tolist()
     for k in range(PORTIONS):
         part = slice(bounds[k], bounds[k + 1])
-        plain_trim(heights, motions.start[part].copy(), motions.end[part].copy(), program.radius, SIZE / cells)
+        plain_trim(heights, start[part].copy(), end[part].copy(), radius, grid.pitch)
         progress.step((k + 1) / PORTIONS, "Cutting the plain way")
-    return heights.astype(np.float32)
+    return np.maximum(heights, piece.floor).astype(np.float32)
 
 
 def _finite(value: float) -> float | None:
@@ -266,6 +384,18 @@ def _plain(row: FigureRow) -> dict[str, Any]:
             "wedges": row.polygons.wedges,
             "wedges_culled": row.polygons.drawn,
         },
+        "pitch_mm": row.pitch,
+        "facets": [
+            {
+                "facet_mm": each.facet,
+                "pitches": each.pitches,
+                "polygons": each.polygons,
+                "seconds": each.seconds,
+                "apart_from_record_mm": each.apart,
+                "error_mm": each.error,
+            }
+            for each in row.trials
+        ],
     }
 
 
@@ -296,7 +426,7 @@ def _lines(figure: FigureEleven) -> Iterator[str]:
         ratios = "".join(
             f"{ratio:>17.1f}x" if (ratio := row.ratio(*pair)) is not None else f"{'-':>18}" for pair in _RATIOS
         )
-        yield f"{row.name:2}{row.program.moves:>8,}{row.program.radius:>5g} mm{times}{ratios}"
+        yield f"{row.name[:_NAME]:2}{row.program.moves:>8,}{row.program.radius:>5g} mm{times}{ratios}"
     yield "Polygons of the published way, and how far its facets are at most inside the surface:"
     yield f"{'':2}{'whole spheres':>15}{'half left away':>16}{'wedges':>14}{'half left away':>16}{'error':>13}"
     for row in figure.rows:
@@ -311,7 +441,17 @@ def _lines(figure: FigureEleven) -> Iterator[str]:
     yield "How far heights are at most from those of the engine of record (cells on walls may fall to either side):"
     for row in figure.rows:
         yield f"{row.name:2}" + ", ".join(f"{way.value} {found.largest:.2g} mm" for way, found in row.apart.items())
+    for row in figure.rows:
+        for each in row.trials:
+            yield (
+                f"{row.name[:_NAME]:2} facets of {each.facet:g} mm ({each.pitches:.3g} w): {each.polygons:,} polygons, "
+                f"{each.seconds:.3f} s, {each.apart:.2g} mm from the engine of record, stated {each.error:.2g} mm"
+            )
     yield from (f"{way.value}: {text}" for way, text in WAYS.items())
+    slower = [row.name for row in figure.rows if (row.ratio(HeightMethod.PLAIN, HeightMethod.PUBLISHED) or 2.0) < 1.0]
+    if slower:
+        why = "its facets are drawn by software" if is_software(renderer) else "its facets are more than it can draw"
+        yield f"On {', '.join(slower)} the published way is slower than the plain one here: {why} ({renderer})."
     if figure.fault:
         yield figure.fault
     yield PRINTED

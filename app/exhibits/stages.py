@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import TypedDict
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from ..raster.trace import PixelChain, chain_rows
 from ..raster.walls import Mask
 from ..usecases.bitmap_part import BitmapPart
 from ..usecases.bitmap_way import OperationPaths, PixelPath
+from .published_stages import counted, long_line, published_angles, published_stages
 
 _CODES = {
     PieceKind.CIRCLE: PixelCode.CIRCLE,
@@ -34,7 +36,9 @@ _CODES = {
 
 
 class Variant(Enum):
-    """Which rules mark R in the fill (step 206): those that are always right, or the text's."""
+    """Which rules are followed where the text's own err: those that are always right, or the text's (206 to 208, 301,
+    304, 401 to 407), each beside the settled one.
+    """
 
     SETTLED = "settled"
     PUBLISHED = "published"
@@ -77,9 +81,13 @@ def stages(
         yield from _frames(scene, pocket)
         yield from _inner_paths(scene, pocket)
     yield StepState(140, _all_paths(part, contour, pocket))
-    yield from _smoothing(
-        part, [path for each in (contour, pocket) if each is not None for level in each.levels[:1] for path in level]
-    )
+    shown_paths = [
+        path for each in (contour, pocket) if each is not None for level in each.levels[:1] for path in level
+    ]
+    if variant is Variant.PUBLISHED:
+        yield from published_stages(part, shown_paths, long_line(job, pocket or contour))
+    else:
+        yield from _smoothing(part, shown_paths)
 
 
 def _put(plane: Plane, chains: Sequence[PixelChain], code: PixelCode) -> None:
@@ -116,32 +124,65 @@ def _frames(scene: _Scene, pocket: OperationPaths) -> Iterator[StepState]:
     for region in scene.part.regions:
         area = pocket.area & (scene.part.label == region.number)
         if area.any():
-            yield from _shrink(plane, area, (region.number, pocket.steps.first, scene.variant is Variant.PUBLISHED))
+            if scene.variant is Variant.PUBLISHED:
+                yield from _shrink(plane, area, (region.number, pocket.steps.first, area_apart(area, pocket)))
+            else:
+                yield from _shrink(plane, area, (region.number, pocket.steps.first, None))
             yield from _frame(plane, area, pocket, region.number)
     frames = [path for level in pocket.levels[:1] for path in level]
     yield StepState(144, plane.copy(), tuple(path.chain for path in frames), _rows(frames))
 
 
-def _shrink(plane: Plane, area: Mask, about: tuple[int, float, bool]) -> Iterator[StepState]:
-    """Steps 301-307 on one region; the plane goes along."""
-    region, radius, keep_ends = about
+def area_apart(area: Mask, pocket: OperationPaths) -> tuple[Mask, ...]:
+    """Return what is left of an area after each peel by the settled rule, to hold the published one against."""
+    return tuple(left for left, _ in peels(area, int(pocket.steps.first)))
+
+
+def _shrink(plane: Plane, area: Mask, about: tuple[int, float, tuple[Mask, ...] | None]) -> Iterator[StepState]:
+    """Steps 301-307 on one region, the plane goes along; as published where what the settled rule leaves is given."""
+    region, radius, settled = about
     left, first = area, borders_of(area)
-    for turn, (left, borders) in enumerate(peels(area, int(radius), keep_ends=keep_ends), 1):
+    for turn, (left, borders) in enumerate(peels(area, int(radius), keep_narrow=settled is not None), 1):
         traced = plane.copy()
         mark(traced, borders, PixelCode.TRACED)
         chains = tuple(border.chain for border in borders)
-        yield StepState(301, traced, chains, region=region, turn=turn)
+        beside = "" if settled is None else published_angles(chains)
+        yield StepState(301, traced, chains, region=region, turn=turn, beside=beside)
         yield StepState(302, traced.copy(), region=region, turn=turn)
         if turn == 1:
             yield StepState(303, traced.copy(), chains, region=region)
         plane[area & ~left] = PixelCode.PROCESSED
-        yield StepState(304, plane.copy(), region=region, turn=turn)
+        kept = (left, settled[min(turn, len(settled)) - 1]) if settled else None
+        yield StepState(304, plane.copy(), region=region, turn=turn, **_beside_peel(kept))
         yield StepState(305, plane.copy(), region=region, turn=turn)
     read = plane.copy()
     mark(read, first, PixelCode.FRAME)
     yield StepState(306, read, tuple(border.chain for border in first), region=region)
-    plane[area & ~correct_by_circles(left, area, radius)] = PixelCode.PROCESSED
-    yield StepState(307, plane.copy(), region=region)
+    corrected = correct_by_circles(left, area, radius)
+    plane[area & ~corrected] = PixelCode.PROCESSED
+    kept = (corrected, correct_by_circles(settled[-1], area, radius)) if settled else None
+    yield StepState(307, plane.copy(), region=region, **_beside_peel(kept))
+
+
+class _Beside(TypedDict, total=False):
+    """What a stage tells of the published rule."""
+
+    wrong: Mask
+    beside: str
+
+
+def _beside_peel(both: tuple[Mask, Mask] | None) -> _Beside:
+    """Return how what is left by the published rule differs from what the settled one leaves."""
+    if both is None:
+        return {}
+    published, settled = both
+    parts = tuple(len(borders_of(each)) for each in both)
+    apart: Mask = published != settled
+    words = (
+        f"As published, {int(published.sum())} pixels are left, with {counted(parts[0], 'border')}; settled, "
+        f"{int(settled.sum())} with {counted(parts[1], 'border')}."
+    )
+    return {"wrong": apart, "beside": words}
 
 
 def _frame(plane: Plane, area: Mask, pocket: OperationPaths, region: int) -> Iterator[StepState]:

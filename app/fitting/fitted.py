@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from enum import Enum
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,33 @@ from ..model.motion import Floats, MotionKind, Motions, Nurbs, Plane
 Ints = NDArray[np.int64]
 
 
+class RefusalReason(Enum):
+    """Why something else stands where a spline was asked for; the value is how people are told."""
+
+    BLOCKS = "a spline would take as many blocks or more"
+    SHORT = "too few points for a spline"
+    LEVEL = "the control knows splines at one height only"
+    HOOKED = "a spline would set out where the moves do not lead"
+    BENT = "splines would bend more where they meet than the moves do"
+    UNPROVEN = "no spline was found that keeps to the tolerance"
+    CONTROL = "the control knows no splines"
+
+
+@dataclass(frozen=True, slots=True)
+class SplineRefusal:
+    """A run of points in which something else stands for a spline.
+
+    Attributes:
+        reason: why.
+        blocks: that splines would take; 0 = not known, since none was written out.
+        instead: that what stands there takes.
+    """
+
+    reason: RefusalReason
+    blocks: int = 0
+    instead: int = 0
+
+
 @dataclass(frozen=True, eq=False)
 class FittedPath:
     """A path that stands for a polyline of n points.
@@ -22,10 +50,12 @@ class FittedPath:
         motions: m lines, arcs (in any plane; helices) and splines; feed NaN, line and state 0.
         last: (m,) index of the point nearest to each motion's end along the polyline: never falling, the last one n -
             1.
+        refusals: where splines were asked for and something else stands.
     """
 
     motions: Motions
     last: Ints
+    refusals: tuple[SplineRefusal, ...] = ()
 
 
 def lines_between(points: Floats) -> Motions:
@@ -111,4 +141,4 @@ def chained(parts: Sequence[FittedPath]) -> FittedPath:
         joined("state"),
         splines,
     )
-    return FittedPath(motions, np.concatenate(last))
+    return FittedPath(motions, np.concatenate(last), tuple(each for part in parts for each in part.refusals))

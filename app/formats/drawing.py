@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..model.finding import Finding
 from ..model.part import Part
 from .reading_question import NO_CHOICE, FileContents, ReadingQuestion
+
+
+class LeftOutKind(NamedTuple):
+    """What is left out of a drawing: its type, such as TEXT, and how many there are."""
+
+    kind: str
+    number: int
 
 
 @dataclass(frozen=True)
@@ -16,7 +24,7 @@ class Drawing:
     Attributes:
         part: its curves in mm.
         findings: what is worth saying about the file.
-        left_out: (type, how many) of what is not machined, such as ("TEXT", 5).
+        left_out: what is not machined.
         units_named: False when the file names no units and they had to be assumed or given.
         contents: what the file holds that can be chosen from.
         question: what is worth asking about how it was read; None = nothing.
@@ -24,7 +32,7 @@ class Drawing:
 
     part: Part
     findings: tuple[Finding, ...] = ()
-    left_out: tuple[tuple[str, int], ...] = ()
+    left_out: tuple[LeftOutKind, ...] = ()
     units_named: bool = True
     contents: FileContents = NO_CHOICE
     question: ReadingQuestion | None = None

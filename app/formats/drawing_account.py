@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,6 +34,20 @@ _COUNTABLE = 1e10
 """mm; beyond, neighbouring doubles are further apart than WELD, so that no shape is left to be moved."""
 
 
+class LayeredCurve(NamedTuple):
+    """A curve as it was read, and the name of its layer."""
+
+    curve: Curve
+    layer: str
+
+
+class FarCurve(NamedTuple):
+    """Where a curve begins that lies beyond 1 km, mm, and the name of its layer."""
+
+    place: Point
+    layer: str
+
+
 @dataclass(frozen=True)
 class UsableCurves:
     """What of some curves can be machined.
@@ -40,13 +55,13 @@ class UsableCurves:
     Attributes:
         entities: those that have a length and a place, mm, numbered from 1.
         nothing: places of curves without length, None where there is no place.
-        far: places and layers of curves that lie beyond 1 km, mm. placeless: how many have no place at all.
+        far: curves that lie beyond 1 km. placeless: how many have no place at all.
         moved: how far everything was moved, mm; None = not.
     """
 
     entities: tuple[Entity, ...]
     nothing: list[Point | None]
-    far: list[tuple[Point, str]]
+    far: list[FarCurve]
     placeless: int = 0
     moved: Point | None = None
 
@@ -57,7 +72,7 @@ class UsableCurves:
 
 
 def usable_curves(
-    curves: Iterable[tuple[Curve, str]],
+    curves: Iterable[LayeredCurve],
     to_mm: Affine | None,
     anchors: Callable[[str], bool] | None = None,
     strokes: int = 0,
@@ -65,7 +80,6 @@ def usable_curves(
     """Return all curves that have a length, in mm.
 
     Args:
-        curves: with the names of their layers.
         to_mm: from the curves' units; None: they are in mm.
         anchors: tells whether a layer counts for where the drawing lies, which is then moved to zero; None: it stays.
         strokes: so many of the last ones are strokes of letters.
@@ -87,7 +101,7 @@ def usable_curves(
         elif within_reach(drawn):
             entities.append(Entity(len(entities) + 1, drawn, layer, left <= strokes))
         elif all(map(math.isfinite, (*drawn.start, *drawn.end))):
-            found.far.append((drawn.start, layer))
+            found.far.append(FarCurve(drawn.start, layer))
         else:
             lost += 1
     return replace(found, entities=tuple(entities), placeless=lost)

@@ -7,7 +7,7 @@ from pathlib import Path
 from ..core.errors import InputError
 from ..core.resources import resource
 from ..core.settings import config_folder
-from ..core.toml_tables import read_tables, write_tables
+from ..core.toml_tables import read_tables
 from ..model.machine import Machine
 
 RANGES = {
@@ -54,8 +54,3 @@ def read_machine(file: str, data: bytes) -> Machine:
         InputError: file, line and key, what is wrong and what is expected.
     """
     return read_tables(Machine, file, data, RANGES)
-
-
-def write_machine(machine: Machine) -> bytes:
-    """Return the TOML text of a machine, from which `read_machine` makes the same one."""
-    return write_tables(machine).encode()

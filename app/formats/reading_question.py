@@ -7,8 +7,9 @@ Readers make these where they refuse a drawing or assume something; the command 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from ..core.errors import InputError
 from ..geometry.chaining.pieces import FARTHEST
@@ -184,19 +185,33 @@ def frozen_question(layers: tuple[str, ...], curves: int, reading: ReadingOption
     return ReadingQuestion("Nothing of it is shown: all blocks are inserted on layers that are frozen.", (read,))
 
 
+class SizeInUnits(NamedTuple):
+    """Units that may be meant, and the size in them, mm."""
+
+    units: Units
+    size: Size
+
+
+class AssumedDensity(NamedTuple):
+    """Units to the inch that an SVG was read with, and the editor that they are of, or ""."""
+
+    per_inch: float
+    editor: str
+
+
 def size_question(
-    size: Size, whence: str, keep: ReadingChoice, others: Iterable[tuple[Units, Size]], tools: tuple[float, ...]
+    size: Size, whence: str, keep: ReadingChoice, others: Iterable[SizeInUnits], tools: tuple[float, ...]
 ) -> ReadingQuestion:
     """Ask for the units of a drawing whose size cannot be meant.
 
     Args:
         size: as it was read, mm. whence: why in these units.
         keep: the answer that this is right, after which it is read all the same.
-        others: units that may be meant, with the size in them, mm; none where no size would be better.
+        others: what may be meant; none where no size would be better.
         tools: diameters, mm.
     """
     offered = list(others)
-    likely = min(offered, key=lambda each: _oddness(each[1], tools), default=(None,))[0]
+    likely = min(offered, key=lambda each: _oddness(each.size, tools)).units if offered else None
     choices = [
         ReadingChoice(
             f"Take it as {UNIT_WORDS[each]}", keep.reading.in_units(each), size_words(found), likely=each is likely
@@ -231,7 +246,7 @@ def units_question(units: Units, size: Size, reading: ReadingOptions) -> Reading
 
 
 def pixels_question(
-    assumed: tuple[float, str],
+    assumed: AssumedDensity,
     others: Iterable[float],
     size_of: Callable[[ReadingOptions], Size],
     reading: ReadingOptions,
@@ -239,21 +254,19 @@ def pixels_question(
     """Ask how large the units of an SVG without a real size are.
 
     Args:
-        assumed: units to the inch that it was read with, and the editor that they are of, or "".
+        assumed: as it was read.
         others: units to the inch of other editors.
         size_of: returns the size of the drawing when it is read in a way, mm.
         reading: by which it was read.
     """
     per_inch, editor = assumed
-    ways: Iterator[tuple[str, ReadingOptions]] = iter(
-        [
-            (f"Keep {per_inch:g} to the inch", reading.with_pixels(per_inch)),
-            *((f"Read {each:g} to the inch", reading.with_pixels(each)) for each in others if each != per_inch),
-            *((f"Read in {UNIT_WORDS[each]}", replace(reading.with_pixels(None), units=each)) for each in _OFFERED[:2]),
-        ]
-    )
+    ways = {
+        f"Keep {per_inch:g} to the inch": reading.with_pixels(per_inch),
+        **{f"Read {each:g} to the inch": reading.with_pixels(each) for each in others if each != per_inch},
+        **{f"Read in {UNIT_WORDS[each]}": replace(reading.with_pixels(None), units=each) for each in _OFFERED[:2]},
+    }
     choices = tuple(
-        ReadingChoice(words, way, size_words(size_of(way)), now=k == 0) for k, (words, way) in enumerate(ways)
+        ReadingChoice(words, way, size_words(size_of(way)), now=k == 0) for k, (words, way) in enumerate(ways.items())
     )
     who = f"It was written by {editor}" if editor else "It names no editor"
     return ReadingQuestion(f"It has no real size. {who} and was read with {per_inch:g} units to the inch.", choices)

@@ -193,35 +193,67 @@ def query_box(order, nodes, boxes, box, found):
     return count
 
 
+@kernel("float64(float64[:, ::1], int64, float64, float64)", counts=False)
+def _box_square(nodes, k, x, y):
+    """Return the square of `box_distance`."""
+    dx = max(nodes[k, 0] - x, x - nodes[k, 2], 0.0)
+    dy = max(nodes[k, 1] - y, y - nodes[k, 3], 0.0)
+    return dx * dx + dy * dy
+
+
+@kernel(
+    "Tuple((float64, int64))(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64, float64, int64)",
+    counts=False,
+)
+def nearest_from(rows, order, nodes, x, y, enough, limit, guess):
+    """Return `nearest_between`, the sooner the nearer row `guess` is; -1 = none is known.
+
+    Where a node stands is told by its number, and by a bit for each level whether its sibling was looked at already.
+    """
+    leaves, best, row = (len(nodes) + 1) // 2, limit, -1
+    if guess >= 0:
+        d = point_distance(rows, guess, x, y)
+        if d <= enough:
+            return d, guess
+        # a little more, so that of rows as near the same one is found as without it
+        best = min(best, d * (1 + 1e-12) + 1e-300)
+    k, depth, both = 0, 0, 0
+    if math.sqrt(_box_square(nodes, 0, x, y)) >= best:
+        return best, row
+    while True:
+        if k < leaves - 1:
+            left, right = _box_square(nodes, 2 * k + 1, x, y), _box_square(nodes, 2 * k + 2, x, y)
+            # of boxes that are as far to the last digit the left one is first
+            swapped = left > right and (left > right * (1 + 1e-15) or math.sqrt(left) > math.sqrt(right))
+            if math.sqrt(right if swapped else left) < best:
+                k, depth = 2 * k + (2 if swapped else 1), depth + 1
+                both &= ~(1 << depth)
+                continue
+        else:
+            first = (k - leaves + 1) * LEAF
+            for place in range(first, min(first + LEAF, len(order))):
+                d = point_distance(rows, order[place], x, y)
+                if d < best:
+                    best, row = d, order[place]
+                    if best <= enough:
+                        return best, row
+        while depth > 0:
+            if both >> depth & 1 == 0:
+                both |= 1 << depth
+                k = k + 1 if k % 2 == 1 else k - 1
+                if math.sqrt(_box_square(nodes, k, x, y)) < best:
+                    break
+            k, depth = (k - 1) // 2, depth - 1
+        if depth == 0:
+            return best, row
+
+
 @kernel("Tuple((float64, int64))(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64, float64)")
 def nearest_between(rows, order, nodes, x, y, enough, limit):
     """Return (distance, row) of the row nearest to a point, or of the first one found no farther than `enough`; (limit,
     -1) when none is nearer than `limit`.
     """
-    leaves = (len(nodes) + 1) // 2
-    best, row = limit, -1
-    stack = np.empty(64, np.int64)
-    stack[0], top = 0, 1
-    while top > 0:
-        top -= 1
-        k = stack[top]
-        if box_distance(nodes, k, x, y) >= best:
-            continue
-        if k < leaves - 1:
-            left, right = 2 * k + 1, 2 * k + 2
-            if box_distance(nodes, left, x, y) > box_distance(nodes, right, x, y):
-                left, right = right, left
-            stack[top], stack[top + 1] = right, left
-            top += 2
-            continue
-        first = (k - leaves + 1) * LEAF
-        for place in range(first, min(first + LEAF, len(order))):
-            d = point_distance(rows, order[place], x, y)
-            if d < best:
-                best, row = d, order[place]
-                if best <= enough:
-                    return best, row
-    return best, row
+    return nearest_from(rows, order, nodes, x, y, enough, limit, -1)
 
 
 @kernel("int64(int64[::1], int64)", counts=False)
@@ -245,6 +277,42 @@ def merge(pairs, group):
         group[k] = _head(group, k)
 
 
+@kernel("void(float64[:, ::1], int64[::1], int64[::1], int64, float64, int64[::1])")
+def merge_within(points, owner, cell, columns, reach, group):
+    """Write for each owner of points the lowest of those that it is joined with by points within a distance.
+
+    Args:
+        points: (n, 2) by their cell. owner: (n,) whose each one is.
+        cell: (n,) row * columns + column of a grid of squares as wide as the distance, whose first and last columns
+            are empty.
+        reach: mm.
+    """
+    for k in range(len(group)):
+        group[k] = k
+    most, first, last = reach * reach * (1 + 1e-12), 0, 0
+    for i in range(len(points)):
+        x, y, a = points[i, 0], points[i, 1], owner[i]
+        while first < len(points) and cell[first] < cell[i] + columns - 1:
+            first += 1
+        last = max(last, first)
+        while last < len(points) and cell[last] <= cell[i] + columns + 1:
+            last += 1
+        j = i + 1
+        while j < last:
+            if j < first and cell[j] > cell[i] + 1:  # on to the next row
+                j = first
+                continue
+            if owner[j] != a:
+                dx, dy = points[j, 0] - x, points[j, 1] - y
+                square = dx * dx + dy * dy
+                if square <= most and math.sqrt(square) <= reach:
+                    one, other = _head(group, a), _head(group, owner[j])
+                    group[max(one, other)] = min(one, other)
+            j += 1
+    for k in range(len(group)):
+        group[k] = _head(group, k)
+
+
 @kernel("Tuple((float64, int64))(float64[:, ::1], float64, float64)")
 def nearest_of_few(rows, x, y):
     """Return (distance, row) of the row nearest to a point, without a tree."""
@@ -260,10 +328,14 @@ def nearest_of_few(rows, x, y):
     "void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, float64[::1], int64[::1])"
 )
 def nearest_many(rows, order, nodes, points, enough, limit, distances, found):
-    """Write the distance and the row nearest to each point (m, 2), see `nearest_between`."""
+    """Write the distance and the row nearest to each point (m, 2), see `nearest_between`: what is nearest to a point is
+    near the next one, too, where they were made one beside the other.
+    """
+    known = -1
     for k in range(len(points)):
-        x, y = points[k, 0], points[k, 1]
-        distances[k], found[k] = nearest_between(rows, order, nodes, x, y, enough, limit)
+        distances[k], found[k] = nearest_from(rows, order, nodes, points[k, 0], points[k, 1], enough, limit, known)
+        if found[k] >= 0:
+            known = found[k]
 
 
 @kernel("float64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1])")
@@ -285,10 +357,11 @@ def stays_clear(rows, order, nodes, way, distance, level):
     `level` at least.
     """
     ahead_x, ahead_y = way[2] - way[0], way[3] - way[1]
-    length, at = math.hypot(ahead_x, ahead_y), 0.0
+    length, at, row = math.hypot(ahead_x, ahead_y), 0.0, -1
     while at < length:
         x, y = way[0] + ahead_x * (at / length), way[1] + ahead_y * (at / length)
-        spare = nearest(rows, order, nodes, x, y, INF)[0] - distance
+        away, row = nearest_from(rows, order, nodes, x, y, -1.0, INF, row)
+        spare = away - distance
         if spare < -level / 2:
             return False
         at += max(spare, level)

@@ -97,6 +97,26 @@ def groups(count: int, pairs: Indices) -> Indices:
     return _by_first(number)
 
 
+def groups_within(points: Floats, owner: Indices, count: int, reach: float) -> Indices:
+    """Return (count,) the number of the group of each of `count` things, numbered by the first of each; those of which
+    two points lie within a distance of one another are in one.
+
+    Args:
+        points: (n, 2) of all things. owner: (n,) whose each one is.
+        reach: mm, > 0.
+    """
+    from . import kernels
+
+    number = np.arange(count, dtype=np.int64)
+    if len(points):
+        column, row = np.floor((points - points.min(axis=0)) / (reach * (1 + 1e-9))).astype(np.int64).T
+        columns = int(column.max()) + 3
+        cell = row * columns + column + 1
+        order = np.argsort(cell, kind="stable")
+        kernels.merge_within(np.ascontiguousarray(points[order]), owner[order], cell[order], columns, reach, number)
+    return _by_first(number)
+
+
 def _by_first(number: Indices) -> Indices:
     """Return group numbers given anew in the order in which the groups first appear."""
     _, first, inverse = np.unique(number, return_index=True, return_inverse=True)

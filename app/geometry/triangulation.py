@@ -35,12 +35,12 @@ def _triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
 
         points = np.ascontiguousarray(points)
         with suppress(shapely.errors.GEOSException):
-            made = shapely.get_parts(shapely.delaunay_triangles(shapely.multipoints(points)))
+            made = shapely.delaunay_triangles(shapely.multipoints(points))
             corners = shapely.get_coordinates(made).reshape(-1, 4, 2)[:, :3].reshape(-1, 2)
             different = points.view(np.complex128).ravel() if len(points) else np.zeros(0, np.complex128)
             found = _number_of(points, corners)
             # of points that nearly lie on one another it may lose one; scipy does not
-            if len(np.unique(found)) == len(np.unique(different)) or not len(found):
+            if np.count_nonzero(np.bincount(found)) == len(np.unique(different)) or not len(found):
                 return found.reshape(-1, 3)
     from scipy.spatial import Delaunay, QhullError
 

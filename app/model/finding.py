@@ -59,6 +59,7 @@ class FindingKind(Enum):
     SIZE = "size", "doubtful size"
     FEED = "feed", "plunge at full feed"
     RIDGE = "ridge", "ridges between passes"
+    PROGRAM = "program", "error in the program"
 
 
 @dataclass(frozen=True, slots=True)

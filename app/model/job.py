@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from ..core.errors import ParameterError
@@ -262,6 +262,15 @@ class Job:
                 "cutter with its angle: choose another tool, or give it kind and tip_angle."
             )
         return tool
+
+    def same_paths(self, other: Job) -> bool:
+        """Return whether another job comes to the same paths: layers that hold nothing, colours and locks make none."""
+        if self is other:
+            return True
+        mine, theirs = self.part, other.part
+        return replace(self, part=theirs) == other and replace(mine, layers=mine.machined_layers) == replace(
+            theirs, layers=theirs.machined_layers
+        )
 
     def check_operations(self) -> None:
         """Refuse a job that cannot be computed, whichever way.

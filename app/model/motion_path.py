@@ -12,6 +12,9 @@ from .motion import Floats, MotionKind, Motions, Nurbs, Plane
 SPLINE_PIECES = 256
 """Chords that stand for a spline where its length is asked for."""
 
+FIRST_CHORDS, FEWEST_CHORDS = 64, 8
+"""Of a spline whose chords are to keep to it, and of each of its pieces."""
+
 AXES = np.array([plane.axes for plane in Plane])
 
 
@@ -96,11 +99,42 @@ def arc_paths(motions: Motions, first: int = 0, stop: int | None = None) -> ArcP
 
 def spline_points(spline: Nurbs, count: int = SPLINE_PIECES + 1) -> Floats:
     """Return (count, 3) points of a spline, evenly spread over its parameter, its ends among them."""
+    return _points_at(spline, np.linspace(*_span(spline), count))
+
+
+def fine_spline_points(spline: Nurbs, chord: float, most: int) -> Floats:
+    """Return (k, 3) points of a spline, ends among them, so close together that their chords keep to it.
+
+    A chord is halved until the point at the middle of its parameters is near its own middle. The first ones are parts
+    of the pieces between knots, which bend but simply.
+
+    Args:
+        spline: any.
+        chord: how far a chord may be from the spline, mm, > 0.
+        most: chords from which no more are halved, where they do not keep to it.
+    """
+    low, high = _span(spline)
+    knots = np.unique(np.clip(spline.knots, low, high))
+    parts = max(FIRST_CHORDS // (len(knots) - 1), FEWEST_CHORDS)
+    at = np.append((knots[:-1, None] + np.diff(knots)[:, None] * (np.arange(parts) / parts)).ravel(), knots[-1])
+    while True:
+        points, middle = _points_at(spline, at), (at[1:] + at[:-1]) / 2
+        far = _sizes(_points_at(spline, middle) - (points[1:] + points[:-1]) / 2) > chord
+        if not np.any(far) or len(at) > most:
+            return points
+        at = np.sort(np.concatenate([at, middle[far]]))
+
+
+def _span(spline: Nurbs) -> tuple[float, float]:
+    """Return the parameters of a spline's ends."""
+    return float(spline.knots[spline.degree]), float(spline.knots[-spline.degree - 1])
+
+
+def _points_at(spline: Nurbs, parameters: Floats) -> Floats:
     from scipy.interpolate import BSpline
 
-    at = np.linspace(spline.knots[spline.degree], spline.knots[-spline.degree - 1], count)
     weighted = np.column_stack([spline.points * spline.weights[:, None], spline.weights])
-    points = BSpline(spline.knots, weighted, spline.degree)(at)
+    points = BSpline(spline.knots, weighted, spline.degree)(parameters)
     return np.asarray(points[:, :3] / points[:, 3:])
 
 

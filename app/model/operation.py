@@ -261,6 +261,26 @@ class Operation:
         """Engaged angle, radians, that the written program must not exceed anywhere; None = there is no such limit."""
         return None
 
+    @property
+    def outer_lead(self) -> Lead | None:
+        """How its paths round the outside of the drawing come to the walls; None where it has none there."""
+        return None
+
+    @property
+    def roughed_allowance(self) -> float:
+        """Metal that its first passes leave on the walls, mm: what stays there, and what its last pass takes."""
+        return self.cut.stock_to_leave
+
+    @property
+    def ring_stepover(self) -> float | None:
+        """Distance between its rings as it was asked for, mm; None = automatic, or it has no rings."""
+        return None
+
+    @property
+    def on_pixels(self) -> bool:
+        """Whether the way of 1986, on pixels alone, makes its paths too."""
+        return False
+
 
 @dataclass(frozen=True, slots=True)
 class ContourOperation(Operation):
@@ -335,6 +355,21 @@ class ContourOperation(Operation):
         """Share of the diameter beyond which the feed is slowed."""
         return self.most_engaged
 
+    @property
+    def outer_lead(self) -> Lead | None:
+        """How it comes to the walls where it runs outside of them."""
+        return self.lead if self.side is Side.OUTSIDE else None
+
+    @property
+    def roughed_allowance(self) -> float:
+        """Metal that it leaves on the walls before its finish pass, mm."""
+        return self.cut.stock_to_leave + self.finish_width
+
+    @property
+    def on_pixels(self) -> bool:
+        """Whether it runs inside the walls."""
+        return self.side is Side.INSIDE
+
 
 @dataclass(frozen=True, slots=True)
 class PocketOperation(Operation):
@@ -368,6 +403,16 @@ class PocketOperation(Operation):
     def engagement_limit(self) -> float:
         """Share of the diameter beyond which the feed is slowed."""
         return self.most_engaged
+
+    @property
+    def ring_stepover(self) -> float | None:
+        """Distance between its rings as it was asked for, mm; None = automatic."""
+        return self.stepover
+
+    @property
+    def on_pixels(self) -> bool:
+        """Pockets are what the way of 1986 was made for."""
+        return True
 
 
 @dataclass(frozen=True, slots=True)
@@ -426,6 +471,11 @@ class RestOperation(Operation):
 
     def __post_init__(self) -> None:
         check_ranges(self)
+
+    @property
+    def ring_stepover(self) -> float | None:
+        """Distance between its rings as it was asked for, mm; None = automatic."""
+        return self.stepover
 
     @property
     def engagement_limit(self) -> float:

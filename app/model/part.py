@@ -76,6 +76,12 @@ class Part:
     notes: tuple[Note, ...] = ()
     reading: DrawingOptions = field(default=AS_DRAWN, compare=False)
 
+    @property
+    def machined_layers(self) -> tuple[Layer, ...]:
+        """Layers that hold something, as far as paths depend on them: name, and whether they are visible."""
+        used = {each.layer for each in self.entities} | {each.layer for each in self.notes}
+        return tuple(Layer(layer.name, visible=layer.visible) for layer in self.layers if layer.name in used)
+
     def next_id(self) -> int:
         """Return an entity id that was never given."""
         return (self.used_id or _highest(self.entities, self.notes)) + 1

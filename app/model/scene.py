@@ -8,6 +8,7 @@ import math
 import re
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
 
 from ..core.errors import ParameterError
 from .job import OriginXY, OriginZ
@@ -141,7 +142,12 @@ class Passes:
         tool: T number.
         angle_deg: of the planes to the X axis. through: a place of the first of them, mm; both unless `line` is given.
         line: x0, y0, x1, y1 of the first line instead.
-        pitch: from plane to plane, mm; or scallop: greatest height of the ridges between passes, mm. Exactly one.
+        pitch: from plane to plane, mm; or scallop: greatest height of the ridges between passes, mm. Exactly one, but
+            for a fan, which has neither.
+        fan_deg: first angle, last angle and step of planes that all go through the place `through`, like the ribs of a
+            fan, degrees; None: planes are parallel.
+        guide: places of a line on the XY plane that planes stand square on, `pitch` from one another along it; none:
+            they do not.
         stock_to_leave: metal left on the surfaces on purpose, mm, >= 0.
         chord_tolerance: farthest that a path is above the true one, square to it, mm.
         boundary: where to go; none: wherever there is a surface.
@@ -171,9 +177,12 @@ class Passes:
     plunge_rate: float | None = None
     spindle_speed: float | None = None
     boundary: tuple[Boundary, ...] = ()
+    fan_deg: tuple[float, float, float] | None = None
+    guide: tuple[Point2, ...] = ()
 
     def __post_init__(self) -> None:
-        if (self.pitch is None) == (self.scallop is None):
+        self._check_rule()
+        if self.fan_deg is None and (self.pitch is None) == (self.scallop is None):
             raise ParameterError(
                 "Passes need either a pitch or a scallop height, and not both; give one of them, in mm."
             )
@@ -201,6 +210,38 @@ class Passes:
             raise ParameterError("The first line of passes has no length; give two places.")
         if self.line and (self.angle_deg, self.through) != (0.0, (0.0, 0.0)):
             raise ParameterError("Passes have a line, and an angle or a place beside it; give one or the other.")
+
+    def _check_rule(self) -> None:
+        """Refuse rules of planes that cannot be, or that do not go together."""
+        if self.fan_deg is not None:
+            first, last, step = self.fan_deg
+            if self.pitch is not None or self.scallop is not None or self.line or self.guide or self.angle_deg:
+                raise ParameterError(
+                    "A fan of passes goes through one place, fan_deg = [first, last, step]; take pitch, scallop, line, "
+                    "guide and angle_deg away."
+                )
+            if not (
+                0 < step <= 180 and abs(first) <= 360 and first <= last <= first + 360 and last - first <= 1e4 * step
+            ):
+                raise ParameterError(
+                    f"A fan from {first:g} to {last:g} degrees by {step:g}; use a first angle, a last one up to 360 "
+                    "degrees on, and a step above 0."
+                )
+        if self.guide:
+            if self.pitch is None or self.line or self.angle_deg or self.through != (0.0, 0.0):
+                raise ParameterError(
+                    "Passes along a guide stand square on it, a pitch from one another; give a pitch, and neither "
+                    "line, angle_deg nor through."
+                )
+            if len(self.guide) < 2 or any(math.dist(a, b) < LEAST_LENGTH for a, b in pairwise(self.guide)):
+                raise ParameterError("The guide of passes needs two places or more, none twice in a row.")
+            if not all(abs(value) < MOST_LENGTH for place in self.guide for value in place):
+                raise ParameterError(f"The guide of passes is out of range; stay within {MOST_LENGTH:g} mm.")
+
+    @property
+    def parallel(self) -> bool:
+        """Whether the planes are parallel, as the text's example has them."""
+        return self.fan_deg is None and not self.guide
 
     @property
     def angle(self) -> float:

@@ -271,7 +271,7 @@ class SweptShape(_CheckedShape):
 
 @dataclass(frozen=True)
 class MeshShape(_CheckedShape):
-    """Triangles of an STL, OBJ or PLY file; `scale` is mm for each of its units."""
+    """Triangles of an STL, OBJ, PLY or 3MF file; `scale` is mm for each of its units, of 3MF for each mm."""
 
     kind: ClassVar[str] = "mesh"
     file: str
@@ -279,8 +279,8 @@ class MeshShape(_CheckedShape):
 
     def _check(self) -> None:
         self._positive("scale")
-        if not self.file.lower().endswith((".stl", ".obj", ".ply")):
-            raise self._wrong(f"file is {self.file!r}", "it must be an .stl, .obj or .ply file")
+        if not self.file.lower().endswith((".stl", ".obj", ".ply", ".3mf")):
+            raise self._wrong(f"file is {self.file!r}", "it must be an .stl, .obj, .ply or .3mf file")
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..core.errors import HitofudeError
 from .tool import Tool
@@ -48,6 +49,13 @@ def row_of(tool: Tool) -> TableRow:
     return TableRow(tool.number, tool.number, (0.0, 0.0, tool.length_offset), diameter=tool.diameter, remark=tool.label)
 
 
+class CuttersOfTable(NamedTuple):
+    """Cutters, and a sentence for each row that is none."""
+
+    tools: tuple[Tool, ...]
+    left_out: tuple[str, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class ToolTable:
     """A tool table as it was read.
@@ -60,8 +68,8 @@ class ToolTable:
     rows: tuple[TableRow, ...] = ()
     problems: tuple[str, ...] = ()
 
-    def tools(self, file: str) -> tuple[tuple[Tool, ...], tuple[str, ...]]:
-        """Return the cutters of the table, and a sentence for each row that is none.
+    def tools(self, file: str) -> CuttersOfTable:
+        """Return the cutters of the table.
 
         Args:
             file: its name, for the sentences.
@@ -75,4 +83,4 @@ class ToolTable:
                 left_out.append(f"{file}:{row.line}: {error}")
             else:
                 tools.setdefault(tool.number, tool)
-        return tuple(tools.values()), tuple(left_out)
+        return CuttersOfTable(tuple(tools.values()), tuple(left_out))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -10,16 +10,18 @@ from numpy.typing import NDArray
 
 from ..core.pool import pool
 from .border import Border, borders_of
-from .trace import PixelChain
+from .trace import STEPS
 from .walls import Mask
 
 Floats = NDArray[np.float32]
 
+_SAME_STRAND = 4
+"""Steps along a border: pixels so near to one another along it are the same strand, however it bends."""
 _PART = 1 << 20
 """Pixels that are worth a thread's start."""
 
 
-def peels(area: Mask, count: int, *, keep_ends: bool = False) -> Iterator[tuple[Mask, tuple[Border, ...]]]:
+def peels(area: Mask, count: int, *, keep_narrow: bool = False) -> Iterator[tuple[Mask, tuple[Border, ...]]]:
     """Steps 301-305: take the border pixels off an area, `count` times at most; yield what is left, and what was taken.
 
     What is left is exactly what lies farther than the number of peels from the outside in city blocks (steps along rows
@@ -28,8 +30,8 @@ def peels(area: Mask, count: int, *, keep_ends: bool = False) -> Iterator[tuple[
     Args:
         area: (rows, cols).
         count: peels, >= 0.
-        keep_ends: leave border pixels where the chain turns right back, so that lines of one pixel do not grow shorter:
-            the exception of step 304, which the circle's correction undoes.
+        keep_narrow: leave border pixels where another strand of the border is nearer than two pixels, so that an area
+            does not fall apart: the exception of step 304, which the circle's correction undoes.
     """
     left = area
     for _ in range(count):
@@ -39,18 +41,41 @@ def peels(area: Mask, count: int, *, keep_ends: bool = False) -> Iterator[tuple[
         before, left = left, left.copy()
         for border in borders:
             chain = border.chain
-            pixels = chain.pixels()[:-1][~_turns_back(chain)] if keep_ends else chain.pixels()
-            left[tuple(pixels.T)] = False
+            left[tuple(chain.pixels().T)] = False
+        if keep_narrow:
+            narrow = narrow_pixels(borders, before.shape)
+            left[narrow] = before[narrow]
         if np.array_equal(left, before):
             return
         yield left, borders
 
 
-def _turns_back(chain: PixelChain) -> NDArray[np.bool_]:
-    """Return for each pixel of a chain whether it is left the way it was entered."""
-    into = np.roll(chain.directions, 1)
-    turns: NDArray[np.bool_] = (into.astype(np.int64) + 4) % 8 == chain.directions
-    return turns
+def narrow_pixels(borders: Sequence[Border], shape: tuple[int, ...]) -> Mask:
+    """Return the border pixels to which another strand of the border is nearer than two pixels: the same pixel again,
+    or one of the eight about it, of another border or far along the same one.
+    """
+    strand, place = np.zeros(shape, np.int32), np.zeros(shape, np.int64)
+    found = np.zeros(shape, np.bool_)
+    chains = [border.chain.pixels()[:-1] for border in borders if len(border.chain.directions)]
+    for number, pixels in enumerate(chains, 1):
+        for k, (row, col) in enumerate(pixels.tolist()):
+            found[row, col] |= strand[row, col] > 0  # passed before
+            strand[row, col], place[row, col] = number, k
+    for border in borders:
+        chain = border.chain
+        if len(chain.directions):  # the end of a line of one pixel, which is left the way it was entered
+            back = (np.roll(chain.directions, 1).astype(np.int64) + 4) % 8 == chain.directions
+            found[tuple(chain.pixels()[:-1][back].T)] = True
+    for number, pixels in enumerate(chains, 1):
+        for step in STEPS:
+            near = pixels + step
+            inside = np.all((near >= 0) & (near < shape), axis=1)
+            rows, cols = near[inside].T
+            apart = np.abs(place[rows, cols] - place[tuple(pixels[inside].T)])
+            apart = np.minimum(apart, len(pixels) - apart)
+            other = (strand[rows, cols] > 0) & ((strand[rows, cols] != number) | (apart > _SAME_STRAND))
+            found[tuple(pixels[inside][other].T)] = True
+    return found
 
 
 def frame_pixels(area: Mask) -> Mask:

@@ -116,7 +116,8 @@ class StepState:
         rows: (n, 8) lines and arcs, mm, that the step has made.
         region: number of the region it is about; 0 = all.
         turn: 1, 2, … where the step is repeated (peels, paths further in).
-        wrong: (rows, cols) pixels in which the published fill errs; None where it is not about that.
+        wrong: (rows, cols) pixels in which the published rule errs; None where it is not about that.
+        beside: what the published rule came to here, beside the settled one, in a sentence; "" = nothing to say.
     """
 
     number: int
@@ -126,6 +127,7 @@ class StepState:
     region: int = 0
     turn: int = 1
     wrong: Mask | None = None
+    beside: str = ""
 
     def __post_init__(self) -> None:
         self.plane.setflags(write=False)
@@ -139,7 +141,8 @@ class StepState:
     def sentence(self) -> str:
         """What the step does, and what went wrong in it."""
         count = 0 if self.wrong is None else int(np.count_nonzero(self.wrong))
-        return STEPS[self.number][1] + (f" The published rules err in {count} pixels here." if count else "")
+        told = f" The published rules err in {count} pixels here." if count else ""
+        return STEPS[self.number][1] + told + (f" {self.beside}" if self.beside else "")
 
     @property
     def text(self) -> str:

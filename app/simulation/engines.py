@@ -11,7 +11,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -31,8 +31,14 @@ if TYPE_CHECKING:
 Cutters = Mapping[int, Cutter]
 """By T number."""
 
-Job = tuple[Workpiece, Course, Cutters]
-"""What is cut, along what, with what."""
+
+class CutStep(NamedTuple):
+    """What is cut, along what, with what."""
+
+    workpiece: Workpiece
+    course: Course
+    cutters: Cutters
+
 
 Compute = Callable[["moderngl.Context", Workpiece, Course, Cutters, Progress], Heights]
 """Heights that a course leaves, on a graphics context that is current."""
@@ -60,17 +66,26 @@ def quads(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: 
     return quad_heights(ctx, workpiece, course, cutters, progress)
 
 
-def published(
-    ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress
-) -> Heights:
-    """Compute heights as it was published, by facets in the depth buffer; see `DepthBuffer`."""
-    from .gpu.depth_buffer import DepthBuffer
+def published_in(facet: float | None) -> Compute:
+    """Return what computes heights as it was published, by facets in the depth buffer, of a size, mm, or as usual; see
+    `DepthBuffer`.
+    """
 
-    engine = DepthBuffer(ctx)
-    try:
-        return engine.heights(workpiece, course, cutters, progress)
-    finally:
-        engine.release()
+    def compute(
+        ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress
+    ) -> Heights:
+        from .gpu.depth_buffer import DepthBuffer, tessellation
+
+        engine = DepthBuffer(ctx, tessellation(workpiece.grid, cutters.values(), facet))
+        try:
+            return engine.heights(workpiece, course, cutters, progress)
+        finally:
+            engine.release()
+
+    return compute
+
+
+published: Compute = published_in(None)
 
 
 @dataclass(frozen=True)
@@ -130,7 +145,7 @@ def trial_of(graphics: Graphics, engine: Engine) -> EngineTrial:
     try:
         with graphics.current() as context:
             renderer = renderer_of(context)
-            found = tried(lambda *job: _computed(compute, context, job, NO_PROGRESS), allowed)
+            found = tried(lambda *job: _computed(compute, context, CutStep(*job), NO_PROGRESS), allowed)
     except HitofudeError as error:
         return EngineTrial(renderer, str(error).rstrip("."))
     except Exception as error:  # whatever a driver comes up with
@@ -167,6 +182,7 @@ class EngineReport:
         difference: how far its heights are from those of the engine of record, where that has run as well.
         error: how far at most, square to the surface, they may be from exact, mm, beside rounding.
         fault: why the engine that was asked for has not computed them; empty: it has.
+        facet: size of the facets of the published method, mm; 0 = it has not computed them.
     """
 
     engine: Engine
@@ -174,6 +190,7 @@ class EngineReport:
     difference: HeightDifference | None = None
     error: float = 0.0
     fault: str = ""
+    facet: float = 0.0
 
 
 class HeightEngine:
@@ -183,12 +200,14 @@ class HeightEngine:
         report: what has computed them so far.
     """
 
-    def __init__(self, engine: Engine, graphics: Graphics) -> None:
-        """Prepare for an engine, not AUTO."""
-        self._graphics, self._compute = (
-            graphics,
-            {Engine.GPU: graphics.quads, Engine.PATENT: graphics.published}.get(engine),
-        )
+    def __init__(self, engine: Engine, graphics: Graphics, facet: float | None = None) -> None:
+        """Prepare for an engine, not AUTO; the published one has facets of a size, mm, or as usual."""
+        self._facet = facet
+        chosen: dict[Engine, Compute] = {
+            Engine.GPU: graphics.quads,
+            Engine.PATENT: graphics.published if facet is None else published_in(facet),
+        }
+        self._graphics, self._compute = graphics, chosen.get(engine)
         self.report = EngineReport(engine)
         done = trial_of(graphics, engine) if self._compute is not None else EngineTrial("", "")
         if done.fault:
@@ -201,7 +220,7 @@ class HeightEngine:
         """Whether heights beside those of the engine of record are to be computed."""
         return self._compute is not None
 
-    def alone(self, job: Job, progress: Progress = NO_PROGRESS) -> Heights | None:
+    def alone(self, step: CutStep, progress: Progress = NO_PROGRESS) -> Heights | None:
         """Return what a course leaves of a work piece; None: the engine of record must compute it.
 
         Raises:
@@ -216,25 +235,26 @@ class HeightEngine:
                 self._fall_back(f"{self.report.renderer} cannot be had again ({_words(error)})")
                 return None
             try:
-                return _computed(self._compute, context, job, progress)
+                return _computed(self._compute, context, step, progress)
             except HitofudeError:
                 raise
             except Exception as error:
                 self._fall_back(f"{self.report.renderer} fails ({_words(error)})")
                 return None
 
-    def beside(self, record: Heights, job: Job, progress: Progress = NO_PROGRESS) -> Heights:
+    def beside(self, record: Heights, step: CutStep, progress: Progress = NO_PROGRESS) -> Heights:
         """Return what a course leaves of a work piece, compared with the heights of the engine of record.
 
         Args:
             record: heights of the engine of record; they are returned where others fail or disagree.
-            job: what is cut.
+            step: what is cut.
         """
-        heights = self.alone(job, progress)
+        heights = self.alone(step, progress)
         if heights is None:
             return record
-        error = published_error(*job) if self.report.engine is Engine.PATENT else 0.0
-        found = height_difference(record, heights, _allowed(record, error, job[0].grid.pitch))
+        patent = self.report.engine is Engine.PATENT
+        error = published_error(*step, self._facet) if patent else 0.0
+        found = height_difference(record, heights, _allowed(record, error, step.workpiece.grid.pitch))
         if not found.agrees:
             self._fall_back(
                 f"{self.report.renderer} computes heights up to {found.largest:.3g} mm off, in {found.astray} cells by "
@@ -242,7 +262,10 @@ class HeightEngine:
             )
             return record
         self.report = replace(
-            self.report, difference=found.joined(self.report.difference), error=max(error, self.report.error)
+            self.report,
+            difference=found.joined(self.report.difference),
+            error=max(error, self.report.error),
+            facet=published_facet(step.workpiece, step.cutters, self._facet) if patent else 0.0,
         )
         return heights
 
@@ -250,12 +273,18 @@ class HeightEngine:
         self._compute, self.report = None, EngineReport(Engine.CPU, fault=fault)
 
 
-def published_error(workpiece: Workpiece, course: Course, cutters: Cutters) -> float:
+def published_facet(workpiece: Workpiece, cutters: Cutters, facet: float | None = None) -> float:
+    """Return how large the facets of the published method are, mm: as asked for, or as usual."""
+    from .gpu.depth_buffer import tessellation
+
+    return tessellation(workpiece.grid, cutters.values(), facet).facet
+
+
+def published_error(workpiece: Workpiece, course: Course, cutters: Cutters, size: float | None = None) -> float:
     """Return how far the facets of the published method are at most from the surface, square to it, mm."""
-    from .gpu.depth_buffer import usual
     from .gpu.polyhedron import facet_error
 
-    facet = usual(workpiece.grid).facet
+    facet = published_facet(workpiece, cutters, size)
     used = [cutters[number] for number in np.unique(course.tool).tolist() if number in cutters]
     return max((facet_error(cutter, facet) for cutter in used), default=0.0)
 
@@ -271,13 +300,13 @@ def _allowed(record: Heights, error: float, pitch: float) -> float | Floats:
     return np.asarray(TOLERANCE + 1.25 * error * np.hypot(1.0, steep) + EIGHT_BITS * pitch * steep)
 
 
-def _computed(compute: Compute, context: moderngl.Context, job: Job, progress: Progress) -> Heights:
+def _computed(compute: Compute, context: moderngl.Context, step: CutStep, progress: Progress) -> Heights:
     """Compute heights; a graphics system that tells of an error has failed.
 
     Raises:
         RuntimeError: it does.
     """
-    heights = compute(context, *job, progress)
+    heights = compute(context, *step, progress)
     if (error := context.error) != "GL_NO_ERROR":
         raise RuntimeError(error)
     return heights

@@ -233,7 +233,8 @@ def merged(stroke: Stroke) -> Stroke:
     """Return a stroke whose neighbouring arcs of one circle, purpose and least height are one, but never a full turn or
     more.
     """
-    if not len(stroke.rows):
+    turns = stroke.rows[:, TURN]
+    if not np.any((turns[1:] != 0) & (turns[1:] == turns[:-1])):
         return stroke
     rows, purpose, least_z = stroke.rows.tolist(), stroke.purpose.tolist(), stroke.least_z
     heights = [0.0] * len(rows) if least_z is None else least_z.tolist()

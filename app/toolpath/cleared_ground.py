@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +32,25 @@ Row = NDArray[np.float64]
 """(8,) a line or an arc, see `app.geometry.primitives`."""
 
 
+class Disc(NamedTuple):
+    """A disc by its centre and radius, mm."""
+
+    x: float
+    y: float
+    radius: float
+
+
+class _RowTree(NamedTuple):
+    """Rows that share a tree, as the kernels read it: the first of them, how many, its first node, its leaves; without
+    leaves there is no tree yet.
+    """
+
+    first: int
+    rows: int
+    node: int
+    leaves: int
+
+
 class _FlatCuts:
     """What flat ends have cut: rows, how deep, and how far beside them."""
 
@@ -39,7 +58,7 @@ class _FlatCuts:
         self._rows, self._reach, self._boxes = np.empty((256, 8)), np.empty((256, 2)), np.empty((256, 4))
         self._order, self._nodes, self._best = np.empty(256, np.int64), np.empty((256, 4)), np.empty((256, 2))
         self._count = 0
-        self._trees: list[tuple[int, int, int, int]] = []
+        self._trees: list[_RowTree] = []
         self._forest: tuple[NDArray[Any], ...] | None = None
         self._deep: list[float] = []
 
@@ -56,9 +75,10 @@ class _FlatCuts:
         self._reach[first : self._count, 0], self._reach[first : self._count, 1] = z, radius
         for height in set(z.tolist()):
             self._note(height)
-        loose = self._trees.pop()[:3] if self._trees and not self._trees[-1][3] else (first, 0, self._nodes_used())
-        self._trees.append((loose[0], self._count - loose[0], loose[2], 0))
-        if self._count - loose[0] > _LOOSE:
+        last = self._trees.pop() if self._trees and not self._trees[-1].leaves else None
+        loose = last or _RowTree(first, 0, self._nodes_used(), 0)
+        self._trees.append(loose._replace(rows=self._count - loose.first))
+        if self._count - loose.first > _LOOSE:
             self._plant()
         self._forest = None
 
@@ -96,13 +116,13 @@ class _FlatCuts:
             self._deep.insert(k, -height)
 
     def _nodes_used(self) -> int:
-        return self._trees[-1][2] + max(0, 2 * self._trees[-1][3] - 1) if self._trees else 0
+        return self._trees[-1].node + max(0, 2 * self._trees[-1].leaves - 1) if self._trees else 0
 
     def _plant(self) -> None:
         """Make one tree of the loose rows and of all trees before them that are no larger."""
         first, count, node, _ = self._trees.pop()
         self._boxes[first : self._count] = boxes(self._rows[first : self._count])
-        while self._trees and self._trees[-1][1] <= count:
+        while self._trees and self._trees[-1].rows <= count:
             first, more, node, _ = self._trees.pop()
             count += more
         order, nodes = build_tree(self._boxes[first : self._count])
@@ -113,7 +133,7 @@ class _FlatCuts:
         self._order[first : self._count] = order
         self._nodes[node : node + len(nodes)] = nodes
         self._best[node : node + len(nodes)] = kernels.bounds(self._reach[first : self._count], order, leaves)
-        self._trees.append((first, count, node, leaves))
+        self._trees.append(_RowTree(first, count, node, leaves))
 
     def _arrays(self) -> tuple[NDArray[Any], ...]:
         if self._forest is None:
@@ -136,8 +156,8 @@ class ClearedGround:
     part sweeps only the very places it has been at are clear, and only for itself.
     """
 
-    wells: dict[tuple[float, float, float], float] = field(default_factory=dict)
-    """Heights down to which discs were cleared by helices, by centre and radius, mm."""
+    wells: dict[Disc, float] = field(default_factory=dict)
+    """Heights down to which discs were cleared by helices, mm."""
     _flat: _FlatCuts = field(default_factory=_FlatCuts)
     _own: dict[int, _FlatCuts] = field(default_factory=dict)
     _floors: dict[tuple[int, Point, float], float] = field(default_factory=dict)

@@ -14,7 +14,7 @@ import math
 import numpy as np
 
 from ..core.jit import kernel
-from ..geometry.kernels import INF, LEAF, box_distance, enlarged, nearest, point_distance
+from ..geometry.kernels import INF, LEAF, box_distance, enlarged, nearest_from, point_distance
 
 _ROUNDING = 1e-9
 """mm; more than a distance is off by."""
@@ -166,10 +166,11 @@ def keeps_off(rows, order, nodes, way, distance, slack, budget):
     ax, ay = way[0], way[1]
     dx, dy = way[2] - ax, way[3] - ay
     length = math.hypot(dx, dy)
-    at, limit = 0.0, distance + length + _ROUNDING  # with as much to spare one step goes all the way
+    at, limit, near = 0.0, distance + length + _ROUNDING, -1  # with as much to spare one step goes all the way
     for _ in range(budget):
         part = at / length if length > 0.0 else 0.0
-        spare = nearest(rows, order, nodes, ax + dx * part, ay + dy * part, limit)[0] - (distance - slack)
+        away, near = nearest_from(rows, order, nodes, ax + dx * part, ay + dy * part, -1.0, limit, near)
+        spare = away - (distance - slack)
         if spare < slack / 2.0:
             return False
         if at >= length:

@@ -18,11 +18,12 @@ from ..geometry.overlay.overlay import OverlayResult, without_crossings, without
 from ..geometry.primitives import Primitives, contour_rows, pack, points_at
 from ..geometry.region import nested, polygon_contour
 from ..model.curve_selectors import Selector
+from ..model.entry import Lead
 from ..model.face_operation import FaceOperation
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.moves import Area
-from ..model.operation import ContourOperation, HoleOperation, Operation, Side
+from ..model.operation import HoleOperation, Operation, Side
 from ..model.part import Contour, Region
 from ..model.stock_box import extent
 from .drawn_contours import DrawnContours
@@ -172,26 +173,18 @@ class MachiningAreas:
         enabled = [operation for operation in self.job.operations if operation.cut.enabled]
         widest = max((self.job.tool(each.cut.tool).diameter for each in enabled), default=1.0)
         wide = _ROOM * widest + max((each.cut.stock_to_leave for each in enabled), default=0.0)
-        wide = max(
-            [
-                wide,
-                *(
-                    self._led(each)
-                    for each in enabled
-                    if isinstance(each, ContourOperation) and each.side is Side.OUTSIDE
-                ),
-            ]
-        )
+        led = (self._led(each, lead) for each in enabled if (lead := each.outer_lead) is not None)
+        wide = max([wide, *led])
         x0, y0, x1, y1 = box[0] - wide, box[1] - wide, box[2] + wide, box[3] + wide
         return polygon_contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
-    def _led(self, operation: ContourOperation) -> float:
+    def _led(self, operation: Operation, lead: Lead) -> float:
         """Return how far round the walls there is room for whole leads, also of what is roughed: they keep off the
         frame too, mm.
         """
         tool = self.job.tool(operation.cut.tool)
-        wall = tool.radius + operation.cut.stock_to_leave + operation.finish_width
-        return 2 * wall + lead_size(operation.lead, tool) + _SPARE
+        wall = tool.radius + operation.roughed_allowance
+        return 2 * wall + lead_size(lead, tool) + _SPARE
 
 
 def lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.bool_]:

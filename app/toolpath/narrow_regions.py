@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -23,6 +24,7 @@ from ..model.part import Region
 from ..model.tool import Tool
 from .linking.bridge import RingEdges, level_bridges
 from .linking.tree import BridgeForest
+from .narrow_kernels import widest_way
 
 _CHORD = 1e-3
 
@@ -37,11 +39,6 @@ _TELL = 20
 
 _LOWER = 8
 """Levels below the tool's at which is looked for where parts come together."""
-
-_WINDOWS = ((0.8, 25), (0.8, 161), (2.0, 161), (6.0, 161))
-"""Half sides of grids, in distances between the two parts, and points along a side: a neck may lie far off, or be much
-narrower.
-"""
 
 _REFINED = 3
 
@@ -203,17 +200,42 @@ def _at_the_neck(a: Floats, b: Floats, outlines: Sequence[NDArray[np.object_]]) 
     return a, b
 
 
-def _narrowest(a: Floats, b: Floats, field: DistanceField) -> tuple[Floats, float]:
-    """Return (place, distance from the drawing) of the neck between two points: where the widest way is narrowest."""
+class _Neck(NamedTuple):
+    """A narrow place: where it is, (2,), and how far from the drawing, mm."""
+
+    place: Floats
+    room: float
+
+
+class _Way(NamedTuple):
+    """A way: its points (n, 2), and how far they may be from where they should be, mm."""
+
+    points: Floats
+    reach: float
+
+
+class _Window(NamedTuple):
+    """A square grid round two points: half its side, in distances of the two, and its points along a side."""
+
+    half: float
+    side: int
+
+
+_WINDOWS = (_Window(0.8, 25), _Window(0.8, 161), _Window(2.0, 161), _Window(6.0, 161))
+"""One after the other: a neck may lie far off, or be much narrower."""
+
+
+def _narrowest(a: Floats, b: Floats, field: DistanceField) -> _Neck:
+    """Return the neck between two points: where the widest way is narrowest."""
     way, reach = next(
-        (widest for window in _WINDOWS if len((widest := _widest_way(a, b, window, field))[0])),
-        (a + (b - a) * np.linspace(0, 1, 65)[:, None], float(np.hypot(*(b - a))) / 16),
+        (widest for window in _WINDOWS if len((widest := _widest_way(a, b, window, field)).points)),
+        _Way(a + (b - a) * np.linspace(0, 1, 65)[:, None], float(np.hypot(*(b - a))) / 16),
     )
     for _ in range(_REFINED):
         way = _to_the_middle(way, reach, field)
         room = field.nearest(way)[0]
         k = int(np.argmin(room))
-        found: tuple[Floats, float] = way[k], float(room[k])
+        found = _Neck(way[k], float(room[k]))
         before, after, part = way[max(k - 1, 0)], way[min(k + 1, len(way) - 1)], np.linspace(0, 1, 5)[:, None]
         way = np.concatenate([before + (way[k] - before) * part, (way[k] + (after - way[k]) * part)[1:]])
         reach /= 2
@@ -237,37 +259,16 @@ def _to_the_middle(way: Floats, reach: float, field: DistanceField) -> Floats:
     return way
 
 
-def _widest_way(a: Floats, b: Floats, window: tuple[float, int], field: DistanceField) -> tuple[Floats, float]:
-    """Return (points (n, 2) of the way over a grid round two points that keeps most distance, pitch of the grid, mm).
+def _widest_way(a: Floats, b: Floats, window: _Window, field: DistanceField) -> _Way:
+    """Return the way over a grid round two points that keeps most distance; it may be off by the pitch of the grid.
 
     Two grid points are neighbours when their discs without a wall overlap, so no way crosses one; n = 0 without such a
     way.
-
-    Args:
-        window: half the grid's side in distances of the two points, and how many points it has along a side.
     """
-    half, side = window[0] * float(np.hypot(*(b - a))), window[1]
+    half, side = window.half * float(np.hypot(*(b - a))), window.side
     axis, pitch = np.linspace(-half, half, side), 2 * half / (side - 1)
     points = (a + b) / 2 + np.stack(np.meshgrid(axis, axis, indexing="ij"), -1).reshape(-1, 2)
     room = field.nearest(points)[0]
-    number = np.arange(side**2).reshape(side, side)
-    sides = (
-        (number[1:], number[:-1]),
-        (number[:, 1:], number[:, :-1]),
-        (number[1:, 1:], number[:-1, :-1]),
-        (number[1:, :-1], number[:-1, 1:]),
-    )
-    pairs = np.concatenate([np.stack([one.ravel(), other.ravel()], 1) for one, other in sides])
-    pairs = pairs[room[pairs].sum(axis=1) > np.hypot(*(points[pairs[:, 0]] - points[pairs[:, 1]]).T)]
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
-
-    graph = coo_matrix((2 * room.max() - room[pairs].min(axis=1), (pairs[:, 0], pairs[:, 1])), (side**2, side**2))
     start, end = (int(np.argmin(np.hypot(*(points - point).T))) for point in (a, b))
-    before = breadth_first_order(minimum_spanning_tree(graph), start, directed=False)[1]
-    way = [end]
-    while way[-1] != start:
-        if before[way[-1]] < 0:
-            return points[:0], pitch
-        way.append(int(before[way[-1]]))
-    return points[way[::-1]], pitch
+    way = widest_way(room, side, pitch, start, end)
+    return _Way(points[way[::-1]], pitch)

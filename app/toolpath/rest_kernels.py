@@ -13,36 +13,31 @@ import math
 import numpy as np
 
 from ..core.jit import kernel
-from ..geometry.kernels import LEAF, box_distance, nearest, nearest_between, point_distance
+from ..geometry.kernels import LEAF, box_distance, nearest_from, point_distance
 
 _ROUNDING = 1e-9
 """mm; more than a distance is off by."""
 
 
-@kernel("float64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, float64)")
-def depth_left(rows, order, nodes, cutters, x, y, limit):
+@kernel(
+    "float64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, float64, float64, "
+    "int64[::1])"
+)
+def _depth_between(rows, order, nodes, cutters, x, y, enough, limit, near):
     """Return how deep a point lies in what paths have left, mm: the least (distance - radius) of all rows, at most
-    `limit`.
+    `limit`; or some depth no more than `enough`, mm, where there is one.
 
     Args:
         order, nodes: the trees of all cutters, one behind the other.
         cutters: (n, 3) radius, mm, and where the order and the nodes of the next one begin.
+        near: of each cutter a row that may be near, -1 = none is known; those that are found are written.
     """
     best, o, n = limit, 0, 0
     for k in range(len(cutters)):
         radius, o1, n1 = cutters[k, 0], int(cutters[k, 1]), int(cutters[k, 2])
-        best = nearest(rows, order[o:o1], nodes[n:n1], x, y, best + radius)[0] - radius
-        o, n = o1, n1
-    return best
-
-
-@kernel("float64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, float64, float64)")
-def _depth_between(rows, order, nodes, cutters, x, y, enough, limit):
-    """Return `depth_left`, but some depth no more than `enough`, mm, where there is one: not the least of all."""
-    best, o, n = limit, 0, 0
-    for k in range(len(cutters)):
-        radius, o1, n1 = cutters[k, 0], int(cutters[k, 1]), int(cutters[k, 2])
-        best = nearest_between(rows, order[o:o1], nodes[n:n1], x, y, enough + radius, best + radius)[0] - radius
+        away, row = nearest_from(rows, order[o:o1], nodes[n:n1], x, y, enough + radius, best + radius, near[k])
+        best = away - radius
+        near[k] = row if row >= 0 else near[k]
         if best <= enough:
             break
         o, n = o1, n1
@@ -51,34 +46,16 @@ def _depth_between(rows, order, nodes, cutters, x, y, enough, limit):
 
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], float64, float64[::1])")
 def depths_left(rows, order, nodes, cutters, points, limit, out):
-    """Write `depth_left` of each point (m, 2)."""
+    """Write how deep each point (m, 2) lies in what paths have left, see `_depth_between`."""
+    near = np.full(len(cutters), -1, np.int64)
     for k in range(len(points)):
-        out[k] = depth_left(rows, order, nodes, cutters, points[k, 0], points[k, 1], limit)
+        out[k] = _depth_between(rows, order, nodes, cutters, points[k, 0], points[k, 1], -math.inf, limit, near)
 
 
-@kernel("boolean(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64)")
-def _any_within(rows, order, nodes, x, y, limit):
-    """Return whether a point is no farther than `limit` from some row: the first that is found ends the search."""
-    leaves = (len(nodes) + 1) // 2
-    stack = np.empty(64, np.int64)
-    stack[0], top = 0, 1
-    while top > 0:
-        top -= 1
-        k = stack[top]
-        if box_distance(nodes, k, x, y) > limit:
-            continue
-        if k < leaves - 1:
-            left, right = 2 * k + 1, 2 * k + 2
-            if box_distance(nodes, left, x, y) > box_distance(nodes, right, x, y):
-                left, right = right, left
-            stack[top], stack[top + 1] = right, left
-            top += 2
-            continue
-        first = (k - leaves + 1) * LEAF
-        for place in range(first, min(first + LEAF, len(order))):
-            if point_distance(rows, order[place], x, y) <= limit:
-                return True
-    return False
+@kernel("float64(float64)", counts=False)
+def _beyond(limit):
+    """Return a distance by so little greater that only rounding is between them."""
+    return limit * (1 + 1e-12) + 1e-300
 
 
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], float64, boolean[::1])")
@@ -86,14 +63,21 @@ def hold(rows, order, nodes, cutters, points, around, out):
     """Write for each point (m, 2) whether all within `around` of it, mm, lies in what a cutter along some one row has
     cut.
     """
+    near = np.full(len(cutters), -1, np.int64)
     for i in range(len(points)):
         out[i] = False
         o, n = 0, 0
         for k in range(len(cutters)):
             limit, o1, n1 = cutters[k, 0] - around, int(cutters[k, 1]), int(cutters[k, 2])
-            if limit >= 0.0 and _any_within(rows, order[o:o1], nodes[n:n1], points[i, 0], points[i, 1], limit):
-                out[i] = True
-                break
+            if limit >= 0.0:
+                # the first one that is near enough ends the search
+                away, row = nearest_from(
+                    rows, order[o:o1], nodes[n:n1], points[i, 0], points[i, 1], limit, _beyond(limit), near[k]
+                )
+                near[k] = row if row >= 0 else near[k]
+                if row >= 0 and away <= limit:
+                    out[i] = True
+                    break
             o, n = o1, n1
 
 
@@ -167,6 +151,7 @@ def left_cells(rows, order, nodes, cutters, bound, bound_order, bound_nodes, rul
     """
     half0, cell, least = sizes[0], sizes[1], sizes[2]
     stack = np.empty((256, 3))
+    near, beside = np.full(len(cutters), -1, np.int64), -1
     count = 0
     for s in range(len(squares)):
         stack[0, 0], stack[0, 1], stack[0, 2] = squares[s, 0], squares[s, 1], half0
@@ -181,15 +166,16 @@ def left_cells(rows, order, nodes, cutters, bound, bound_order, bound_nodes, rul
                 elif found:
                     continue
             q = half * math.sqrt(2.0)
-            depth = _depth_between(rows, order, nodes, cutters, x, y, least - q - _ROUNDING, least + _ROUNDING)
+            depth = _depth_between(rows, order, nodes, cutters, x, y, least - q - _ROUNDING, least + _ROUNDING, near)
             if depth + q < least:
                 continue
             # of the distance, too, no more is asked than what decides: is it less than least - q, or least at least?
             low, high = least - rule[0] - q, least - rule[0]
             if rule[1] < 0.0:
                 low, high = -high, -low
-            near = nearest_between(bound, bound_order, bound_nodes, x, y, low - _ROUNDING, high + _ROUNDING)[0]
-            depth = min(depth, rule[0] + rule[1] * near)
+            away, row = nearest_from(bound, bound_order, bound_nodes, x, y, low - _ROUNDING, high + _ROUNDING, beside)
+            beside = row if row >= 0 else beside
+            depth = min(depth, rule[0] + rule[1] * away)
             if depth + q < least:
                 continue
             if half <= cell * 1.001 and (depth >= least or q < least / 4):

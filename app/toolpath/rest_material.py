@@ -71,12 +71,18 @@ class CutGround:
 
     def depth(self, points: Floats, limit: float) -> Floats:
         """Return how deep points (m, 2) lie in what is left, mm, at most `limit`; not above 0 where it is cut."""
-        out = np.empty(len(points))
-        rest_kernels.depths_left(*self.tree, np.ascontiguousarray(points), limit, out)
+        points, out = np.ascontiguousarray(points), np.empty(len(points))
+
+        def look(band: slice) -> None:
+            rest_kernels.depths_left(*self.tree, points[band], limit, out[band])
+
+        in_bands(look, len(points))
         return out
 
     def holds(self, points: Floats, around: float) -> NDArray[np.bool_]:
-        """Return for points (m, 2) whether all within `around` of them, mm, is cut by one stretch of a path."""
+        """Return for points (m, 2) whether all within `around` of them, mm, is cut by one stretch of a path; less than
+        0: whether anything is that is no farther away.
+        """
         points, out = np.ascontiguousarray(points), np.empty(len(points), np.bool_)
 
         def look(band: slice) -> None:
@@ -217,8 +223,8 @@ def _sieved(ground: CutGround, reach: CentreReach, area: _Area, centres: Floats,
     keep[alone] = area.edges.inside(centres[alone])
     bytes_each = CELL_BYTES * (half / reach.cell) ** 2
     if np.count_nonzero(keep & alone) * bytes_each > _WORTH_ASKING:
-        # all cells of such a square will be found
-        untouched = np.count_nonzero(ground.depth(centres[keep & alone], 4 * q) > q)
+        # all cells of such a square will be found: nothing is cut as near as its corners
+        untouched = np.count_nonzero(~ground.holds(centres[keep & alone], -q))
         reach.ask_memory(float(untouched) * bytes_each)
     return np.column_stack([centres[keep], walls[keep]])
 

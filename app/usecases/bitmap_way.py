@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..core.effort import announce
 from ..core.errors import ParameterError
 from ..core.progress import NO_PROGRESS, Progress
 from ..fitting.corner_smoothing.smooth import CornerSmoothingOptions
@@ -22,10 +23,11 @@ from ..geometry.primitives import Rows, lengths, pack, points_at, signed_area, w
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Program
-from ..model.operation import CutParameters, Operation, Order, PocketOperation, Side
+from ..model.operation import Operation, Order
 from ..model.tool import Tool
 from ..operations.compute import in_order, slotting
 from ..operations.contour.paths import contour_strokes
+from ..operations.effort import workload_of
 from ..operations.pocket.paths import stepover_of, wall_distance
 from ..raster.border import Border, Index, borders_of
 from ..raster.levels import SAFE_PX, RingSteps, offset_area, ring_index
@@ -36,6 +38,7 @@ from ..toolpath.linking.link import link_by_proof
 from ..toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..toolpath.operation_context import OperationContext, emit, passes_of
 from .bitmap_part import BitmapPart
+from .effort import bitmap_effort
 from .pixel_path import TOLERANCE_PX, WallLimits, chain_points, pixel_path
 
 LONG_LINE = 10.0
@@ -81,6 +84,14 @@ class PixelPath:
     def rows(self) -> Rows:
         """(n, 8) mm."""
         return self.smoothed.rows
+
+
+@dataclass(frozen=True)
+class _Level:
+    """Borders of pixels, before they are smoothed, and their distance from the walls, mm."""
+
+    distance: float
+    borders: Sequence[Border]
 
 
 @dataclass(frozen=True)
@@ -139,12 +150,13 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
     primitives = pack(part.regions)
     context = OperationContext(job, part.regions, MachiningAreas(job, DrawnContours()))
     walls = MachiningArea(part.regions, primitives, part.squares, np.zeros(len(primitives.rows), np.bool_))
-    order, paths = [index for index in in_order(job) if on_pixels(job.operations[index])], []
+    order, paths = [index for index in in_order(job) if job.operations[index].on_pixels], []
+    announce(bitmap_effort(part, _lengths(job, part, order)), progress)
     for k, index in enumerate(order):
         share = progress.part(k / len(order), (k + 1) / len(order))
         paths.append(operation_paths(job, index, part, share.part(0.0, 0.7)))
         share.step(0.7, "Link paths")
-        _emit(context, paths[-1], (part, walls), share.part(0.7, 1.0))
+        _emit(context, paths[-1], part, walls, share.part(0.7, 1.0))
     if job.order is Order.PATENT_1986:
         context.findings.extend(slotting(job))
     given_up = _given_up(paths, DistanceField.of(primitives.rows), part.frame.pitch)
@@ -165,14 +177,24 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
     return BitmapProgram(program, tuple(paths), given_up, rough)
 
 
-def on_pixels(operation: Operation) -> bool:
-    """Tell whether the way of 1986 knows an operation: pockets, and contours inside the walls."""
-    return isinstance(operation, PocketOperation) or (operation.FOLLOWS_WALLS and operation.wall_side is Side.INSIDE)
+def _lengths(job: Job, part: BitmapPart, order: Sequence[int]) -> list[float]:
+    """Return how long the paths of operations are, about, mm: over the floor of pockets a step apart, else as long as
+    the walls.
+    """
+    extent, found = workload_of(part.regions), []
+    for index in order:
+        operation, pitch = job.operations[index], part.frame.pitch
+        over = 0.0
+        if operation.CLEARS:
+            step = operation.ring_stepover or job.tool(operation.cut.tool).radius - SPARE_STEP_PX * pitch
+            over = extent.area / max(step, pitch)
+        found.append(max(over, extent.length))
+    return found
 
 
 def _left_out(job: Job) -> list[Finding]:
     """Return which operations make no moves on pixels."""
-    left = [operation for operation in job.operations if operation.cut.enabled and not on_pixels(operation)]
+    left = [operation for operation in job.operations if operation.cut.enabled and not operation.on_pixels]
     return [
         Finding(
             FindingKind.LEFT_OUT,
@@ -199,23 +221,21 @@ def operation_paths(job: Job, index: int, part: BitmapPart, progress: Progress =
         )
     progress.step(0.0, "Shrink on pixels")
     if operation.FOLLOWS_WALLS:
-        return _contour_paths(part, index, (tool, operation.cut), progress)
+        return _contour_paths(job, part, index, progress)
     return _pocket_paths(job, part, index, progress)
 
 
-def _contour_paths(
-    part: BitmapPart, index: int, cutter: tuple[Tool, CutParameters], progress: Progress
-) -> OperationPaths:
-    tool, cut = cutter
+def _contour_paths(job: Job, part: BitmapPart, index: int, progress: Progress) -> OperationPaths:
+    cut = job.operations[index].cut
+    tool = job.tool(cut.tool)
     wall = tool.radius + cut.stock_to_leave
     area = offset_area(part.free, wall / part.frame.pitch, TOLERANCE_PX)
-    paths = _smoothed(part, (borders_of(area),), ((wall,), tool), progress)
+    paths = _smoothed(part, (_Level(wall, borders_of(area)),), tool, progress)
     return OperationPaths(index, wall, area, paths, (wall,), area.astype(np.uint16))
 
 
 def _pocket_paths(job: Job, part: BitmapPart, index: int, progress: Progress) -> OperationPaths:
     operation = job.operations[index]
-    assert isinstance(operation, PocketOperation)
     tool, pitch, leave = job.tool(operation.cut.tool), part.frame.pitch, operation.cut.stock_to_leave
     step = _stepover(operation, tool, pitch)
     wall = max(wall_distance(job, operation), leave)
@@ -228,37 +248,36 @@ def _pocket_paths(job: Job, part: BitmapPart, index: int, progress: Progress) ->
     for border in borders_of(index_plane):
         by_level[border.level - 1].append(border)
     distances = tuple(wall + tool.radius + k * step for k in range(count))
-    paths = _smoothed(part, by_level, (distances, tool), progress)
+    paths = _smoothed(part, tuple(map(_Level, distances, by_level)), tool, progress)
     return OperationPaths(index, wall, area, paths, distances, index_plane, steps)
 
 
-def _stepover(operation: PocketOperation, tool: Tool, pitch: float) -> float:
+def _stepover(operation: Operation, tool: Tool, pitch: float) -> float:
     """Return the distance between paths, mm: as asked, or what pixels leave of the largest that covers everything by
     itself.
 
     Raises:
         ParameterError: it is less than a pixel, or more than the tool.
     """
-    if operation.stepover is None:
+    if operation.ring_stepover is None:
         return max(tool.radius - SPARE_STEP_PX * pitch, pitch)
-    if operation.stepover < pitch:
+    if operation.ring_stepover < pitch:
         raise ParameterError(
-            f"The stepover of {operation.stepover:g} mm is less than a pixel of {pitch:.3g} mm; "
+            f"The stepover of {operation.ring_stepover:g} mm is less than a pixel of {pitch:.3g} mm; "
             "use a larger bitmap or a smaller pitch."
         )
     return stepover_of(operation, tool)
 
 
 def _smoothed(
-    part: BitmapPart, levels: Sequence[Sequence[Border]], made_for: tuple[Sequence[float], Tool], progress: Progress
+    part: BitmapPart, levels: Sequence[_Level], tool: Tool, progress: Progress
 ) -> tuple[tuple[PixelPath, ...], ...]:
-    distances, tool = made_for
     options = CornerSmoothingOptions(TOLERANCE_PX * part.frame.pitch, LONG_LINE * tool.diameter)
     result = []
-    for k, (borders, distance) in enumerate(zip(levels, distances, strict=True)):
+    for k, level in enumerate(levels):
         progress.step((k + 1) / (len(levels) + 1), "Smooth paths")
-        keep = WallLimits(distance, distances[0], part.squares, part.frame, part.free)
-        chains = [border.chain for border in borders]
+        keep = WallLimits(level.distance, levels[0].distance, part.squares, part.frame, part.free)
+        chains = [border.chain for border in level.borders]
         result.append(
             tuple(PixelPath(chain, pixel_path(chain_points(part.frame, chain), keep, options)) for chain in chains)
         )
@@ -271,10 +290,9 @@ def _ring(path: PixelPath, part: BitmapPart) -> Ring:
 
 
 def _emit(
-    context: OperationContext, paths: OperationPaths, walls: tuple[BitmapPart, MachiningArea], progress: Progress
+    context: OperationContext, paths: OperationPaths, part: BitmapPart, area: MachiningArea, progress: Progress
 ) -> None:
     """Append the moves of one operation."""
-    part, area = walls
     operation = context.job.operations[paths.index]
     direction = operation.cut.direction
     rings = [tuple(_ring(path, part) for path in level) for level in paths.levels]

@@ -13,10 +13,9 @@ from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.motion import MotionKind
 from ..model.moves import Program
-from ..model.stock_box import stock_box, work_origin
 from ..verify.bounds import deepest, followed_walls
 from ..verify.carved_roof import ConePath, RoofProof, prove_roof, straightened
-from .written import WrittenProgram
+from .written import WrittenMotions
 
 METHOD = (
     "motions as read back, held against the largest discs behind places of the drawn curves; what is left at a disc's "
@@ -75,31 +74,25 @@ class CarvingProof:
         return found
 
 
-def carving_proofs(program: Program, job: Job, written: WrittenProgram, progress: Progress) -> dict[int, CarvingProof]:
+def carving_proofs(program: Program, job: Job, motions: WrittenMotions, progress: Progress) -> dict[int, CarvingProof]:
     """Return what is proven, by index of the operation, of those that carve and have an area.
 
     Raises:
         Cancelled: by progress.
     """
     carving = [k for k, each in enumerate(job.operations) if each.CARVES and each.cut.enabled]
-    if not written.files or not carving:
+    if not motions.files:
         return {}
-    origin = np.array(work_origin(job, stock_box(job, program.regions, program.lines)))
-    motions = [each.motions for each in written.programs]
-    start, end, centre = (
-        np.concatenate([getattr(each, name) for each in motions]) for name in ("start", "end", "centre")
-    )
-    kind = np.concatenate([each.kind for each in motions])
-    operation = program.moves.operation[written.move]
+    origin = np.array(motions.origin)
     proofs = {}
     for n, index in enumerate(carving):
         cut, regions = job.operations[index].cut, program.areas[index].regions
         if not regions:
             continue
-        own = np.flatnonzero((operation == index) & (kind != MotionKind.RAPID))
-        a, b, c = start[own] + origin, end[own] + origin, centre[own, :2] + origin[:2]
+        own = motions.done_for(index, cutting=True)
+        a, b, c = own.start + origin, own.end + origin, own.centre[:, :2] + origin[:2]
         tool = job.tool(cut.tool)
-        begins, ends = straightened(_rows(a, b, c, kind[own]), np.stack([a[:, 2], b[:, 2]], 1), _CHORD)
+        begins, ends = straightened(_rows(a, b, c, own.kind), np.stack([a[:, 2], b[:, 2]], 1), _CHORD)
         rate = math.tan(tool.tip_angle / 2)
         tip = tool.tip_diameter / 2 - job.operations[index].over_edge
         path = ConePath(begins, ends, tip, rate, deepest(job.operations[index], job))

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,10 +19,10 @@ from ..model.motion import Floats
 from ..model.stock_box import StockBox
 from ..model.tool import Tool
 from ..simulation.cutter import Cutter, cutter_of
-from ..simulation.engines import Engine, EngineReport, Graphics, HeightEngine, Job, hardware
+from ..simulation.engines import CutStep, Engine, EngineReport, Graphics, HeightEngine, hardware
 from ..simulation.field.workpiece import Grid, Heights, StockShape, Workpiece, ensure_memory
 from ..simulation.sweeps.course import TrimOptions
-from ..simulation.sweeps.probe import PathProbe
+from ..simulation.sweeps.probe import LowestReach, PathProbe
 from ..simulation.sweeps.trim import CutResult, trim
 from ..verify.accidents import ProgramStage, accidents
 from ..verify.certify import certify
@@ -97,6 +98,7 @@ class CutOptions:
             rapids in metal.
         stop: motions from this one on, counted through all files, are not done; None = all are. The engine of record
             tells alone then.
+        facet: size of the facets of the published engine, mm; None = about two cells.
     """
 
     cells: int = CELLS
@@ -105,6 +107,7 @@ class CutOptions:
     judge: bool = True
     engine: Engine = Engine.AUTO
     stop: int | None = None
+    facet: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,6 +197,13 @@ class _CutOutcome:
     holders: HolderReport | None
 
 
+class _StepResult(NamedTuple):
+    """What the engine of record tells of a step, and the heights that are wanted."""
+
+    record: CutResult
+    heights: Heights
+
+
 @dataclass(frozen=True, eq=False)
 class _CutRun:
     """A setup made ready: what each program is cut along, the cutters, the metal."""
@@ -242,13 +252,15 @@ class _CutRun:
     def _cut(self, progress: Progress) -> _CutOutcome:
         accident: list[Finding] = []
         holders: HolderReport | None = None
-        engine = HeightEngine(self._engine(), self.graphics)
+        engine = HeightEngine(self._engine(), self.graphics, self.options.facet)
         cut: CutResult | None = None
         done, count = 0, len(self.courses)
         for k, known in enumerate(self.courses):
             part, before = progress.part(k / count, (k + 1) / count), self.workpiece if cut is None else cut.workpiece
             stop = None if self.options.stop is None else self.options.stop - done
-            after, heights = self._heights(engine, (before, known.course, self.cutters), stop, part.part(0.0, 0.8))
+            after, heights = self._heights(
+                engine, CutStep(before, known.course, self.cutters), stop, part.part(0.0, 0.8)
+            )
             if self.options.judge:
                 found = accidents(self._stage(k, before, after, done), part.part(0.8, 1.0))
                 accident, after = [*accident, *found.findings], replace(after, rapids=found.rapids)
@@ -265,20 +277,18 @@ class _CutRun:
             return self.options.engine
         return Engine.GPU if self.options.stop is None and hardware(self.graphics) else Engine.CPU
 
-    def _heights(
-        self, engine: HeightEngine, job: Job, stop: int | None, progress: Progress
-    ) -> tuple[CutResult, Heights]:
-        """Return what the engine of record tells of a job up to a motion, and the heights that are wanted."""
+    def _heights(self, engine: HeightEngine, step: CutStep, stop: int | None, progress: Progress) -> _StepResult:
+        """Return what a step leaves, up to a motion."""
         if stop is not None:
-            part = trim(*job, TrimOptions(trace=self.options.trace, stop=stop), progress)
-            return part, part.heights
+            part = trim(*step, TrimOptions(trace=self.options.trace, stop=stop), progress)
+            return _StepResult(part, part.heights)
         if engine.requested and not (self.options.trace or self.options.judge) and self.options.engine is Engine.AUTO:
-            looked = engine.alone(job, progress)
+            looked = engine.alone(step, progress)
             if looked is not None:
-                return CutResult(job[0], looked), looked
+                return _StepResult(CutResult(step.workpiece, looked), looked)
         share = 0.5 if engine.requested else 1.0
-        after = trim(*job, TrimOptions(trace=self.options.trace), progress.part(0.0, share))
-        return after, engine.beside(after.heights, job, progress.part(share, 1.0))
+        after = trim(*step, TrimOptions(trace=self.options.trace), progress.part(0.0, share))
+        return _StepResult(after, engine.beside(after.heights, step, progress.part(share, 1.0)))
 
     def _stage(self, k: int, before: Workpiece, after: CutResult, done: int) -> ProgramStage:
         """Return a program as it was cut; `done` motions were before it."""
@@ -335,8 +345,8 @@ class _CutRun:
         """All that the programs cut along, to be asked at single points; made when somebody asks."""
         return PathProbe.of([known.course for known in self.courses], self.cutters)
 
-    def _lowest(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
-        """Return the lowest height that all programs reach at points, and which of all their motions."""
+    def _lowest(self, points: Floats) -> LowestReach:
+        """Return the lowest height that all programs reach at points; motions are counted through all of them."""
         return self._path.lowest(points)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,11 +22,24 @@ from .written import WrittenProgram
 _TOLD_ELSEWHERE = (FindingKind.LEFT_REACHABLE, FindingKind.LEFT_UNREACHABLE, FindingKind.SKIN)
 
 
+@dataclass(frozen=True, eq=False)
+class MeasuredMoves:
+    """What closed forms say of the computed moves.
+
+    Attributes:
+        depths: how deep each cuts into the part.
+        coverage: what they leave.
+    """
+
+    depths: MoveDepths
+    coverage: Coverage
+
+
 def cut_job(
     program: Program,
     job: Job,
     written: WrittenProgram,
-    measured: tuple[MoveDepths, Coverage],
+    measured: MeasuredMoves,
     progress: Progress = NO_PROGRESS,
 ) -> CutProgram:
     """Cut what was written.
@@ -57,7 +70,7 @@ def cut_job(
         clamps=program.clamps,
         tabs=program.tabs,
         dog_bones=program.dog_bones,
-        floors=measured[1].targets,
+        floors=measured.coverage.targets,
     )
     # where the control changes no tools, the file names none
     programs = tuple(
@@ -69,9 +82,8 @@ def cut_job(
         )
         for file, read in zip(written.files, written.programs, strict=True)
     )
-    depths, coverage = measured
-    motion = np.searchsorted(written.move, depths.move)
-    exact = ExactDeviations(replace(depths, move=np.minimum(motion, len(written.move) - 1)), coverage)
+    motion = np.minimum(np.searchsorted(written.move, measured.depths.move), len(written.move) - 1)
+    exact = ExactDeviations(replace(measured.depths, move=motion), measured.coverage)
     return cut(
         CutSetup(programs, {tool.number: tool for tool in job.tools}, stock, part), progress=progress, exact=exact
     )

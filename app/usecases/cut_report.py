@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.durations import minutes_words
 from ..gcode.interpreter.program import Severity
 from ..gcode.timing.duration import TIME_METHOD
 from ..model.finding import Finding, FindingKind, worst_first
@@ -32,8 +33,7 @@ Json = dict[str, Any]
 ENGINES = {
     Engine.CPU: "cpu: the lowest height of every sweep in every cell, in closed form, as float32",
     Engine.GPU: "gpu: heights by a quad for each piece of the path, in closed form, as float32, on {renderer}",
-    Engine.PATENT: "patent: heights by facets of two cells from corner to corner in the depth buffer, the method of "
-    "1999, on {renderer}",
+    Engine.PATENT: "patent: heights by facets of {facet} in the depth buffer, the method of 1999, on {renderer}",
 }
 BESIDE = "; by the cpu: which motion cut each cell, volumes, rapids in metal, certificates"
 LENGTH_METHOD = (
@@ -54,7 +54,8 @@ HEIGHTS_METHODS = {
     Engine.CPU: "bound, times 1 + the surface's slope, for heights up to 32 mm; cells beside an upright wall may fall "
     "to either side",
     Engine.GPU: "how far from the cpu's they may be; cells beside an upright wall may fall to either side",
-    Engine.PATENT: "how far facets are at most inside the surface, square to it (d² / 8r of balls, d = two cells); "
+    Engine.PATENT: "how far facets are at most inside the surface, square to it (d² / 8r of balls, d their size from "
+    "corner to corner); "
     "cells beside an upright wall may fall to either side",
 }
 SPOTS = 100
@@ -315,7 +316,8 @@ def _about(done: CutProgram, ready: ReadySetup, motions: _Motions) -> Json:
 
 def _engine(reported: EngineReport) -> Json:
     """Return what has computed the heights, and how far they are from the cpu's where it has computed them as well."""
-    text, found = ENGINES[reported.engine].format(renderer=reported.renderer), reported.difference
+    size = f"{reported.facet:.4g} mm" if reported.facet else "two cells from corner to corner"
+    text, found = ENGINES[reported.engine].format(renderer=reported.renderer, facet=size), reported.difference
     if reported.engine is not Engine.CPU:
         text += BESIDE
     elif reported.fault:
@@ -325,7 +327,8 @@ def _engine(reported: EngineReport) -> Json:
         if found
         else None
     )
-    return {"engine": text, "apart_from_cpu": apart}
+    facet = {"facet_mm": reported.facet} if reported.facet else {}
+    return {"engine": text, "apart_from_cpu": apart, **facet}
 
 
 def _tolerance(done: CutProgram) -> Json:
@@ -417,7 +420,7 @@ def _summary(data: Json) -> Iterator[str]:
     )
     yield (
         f"{names}: {data['removed_mm3']:.1f} mm3 removed; {part}; {path}, {sum(data['length_mm'].values()):.0f} mm, "
-        f"{_clock(data['time_s'])} min"
+        f"{minutes_words(data['time_s'])} min"
     )
     if certificate is not None and certificate["gouge_mm"] - gouge["max_mm"] < _TELLING * certificate["pitch_mm"]:
         yield (
@@ -437,7 +440,7 @@ def _summary(data: Json) -> Iterator[str]:
     for tool in data["tools"]:
         yield (
             f"  T{tool['number']} {tool['kind']} {tool['diameter_mm']:g} mm ({tool['from']}): "
-            f"{tool['removed_mm3']:.1f} mm3, {_clock(tool['time_s'])} min{_held(tool)}"
+            f"{tool['removed_mm3']:.1f} mm3, {minutes_words(tool['time_s'])} min{_held(tool)}"
         )
 
 
@@ -461,8 +464,3 @@ def _words(box: Json) -> str:
 
 def _counted(count: int, what: str) -> str:
     return f"{count} {what}{'' if count == 1 else 's'}"
-
-
-def _clock(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes}:{rest:02d}"

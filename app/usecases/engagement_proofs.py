@@ -11,10 +11,8 @@ import numpy as np
 from ..core.progress import Progress
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
-from ..model.moves import Program
-from ..model.stock_box import stock_box, work_origin
 from ..verify.engaged_angle import CutterPath, EngagementProof, prove_engagement
-from .written import WrittenProgram
+from .written import WrittenMotions
 
 METHOD = (
     "bounds on every motion as read back: no more of the rim than reaches beyond the ground that was cleared before, "
@@ -72,36 +70,20 @@ class OperationProof:
         return found
 
 
-def engagement_proofs(
-    program: Program, job: Job, written: WrittenProgram, progress: Progress
-) -> dict[int, OperationProof]:
+def engagement_proofs(job: Job, motions: WrittenMotions, progress: Progress) -> dict[int, OperationProof]:
     """Return what is proven, by index of the operation, of those that have a limit and make moves.
 
     Raises:
         Cancelled: by progress.
     """
     limited = {k: each.proven_angle for k, each in enumerate(job.operations) if each.proven_angle is not None}
-    if not written.files or not limited:
-        return {}
-    origin = work_origin(job, stock_box(job, program.regions, program.lines))
-    columns = {
-        name: np.concatenate([getattr(each.motions, name) for each in written.programs])
-        for name in ("start", "end", "centre", "kind", "line")
-    }
-    operation = program.moves.operation[written.move]
     proofs = {}
     for n, (index, limit) in enumerate(limited.items()):
-        own = np.flatnonzero(operation == index)
+        own = motions.done_for(index)
         if not len(own):
             continue
-        path = CutterPath(
-            columns["start"][own],
-            columns["end"][own],
-            columns["centre"][own, :2],
-            columns["kind"][own],
-            job.tool(job.operations[index].cut.tool).radius,
-            -origin[2],
-        )
+        radius = job.tool(job.operations[index].cut.tool).radius
+        path = CutterPath(own.start, own.end, own.centre[:, :2], own.kind, radius, -motions.origin[2])
         proof = prove_engagement(path, limit, progress.part(n / len(limited), (n + 1) / len(limited)))
-        proofs[index] = OperationProof(index, limit, proof, origin, columns["line"][own])
+        proofs[index] = OperationProof(index, limit, proof, motions.origin, own.line)
     return proofs

@@ -16,8 +16,8 @@ from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.motion import MotionKind
 from ..model.moves import Program
-from ..model.stock_box import stock_box, work_origin
-from .written import WrittenProgram
+from ..model.stock_box import stock_box
+from .written import WrittenMotions
 
 _LEVEL = 1e-3
 """mm above Z 0 at which a pass still clears it."""
@@ -52,23 +52,20 @@ class FaceProof:
             yield Finding(FindingKind.LEFT_REACHABLE, text, self.x, self.y, amount=self.left_mm2)
 
 
-def face_proofs(program: Program, job: Job, written: WrittenProgram) -> dict[int, FaceProof]:
+def face_proofs(program: Program, job: Job, motions: WrittenMotions) -> dict[int, FaceProof]:
     """Return what is proven, by index of the operation, of those that face."""
     facing = [k for k, each in enumerate(job.operations) if isinstance(each, FaceOperation) and each.cut.enabled]
-    if not written.files or not facing:
+    if not motions.files or not facing:
         return {}
     box = stock_box(job, program.regions, program.lines)
-    origin = np.array(work_origin(job, box))
-    motions = [each.motions for each in written.programs]
-    start, end = (np.concatenate([getattr(each, name) for each in motions]) + origin for name in ("start", "end"))
-    kind = np.concatenate([each.kind for each in motions])
-    operation = program.moves.operation[written.move]
-    low = (kind == MotionKind.LINE) & (np.maximum(start[:, 2], end[:, 2]) <= _LEVEL)
+    origin = np.array(motions.origin)
     top = shapely.box(box.x0, box.y0, box.x1, box.y1)
     proofs = {}
     for index in facing:
-        own = low & (operation == index)
-        ways = shapely.linestrings(np.stack([start[own, :2], end[own, :2]], axis=1))
+        own = motions.done_for(index)
+        start, end = own.start + origin, own.end + origin
+        low = (own.kind == MotionKind.LINE) & (np.maximum(start[:, 2], end[:, 2]) <= _LEVEL)
+        ways = shapely.linestrings(np.stack([start[low, :2], end[low, :2]], axis=1))
         radius = job.tool(job.operations[index].cut.tool).profile.flat
         cleared = shapely.union_all(shapely.buffer(ways, radius - _CHORD, quad_segs=64))
         left = shapely.difference(top, cleared)

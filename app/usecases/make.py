@@ -39,7 +39,7 @@ from ..verify.verdict import (
 from .bitmap_options import is_picture
 from .carving_proofs import carving_proofs
 from .cut import CutProgram
-from .cut_job import cut_job, news
+from .cut_job import MeasuredMoves, cut_job, news
 from .engagement_proofs import engagement_proofs
 from .face_proofs import face_proofs
 from .machining import check_order
@@ -50,7 +50,7 @@ from .proposal.propose import Proposal
 from .proposed_job import with_proposal
 from .report import MakeReport, ReportData, make_report, rings_in_words
 from .thread_proofs import thread_proofs
-from .written import write_and_check
+from .written import WrittenMotions, write_and_check
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
 
@@ -270,17 +270,19 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
     program = replace(program, moves=replace(program.moves, line=lines))
     progress.step(0.2, "Checking clearance")
-    proofs = engagement_proofs(program, job, written, progress.part(0.2, 0.21))
-    carvings = carving_proofs(program, job, written, progress.part(0.21, 0.22))
-    threads = thread_proofs(program, job, written)
-    faced = face_proofs(program, job, written)
+    motions = WrittenMotions.of(written, program, job)
+    proofs = engagement_proofs(job, motions, progress.part(0.2, 0.21))
+    carvings = carving_proofs(program, job, motions, progress.part(0.21, 0.22))
+    threads = thread_proofs(program, job, motions)
+    faced = face_proofs(program, job, motions)
     depths = gouge_depths(program, job, progress=progress.part(0.22, 0.28))
     rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
     coverage = measure_beside_clear(program, job, clear_moves(program.moves, depths, CHORD), progress.part(0.3, 0.7))
     clamped = deepest_of(clamps_met(program, job, depths))
     unsafe = (*_gouge_findings(deepest, program), *_clamp_findings(clamped, program), *_rapid_findings(rapids, program))
-    metal = cut_job(program, job, written, (depths, coverage), progress.part(0.7, 0.98)) if written.files else None
+    moves = MeasuredMoves(depths, coverage)
+    metal = cut_job(program, job, written, moves, progress.part(0.7, 0.98)) if written.files else None
     own = (
         *unsafe,
         *(news(metal, unsafe) if metal is not None else ()),

@@ -5,15 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from ..core.errors import ParameterError
+from ..model.fields import parameters_of, with_values
 from ..model.job import Job, OriginXY, OriginZ, Stock
 from ..model.machine import Machine
-from ..model.operation import (
-    LEAST_LENGTH,
-    Operation,
-    Order,
-    PocketOperation,
-    Side,
-)
+from ..model.operation import LEAST_LENGTH, Operation, Order, Side
 from ..model.part import Part, Units
 from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.tool import Tool
@@ -21,6 +16,9 @@ from .bitmap_options import BitmapOptions
 from .layers import layers_to_read, with_layers_spelled
 from .machining import MachiningOptions, contours_alone, no_effect, with_drills, with_machining
 from .proposal.propose import ProposalOptions
+
+_STEPOVER = "stepover"
+"""Key of the parameter that options for pockets change."""
 
 LEAST_PER_CENT = 1.0
 """Of the diameter; a smaller stepover is a slip of the pen."""
@@ -188,12 +186,12 @@ def _diameter(operation: Operation, options: MakeOptions) -> float | None:
 
 def _operation(operation: Operation, tools: dict[int, Tool], options: MakeOptions) -> Operation:
     """Return the operation with the stepover that was asked for."""
-    if not isinstance(operation, PocketOperation):
+    if not operation.COARSE or _STEPOVER not in parameters_of(type(operation)):
         return operation
     if operation.cut.tool not in tools:
         raise ParameterError(f"The job has no tool T{operation.cut.tool}; add it to the tools or choose another.")
     diameter = tools[operation.cut.tool].diameter
-    stepover = operation.stepover
+    stepover = operation.ring_stepover
     if options.stepover is not None:
         stepover = options.stepover.of(diameter)
     if options.overlap is not None:
@@ -203,7 +201,7 @@ def _operation(operation: Operation, tools: dict[int, Tool], options: MakeOption
             f"Stepover is {stepover:g} mm with a pocket tool of {diameter:g} mm; "
             f"it must be {LEAST_LENGTH:g} mm or more and not more than the tool's diameter."
         )
-    return replace(operation, stepover=stepover)
+    return with_values(operation, {_STEPOVER: stepover})
 
 
 def _stepover_of_overlap(options: MakeOptions, diameter: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, PathPicture, PicturePathStyle, Points
+from ..formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, PathPicture, Points, StyledPath
 from ..geometry.primitives import contour_rows
 from ..model.moves import MoveKind, Moves, Program, Purpose
 from ..toolpath.coverage.coverage import Coverage
@@ -33,7 +33,7 @@ def picture_of(name: str, program: Program, coverage: Coverage) -> PathPicture:
     return PathPicture(
         title=name,
         contours=tuple(contour_rows(contour) for region in program.regions for contour in region.contours),
-        paths=tuple(sorted(_runs(moves), key=lambda run: _ORDER.index(run[0]))),
+        paths=tuple(sorted(_runs(moves), key=lambda run: _ORDER.index(run.style))),
         plunges=np.unique(moves.end[plunge, :2], axis=0),
         left=_rings(coverage, True),
         unreachable=_rings(coverage, False),
@@ -46,8 +46,8 @@ def _rings(coverage: Coverage, reachable: bool) -> tuple[Points, ...]:
     return tuple(ring for place in places for ring in (place.outline, *place.holes))
 
 
-def _runs(moves: Moves) -> list[tuple[PicturePathStyle, np.ndarray]]:
-    """Return style and rows of each run of moves of one purpose; moves straight up or down are left out."""
+def _runs(moves: Moves) -> list[StyledPath]:
+    """Return each run of moves of one purpose; moves straight up or down are left out."""
     if not len(moves):
         return []
     rows, purpose = move_rows(moves), np.where(moves.kind == MoveKind.RAPID, Purpose.RAPID, moves.purpose)
@@ -55,4 +55,4 @@ def _runs(moves: Moves) -> list[tuple[PicturePathStyle, np.ndarray]]:
     shown = (rows[:, 0] != rows[:, 2]) | (rows[:, 1] != rows[:, 3]) | arc
     cuts = np.flatnonzero((np.diff(purpose) != 0) | (np.diff(shown.astype(int)) != 0)) + 1
     runs = np.split(np.arange(len(moves)), cuts)
-    return [(_STYLES[Purpose(int(purpose[run[0]]))], rows[run]) for run in runs if shown[run[0]]]
+    return [StyledPath(_STYLES[Purpose(int(purpose[run[0]]))], rows[run]) for run in runs if shown[run[0]]]

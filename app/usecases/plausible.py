@@ -20,6 +20,7 @@ from ..formats.reading_question import (
     ReadingChoice,
     ReadingQuestion,
     Size,
+    SizeInUnits,
     UndecidedError,
     size_question,
     size_words,
@@ -111,7 +112,7 @@ def _question(
         )
         keep = ReadingChoice(f"Keep {UNIT_WORDS[units]}", replace(reading, units=units), size_words(size))
     others = [(each, sized(each)) for each in _LIKELY if each is not units or per_inch is not None]
-    fitting = [(each, found) for each, found in others if max(found) and not _doubt(found, tools)]
+    fitting = [SizeInUnits(each, found) for each, found in others if max(found) and not _doubt(found, tools)]
     return size_question(size, whence, keep, fitting, tools)
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..core import tolerances
+from ..core.durations import minutes_words
 from ..gcode.timing.duration import TIME_METHOD
 from ..gcode.timing.extent import Extent
 from ..gcode.writer.write import blend_mm, writing_tolerance
@@ -107,12 +108,11 @@ class MakeReport:
         """Return it in one line for people."""
         data = self.data
         beyond = out_of_reach(data["left"])
-        minutes, seconds = divmod(round(data["time_s"]), 60)
         length = sum(data["length_mm"].values())
         return (
             f"{output}: {data['gouge']['max_mm']:.4f} mm gouge, {data['left']['reachable_mm2']:.3f} mm2 left within "
             f"reach, {beyond}{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
-            f"{data['retracts']} retracts, {length:.0f} mm, {minutes}:{seconds:02d} min; read back within "
+            f"{data['retracts']} retracts, {length:.0f} mm, {minutes_words(data['time_s'])} min; read back within "
             f"{data['check']['largest_distance_mm']:.4f} mm"
         )
 
@@ -247,6 +247,11 @@ def _times(written: WrittenProgram) -> Json:
             "cut": sum(part["cut"] for part in parts),
             "rapid": sum(part["rapid"] for part in parts),
             "wait": waits,
+        },
+        "tool_changes": {
+            "count": sum(each.changes for each in written.durations)
+            + (len(written.files) if written.post.file_per_tool else 0),
+            "time_s": written.changes_s + sum(each.changing for each in written.durations),
         },
         "time_method": TIME_METHOD.format(written.machine.title),
     }

@@ -7,12 +7,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core.errors import HitofudeError, InputError
+from ..core.file_bytes import FileBytes
 from ..core.progress import NO_PROGRESS, Progress
-from ..formats.job.toml import JobFile
+from ..formats.job.toml import JobFile, StatedOrigin
 from ..gcode.interpreter.codes import ROTARY
 from ..gcode.interpreter.program import HeaderNote, OperationNote
 from ..model.finding import Finding, FindingKind
@@ -21,12 +23,12 @@ from ..model.job import Stock as JobStock
 from ..model.motion import Floats, MotionKind
 from ..model.moves import DogBone, Tab
 from ..model.operation import CutParameters, Operation, PocketOperation
-from ..model.part import Contour, Region, Units
 from ..model.part import Part as DrawnPart
+from ..model.part import Units
 from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.reading import ReadingOptions
 from ..model.scene import Scene
-from ..model.stock_box import stock_box, work_origin
+from ..model.stock_box import StockBox, stock_box, work_origin
 from ..simulation.field.solid import SolidStock, read_solid
 from ..simulation.field.workpiece import BoxStock, StockShape
 from ..verify.parts import TOLERANCE, FlatPart, Part, SolidPart
@@ -63,13 +65,13 @@ class SetupRequest:
     tools: tuple[ToolSource, ...] = ()
     job: JobFile | None = None
     stock: StockShape | None = None
-    against: tuple[str, bytes] | None = None
+    against: FileBytes | None = None
     beside: Callable[[str], bytes] | None = None
     depth: float | None = None
     leave: float | None = None
     layers: tuple[str, ...] = ()
     units: Units | None = None
-    origin: tuple[OriginXY | None, OriginZ | None] | None = None
+    origin: StatedOrigin | None = None
     join_tolerance: float | None = None
     tolerance: float | None = None
     held: Mapping[int, ToolHolding] = field(default_factory=dict)
@@ -113,8 +115,8 @@ def setup_of(
     progress.step(0.0, "Looking for tools and stock")
     scene = _scene(request)
     noted = () if scene is None else (ToolSource("the scene", {tool.number: tool for tool in scene.tools}),)
-    programs, tools, assumed = with_tools(programs, (*request.tools, *noted))
-    tools = with_holders(tools, request.held)
+    known = with_tools(programs, (*request.tools, *noted))
+    programs, tools = known.programs, with_holders(known.tools, request.held)
     part: Part | None = None
     said: tuple[Finding, ...] = ()
     if scene is not None:
@@ -133,7 +135,7 @@ def setup_of(
     of_stock = _wound("the stock", stock.stock) if isinstance(stock.stock, SolidStock) else ()
     found = (
         *_unfollowed(programs),
-        *assumed,
+        *known.findings,
         *of_stock,
         *((stock.assumed,) if stock.assumed is not None else ()),
         *said,
@@ -198,15 +200,20 @@ def _part_box(part: Part) -> Floats:
     return np.array([[box.x0, box.y0, -depth], [box.x1, box.y1, 0.0]]) - part.origin
 
 
-def _part(
-    programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], request: SetupRequest
-) -> tuple[Part, tuple[Finding, ...]]:
+class _PartRead(NamedTuple):
+    """A part, and what there is to say about it."""
+
+    part: Part
+    findings: tuple[Finding, ...]
+
+
+def _part(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], request: SetupRequest) -> _PartRead:
     assert request.against is not None
     name, data = request.against
     suffix = PurePath(name).suffix.lower()
     if suffix == ".stl":
         solid = read_solid(name, data)
-        return _solid(solid, request), _wound(name, solid)
+        return _PartRead(_solid(solid, request), _wound(name, solid))
     return _flat(programs, tools, request)
 
 
@@ -224,7 +231,7 @@ def _surfaces(scene: Scene, header: HeaderNote, request: SetupRequest) -> SolidP
     from ..formats.scene.toml import sources_of
     from .scene_part import scene_part
 
-    xy, z = request.origin or (None, None)
+    xy, z = request.origin or StatedOrigin()
     scene = replace(scene, origin_xy=xy or scene.origin_xy, origin_z=z or scene.origin_z)
     zero = header.origin if request.origin is None else None
     return scene_part(scene, sources_of(request.beside or _nothing_beside), zero, request.leave, request.tolerance)
@@ -246,7 +253,7 @@ def _solid(solid: SolidStock, request: SetupRequest) -> SolidPart:
     """Return a solid in program coordinates."""
     triangles = solid.triangles * (request.units or Units.MM).value
     low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
-    xy, z = request.origin or (None, None)
+    xy, z = request.origin or StatedOrigin()
     zero = np.zeros(3)
     if xy is OriginXY.LOWER_LEFT:
         zero[:2] = low[:2]
@@ -258,9 +265,7 @@ def _solid(solid: SolidStock, request: SetupRequest) -> SolidPart:
     return SolidPart(replace(solid, triangles=triangles - zero), request.leave or 0.0, tolerance)
 
 
-def _flat(
-    programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], request: SetupRequest
-) -> tuple[FlatPart, tuple[Finding, ...]]:
+def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], request: SetupRequest) -> _PartRead:
     """Return the drawing and what of it is milled, and what there is to say about it."""
     from ..operations.compute import drawing_findings, followed_lines, machined_regions
     from ..operations.unmachined import unmachined_findings
@@ -300,7 +305,7 @@ def _flat(
     part = FlatPart(
         job,
         regions,
-        _origin(job, (regions, lines), request, header),
+        _origin(job, stock_box(job, regions, lines), request, header),
         tolerance if proven is None else proven,
         tolerance,
         header.allowance or 0.0,
@@ -311,7 +316,7 @@ def _flat(
         dog_bones=dog_bones,
     )
     noted = (*reading.findings, *_differing(request, header, drawing.part.units))
-    return part, (
+    found = (
         *noted,
         *drawing.findings,
         *drawing_findings(job, parts, lines),
@@ -320,6 +325,7 @@ def _flat(
         *floor_findings(areas, CHORD),
         *unmachined_findings(sheets, regions),
     )
+    return _PartRead(part, found)
 
 
 def _differing(request: SetupRequest, header: HeaderNote, units: Units) -> Iterator[Finding]:
@@ -329,10 +335,17 @@ def _differing(request: SetupRequest, header: HeaderNote, units: Units) -> Itera
     yield from other_length("--join-tolerance", request.join_tolerance, header.join_tolerance)
 
 
-def _on_purpose(programs: tuple[ExaminedProgram, ...]) -> tuple[tuple[Tab, ...], tuple[DogBone, ...]]:
+class _OnPurpose(NamedTuple):
+    """What stays and what is cut into the walls on purpose."""
+
+    tabs: tuple[Tab, ...]
+    dog_bones: tuple[DogBone, ...]
+
+
+def _on_purpose(programs: tuple[ExaminedProgram, ...]) -> _OnPurpose:
     """Return tabs and dog-bones that headers of our own tell of, each once."""
     headers = [each.program.header for each in programs if each.program.header is not None]
-    return (
+    return _OnPurpose(
         tuple(dict.fromkeys(tab for header in headers for tab in header.tabs)),
         tuple(dict.fromkeys(dog_bone for header in headers for dog_bone in header.dog_bones)),
     )
@@ -340,7 +353,7 @@ def _on_purpose(programs: tuple[ExaminedProgram, ...]) -> tuple[tuple[Tab, ...],
 
 def _origin(
     job: Job,
-    milled: tuple[tuple[Region, ...], tuple[Contour, ...]],
+    box: StockBox,
     request: SetupRequest,
     header: HeaderNote,
 ) -> tuple[float, float, float]:
@@ -348,7 +361,7 @@ def _origin(
     requested = request.origin is not None or (request.job is not None and "origin" in request.job.tables)
     if not requested:
         return header.origin or (0.0, 0.0, 0.0)
-    return work_origin(job, stock_box(job, *milled))
+    return work_origin(job, box)
 
 
 def _job(
@@ -364,7 +377,7 @@ def _job(
     }
     operations = tuple(each for each in operations if each.cut.tool in mine)
     header = _header(programs)
-    xy, z = request.origin or (base.origin_xy, base.origin_z)
+    xy, z = request.origin or StatedOrigin(base.origin_xy, base.origin_z)
     join = next(
         (
             t
@@ -386,8 +399,8 @@ def _job(
         join_tolerance=base.join_tolerance if join is None else join,
         layer_names=layers,
         copies=copies if request.job and "copies" in request.job.tables else header.copies or Copies(),
-        keep_out_layers=clamps or header.keep_out[0],
-        keep_out_height=height or header.keep_out[1],
+        keep_out_layers=clamps or header.keep_out.layers,
+        keep_out_height=height or header.keep_out.height,
     )
 
 

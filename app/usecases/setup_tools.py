@@ -52,11 +52,22 @@ class ToolSource:
     shapeless: bool = False
 
 
-def with_tools(
-    programs: tuple[ExaminedProgram, ...],
-    noted: tuple[ToolSource, ...],
-) -> tuple[tuple[ExaminedProgram, ...], dict[int, KnownTool], tuple[Finding, ...]]:
-    """Return the programs, what each tool is that cuts, by T number, and what was assumed.
+@dataclass(frozen=True)
+class ProgramsWithTools:
+    """Programs that name all their tools.
+
+    Attributes:
+        tools: what each is that cuts, by T number.
+        findings: what was assumed.
+    """
+
+    programs: tuple[ExaminedProgram, ...]
+    tools: dict[int, KnownTool]
+    findings: tuple[Finding, ...]
+
+
+def with_tools(programs: tuple[ExaminedProgram, ...], noted: tuple[ToolSource, ...]) -> ProgramsWithTools:
+    """Return the programs with what each tool is.
 
     A program that cuts without naming a tool gets the number of the one that its comments tell of, else that of the
     only tool that is given, else one that is free.
@@ -78,7 +89,7 @@ def with_tools(
     findings = tuple(
         Finding(FindingKind.ASSUMED, each.assumed, counts=False) for each in known.values() if each.assumed
     )
-    return tuple(named), dict(sorted(known.items())), findings
+    return ProgramsWithTools(tuple(named), dict(sorted(known.items())), findings)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,15 +10,17 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.effort import announce
 from ..core.errors import HitofudeError, InputError
 from ..core.progress import NO_PROGRESS, Progress
-from ..fitting.fitted import FittedPath
+from ..fitting.fitted import FittedPath, RefusalReason, SplineRefusal
 from ..fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from ..fitting.point_curves.corners import bends, corners
-from ..fitting.point_curves.effective_method import EffectiveMethod, PointClasses, without_repeats
+from ..fitting.point_curves.effective_method import EffectiveMethod, PointClasses, states_across, without_repeats
 from ..fitting.point_curves.proven_curve import SplineOptions, fit_splines
+from ..fitting.point_curves.region_profile import judge_in_profile
 from ..fitting.point_curves.smoothness import of_curve, of_points
 from ..fitting.point_curves.space_curve import SpaceCurve, curve_of_motions, joined
 from ..fitting.point_curves.through_points import through_points
@@ -37,7 +39,17 @@ from ..geometry.coincident_points import near
 from ..model.motion import Floats, MotionKind, Motions, Nurbs
 from .effort import smooth_effort
 from .smooth_report import certificate
-from .smooth_result import REACH, TOLERANCES, OutputForm, SmoothedProgram, SmoothedStretch, SmoothOptions
+from .smooth_result import (
+    REACH,
+    TOLERANCES,
+    OutputForm,
+    RoundFigures,
+    SmoothedProgram,
+    SmoothedStretch,
+    SmoothOptions,
+    WrittenKinds,
+    figures_of,
+)
 from .smooth_source import SourceProgram, read_source
 
 __all__ = ["TOLERANCES", "OutputForm", "SmoothOptions", "SmoothedProgram", "SmoothedStretch", "smooth"]
@@ -65,6 +77,11 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
         Cancelled: the job was asked to stop.
     """
     ready = read_source(name, data, options.dialect, options.post, progress.part(0.0, 0.15))
+    if options.insist and ready.post.nurbs.form is NurbsForm.NONE:
+        raise InputError(
+            f"{ready.post.title} knows no splines, so none can be insisted on; leave --insist out, or name a post "
+            "that has them, --post fanuc or --post linuxcnc."
+        )
     found = find_stretches(ready.program, ProgramBuffer(ready.data), progress.part(0.15, 0.2))
     announce(smooth_effort(found.stretches, options.form, options.effective), progress)
     work = _SmoothingRun(options, ready, found)
@@ -80,7 +97,14 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
             break
         for k, fault in failed.items():
             del blocks[k]
-            kept[k] = fault
+            if not work.narrower(k):
+                kept[k] = fault
+                continue
+            made = work.blocks_of(k, progress.part(0.2, 0.7))
+            if isinstance(made, str):
+                kept[k] = made
+            else:
+                blocks[k] = made
     work.require_the_rest(after, new)
     pieces = tuple(
         work.piece(k, judged.get(k), kept.get(k, ""), len(blocks.get(k, ()))) for k in range(len(found.stretches))
@@ -108,6 +132,7 @@ class _JudgedStretch:
     Attributes:
         curve: what is driven along. judgement: of it. near: of it by the points of method D alone; None without it.
         cut: whether a corner is kept no more. rounded: how many bends beside shorter legs are not.
+        kinds: what was read back.
     """
 
     curve: SpaceCurve
@@ -115,6 +140,7 @@ class _JudgedStretch:
     near: TubeJudgement | None
     cut: bool
     rounded: int
+    kinds: WrittenKinds
 
     @property
     def fault(self) -> str:
@@ -138,33 +164,51 @@ class _SmoothingRun:
             without_repeats(stretch.points if points is None else points)
             for stretch, points in zip(found.stretches, own, strict=True)
         ]
-        self._tube = ToleranceTube(options.tolerance, options.middle)
+        self._widest = options.widest
+        profile = options.profile
+        self._tubes = (ToleranceTube(options.tolerance, options.middle),) if profile is None else profile.tried
+        self._tried = [0] * len(own)
         self._classes: dict[int, PointClasses] = {}
+        self._states: dict[int, NDArray[np.uint8]] = {}
+        self._refusals: dict[int, tuple[SplineRefusal, ...]] = {}
+        self._rounds: dict[int, list[RoundFigures]] = {}
 
     def written(self, progress: Progress) -> tuple[dict[int, tuple[str, ...]], dict[int, str]]:
         """Return the new blocks of stretches, and why others stay."""
         blocks: dict[int, tuple[str, ...]] = {}
         kept: dict[int, str] = {}
         count = len(self._found.stretches)
-        for k, stretch in enumerate(self._found.stretches):
+        for k in range(count):
             progress.step(k / count, f"Stretch {k + 1} of {count}")
-            if len(self._points[k]) < 3 or k in self._astray:
-                kept[k] = "its moves are not the source's one by one" if k in self._astray else "it is too short"
-                continue
-            share = progress.part(k / count, (k + 1) / count)
-            state = self._program.states[self._program.motions.state[stretch.first]]
-            spelling = BlockFormat(self._post, state, stretch.feed, stretch.resumed)
-            made = curve_blocks(self._fitted(k, self._options.form, share).motions, spelling)
-            if len(made) >= len(stretch.points) - 1 and self._options.form is OutputForm.NURBS:
-                made = curve_blocks(self._fitted(k, OutputForm.ARCS, share).motions, spelling)
-            if len(made) >= len(stretch.points) - 1:
-                kept[k] = "it would not take fewer blocks"
+            made = self.blocks_of(k, progress.part(k / count, (k + 1) / count))
+            if isinstance(made, str):
+                kept[k] = made
             else:
                 blocks[k] = made
         return blocks, kept
 
+    def blocks_of(self, k: int, progress: Progress) -> tuple[str, ...] | str:
+        """Return the new blocks of a stretch, or why it stays."""
+        stretch, insists = self._found.stretches[k], self._options.insist
+        if len(self._points[k]) < 3 or k in self._astray:
+            return "its moves are not the source's one by one" if k in self._astray else "it is too short"
+        state = self._program.states[self._program.motions.state[stretch.first]]
+        spelling = BlockFormat(self._post, state, stretch.feed, stretch.resumed)
+        path = self._fitted(k, self._options.form, progress)
+        made, self._refusals[k] = curve_blocks(path.motions, spelling), path.refusals
+        if len(made) >= len(stretch.points) - 1 and self._options.form is OutputForm.NURBS and not insists:
+            tried = len(made)
+            made = curve_blocks(self._fitted(k, OutputForm.ARCS, progress).motions, spelling)
+            self._refusals[k] = (SplineRefusal(RefusalReason.BLOCKS, tried, len(made)),)
+        return "it would not take fewer blocks" if len(made) >= len(stretch.points) - 1 and not insists else made
+
+    def narrower(self, k: int) -> bool:
+        """Have a stretch fitted in a narrower part of its region; return whether there is one."""
+        self._tried[k] += 1
+        return self._tried[k] < len(self._tubes)
+
     def _fitted(self, k: int, form: OutputForm, progress: Progress) -> FittedPath:
-        points, stretch = self._points[k], self._found.stretches[k]
+        points, stretch, given = self._points[k], self._found.stretches[k], self._tubes[self._tried[k]]
         state = self._program.states[self._program.motions.state[stretch.first]]
         step = 10.0 ** -self._post.digits(state.units).X * state.units.value
         slack = 2.0 * step
@@ -174,9 +218,8 @@ class _SmoothingRun:
                 f"{self._post.title}, {step:g} mm; use {5 * step:g} mm or more, or a post with more decimals."
             )
         if self._options.effective is not None:
-            classes = self._options.effective.classes(
-                points, corners(points, self._options.corner, REACH * self._tube.widest)
-            )
+            at = corners(points, self._options.corner, REACH * self._widest)
+            classes = self._options.effective.classes(points, at, self._across(self._options.effective).get(k))
             self._classes[k] = classes
             points, spent = classes.passed, classes.off
             if len(points) < 2:  # a closed path that one range holds: only its seam is effective
@@ -184,28 +227,28 @@ class _SmoothingRun:
                     f"Lines {' to '.join(map(str, self._source.lines(stretch)))} are one facet for this epsilon: only "
                     "the point where they close is effective. Use a smaller epsilon."
                 )
-            if not self._tube.radius > slack + spent:
+            if not given.radius > slack + spent:
                 raise InputError(
                     f"Points of lines {' to '.join(map(str, self._source.lines(stretch)))} are up to {spent:.4g} mm "
                     "off the path by the effective ones, which leaves nothing of the tolerance; use a smaller "
                     f"epsilon, or more than {slack + spent:.4g} mm."
                 )
-            tube = self._near(self._options.effective, slack, self._tube.widest - slack - spent)
+            tube = self._near(self._options.effective, slack, given.widest - slack - spent)
             if self._options.effective.on_shape:
                 fine = _FINE * tube.radius
                 tube = ToleranceTube(tube.radius - fine)
-                at = corners(points, self._options.corner, REACH * self._tube.widest)
-                points = through_points(points, at, fine, self._tube.widest - slack - spent - tube.radius)
+                at = corners(points, self._options.corner, REACH * self._widest)
+                points = through_points(points, at, fine, given.widest - slack - spent - tube.radius)
         else:
-            tube = self._tube.narrower(slack)
+            tube = given.narrower(slack)
         nurbs = self._post.nurbs.form
         largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
         arcs = ArcOptions(
             tube.radius, self._options.corner, largest, form is not OutputForm.LINES, tube.middle, self._options.bend
         )
         if form is not OutputForm.NURBS or nurbs is NurbsForm.NONE:
-            return fit_arcs(points, arcs, progress)
-        level = nurbs is NurbsForm.BEZIER
+            return self._without_splines(fit_arcs(points, arcs, progress), form)
+        level, rounds = nurbs is NurbsForm.BEZIER, self._rounds.setdefault(k, [])
         blocks, uncut = _quarters if level else _knots, replace(arcs, corner=math.pi)
         cubic = _FOR_CUBICS * tube.radius if self._options.degree != 3 else 0.0
         tube = tube.narrower(cubic)
@@ -217,8 +260,27 @@ class _SmoothingRun:
             blocks,
             level,
             lambda part, share: fit_arcs(part, uncut, share),
+            self._options.insist,
+            lambda seen: rounds.append(figures_of(seen)),
         )
         return fit_splines(points, splines, progress)
+
+    def _without_splines(self, path: FittedPath, form: OutputForm) -> FittedPath:
+        """Return a path of lines and arcs, with the reason where splines were asked for."""
+        if form is not OutputForm.NURBS:
+            return path
+        return replace(path, refusals=(SplineRefusal(RefusalReason.CONTROL, 0, len(path.motions)),))
+
+    def _across(self, method: EffectiveMethod) -> dict[int, NDArray[np.uint8]]:
+        """Return what the points of stretches are by the facets of the surface that they lie on, where that is asked
+        for; found once.
+        """
+        if method.across and not self._states:
+            numbers = [k for k, points in enumerate(self._points) if len(points) > 2]
+            paths = [self._points[k] for k in numbers]
+            at = [corners(points, self._options.corner, REACH * self._widest) for points in paths]
+            self._states = dict(zip(numbers, states_across(paths, at, method.choose.epsilon), strict=True))
+        return self._states
 
     def _near(self, method: EffectiveMethod, slack: float, between: float) -> ToleranceTube:
         """Return the region round the points that method D goes by: near to them, as wide as may be between them."""
@@ -240,15 +302,23 @@ class _SmoothingRun:
             row, stop = int(rows.min()), int(rows.max()) + 1
             curve, ends = self._driven(after.motions, row, stop), after.motions.end[row:stop]
             near_by = self._judged_near(k, curve)
-            judgement = judge(curve, self._points[k], self._tube)
-            answers[k] = _JudgedStretch(curve, judgement, near_by, *self._lost(self._points[k], ends))
+            judgement = self._judged_whole(k, curve)
+            kinds = _kinds(after.motions.kind[row:stop])
+            answers[k] = _JudgedStretch(curve, judgement, near_by, *self._lost(self._points[k], ends), kinds)
         return answers
+
+    def _judged_whole(self, k: int, curve: SpaceCurve) -> TubeJudgement:
+        """Return whether a curve is in the region that was asked for, whatever part of it the curve was fitted in."""
+        profile = self._options.profile
+        if profile is not None:
+            return judge_in_profile(curve, self._points[k], profile)
+        return judge(curve, self._points[k], self._tubes[0])
 
     def _judged_near(self, k: int, curve: SpaceCurve) -> TubeJudgement | None:
         """Return how near a curve goes to the points of method D; between them it may be as far as the tolerance."""
         if (nearness := self.nearness) is None:
             return None
-        return judge(curve, self._classes[k].passed, ToleranceTube(nearness, max(self._tube.widest, nearness)))
+        return judge(curve, self._classes[k].passed, ToleranceTube(nearness, max(self._widest, nearness)))
 
     def _lost(self, points: Floats, ends: Floats) -> tuple[bool, int]:
         """Return whether a corner is kept no more, and how many bends beside shorter legs are not: no written motion
@@ -320,7 +390,7 @@ class _SmoothingRun:
         """Return one stretch, before and after."""
         stretch, points, classes = self._found.stretches[k], self._points[k], self._classes.get(k)
         count = stretch.stop - stretch.first
-        at = corners(points, self._options.corner, REACH * self._tube.widest) if len(points) > 2 else np.array([0])
+        at = corners(points, self._options.corner, REACH * self._widest) if len(points) > 2 else np.array([0])
         before = of_points(points, points[at])
         alike = SmoothedStretch(
             stretch,
@@ -347,7 +417,17 @@ class _SmoothingRun:
             after=of_curve(judged.curve, points[at]),
             near=judged.near,
             rounded=judged.rounded,
+            kinds=judged.kinds,
+            refusals=self._refusals.get(k, ()),
+            rounds=tuple(self._rounds.get(k, ())),
         )
+
+
+def _kinds(kind: NDArray[np.uint8]) -> WrittenKinds:
+    """Return how many motions of each kind there are; one that goes nowhere is a line."""
+    splines = int(np.sum(kind == MotionKind.SPLINE))
+    lines = int(np.sum(kind <= MotionKind.LINE))
+    return WrittenKinds(lines, len(kind) - lines - splines, splines)
 
 
 def _knots(curve: Nurbs) -> int:

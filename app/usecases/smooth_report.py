@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 from typing import Any
 
 import numpy as np
 
+from ..fitting.fitted import RefusalReason, SplineRefusal
 from ..fitting.line_arcs.arc_fit import BEND
 from ..fitting.point_curves.effective_points import PointState
+from ..fitting.point_curves.smoothness import joints_of
 from ..gcode.interpreter.dialect import DIALECT_RULES
 from ..model.finding import Finding, FindingKind
 from .smooth_result import SmoothedProgram, SmoothedStretch
@@ -23,15 +26,15 @@ def certificate(done: SmoothedProgram) -> tuple[str, ...]:
     """Return the proof in a few sentences, for the program's head."""
     changed = _changed(done)
     came, left = _blocks(done)
-    reported = (
-        f"hitofude smooth: {len(changed)} of {len(done.pieces)} stretches written anew as {done.options.form.value}"
-    )
+    head = f"hitofude smooth: {len(changed)} of {len(done.pieces)} stretches written anew"
     if not changed:
-        return (reported, *_other_control(done))
+        return (head, *_other_control(done))
+    reported = f"{head} as {done.kinds.words}"
     bend, step = _most(done, "bend"), _most(done, "curvature_step")
     return (
         f"{reported}, {came} blocks before, {left} after",
-        f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to "
+        *refused_words(done.refusals),
+        f"{_region_words(done)}; proven both ways, as written: {done.bound:.6f} mm; found: curve to "
         f"moves {max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
         f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after{_bend_words(done)}; "
@@ -45,6 +48,29 @@ def certificate(done: SmoothedProgram) -> tuple[str, ...]:
         "the control may add what its own blending allows",
         *_other_control(done),
     )
+
+
+def _region_words(done: SmoothedProgram) -> str:
+    """Return how far apart curve and moves may be."""
+    options = done.options
+    if options.profile is None:
+        return f"tolerance {options.tolerance:g} mm"
+    radii = ", ".join(f"{options.profile.outline.radius(share):.4g}" for share in np.linspace(0, 1, 5))
+    return f"region by its outline, {radii} mm from one point to the next by quarters"
+
+
+def refused_words(refusals: tuple[SplineRefusal, ...]) -> tuple[str, ...]:
+    """Return in a sentence for each reason where something else stands than the splines that were asked for."""
+    told = []
+    for reason in RefusalReason:
+        about = [each for each in refusals if each.reason is reason]
+        if not about:
+            continue
+        runs = "1 run" if len(about) == 1 else f"{len(about)} runs"
+        blocks, instead = (sum(getattr(each, name) for each in about) for name in ("blocks", "instead"))
+        took = f": {blocks} blocks, in place of {instead}" if blocks else ""
+        told.append(f"no spline in {runs}, {reason.value}{took}")
+    return tuple(told)
 
 
 def _bend_words(done: SmoothedProgram) -> str:
@@ -84,6 +110,21 @@ def findings(done: SmoothedProgram) -> tuple[Finding, ...]:
     return tuple(
         Finding(FindingKind.TOLERANCE, f"Lines {piece.lines[0]} to {piece.lines[1]} stay as they were: {piece.kept}.")
         for piece in lost
+    ) + _not_splines(done)
+
+
+def _not_splines(done: SmoothedProgram) -> tuple[Finding, ...]:
+    """Return where splines were insisted on and something else stands."""
+    if not done.options.insist:
+        return ()
+    refused = [
+        (piece.lines, "; ".join(refused_words(piece.refusals)))
+        for piece in done.pieces
+        if piece.judgement is not None and piece.refusals
+    ]
+    return tuple(
+        Finding(FindingKind.TOLERANCE, f"Lines {first} to {last} are not splines all along: {why}.")
+        for (first, last), why in refused
     )
 
 
@@ -102,9 +143,17 @@ def report(done: SmoothedProgram) -> Json:
         },
         "warnings": [problem.message(done.name) for problem in done.source.problems],
         "as": done.options.form.value,
+        "insist": done.options.insist,
+        "written": dataclasses.asdict(done.kinds) | {"words": done.kinds.words},
+        "not_splines": [
+            {"reason": each.reason.value, "spline_blocks": each.blocks or None, "blocks": each.instead}
+            for each in done.refusals[:LISTED]
+        ],
         "tolerance": {
             "asked_mm": done.options.tolerance,
             "middle_mm": done.options.middle,
+            "outline": None if done.options.profile is None else done.options.profile.text,
+            "widest_mm": done.options.widest,
             "proven_mm": done.bound,
             "curve_to_moves_found_mm": max(
                 (piece.judgement.from_curve for piece in changed if piece.judgement), default=0.0
@@ -152,7 +201,45 @@ def _listed(piece: SmoothedStretch) -> Json:
         "curve_to_moves_found_mm": judgement.from_curve,
         "moves_to_curve_found_mm": judgement.from_points,
         "farthest": {"x": x, "y": y, "z": z, "chord": judgement.chord},
+        "written": dataclasses.asdict(piece.kinds),
+        **_rounds(piece),
+        **_joints(piece),
         **_points_of(piece),
+    }
+
+
+def _rounds(piece: SmoothedStretch) -> Json:
+    """Return the rounds of the text's figure 4, where splines were tried."""
+    names = {
+        "farthest": "farthest_mm",
+        "outside": "points_outside",
+        "unproven": "chords_unproven",
+        "spread": "thinning",
+    }
+    told = [
+        {names.get(name, name): value for name, value in dataclasses.asdict(each).items()}
+        for each in piece.rounds[:LISTED]
+    ]
+    return {"rounds": told} if told else {}
+
+
+def _joints(piece: SmoothedStretch) -> Json:
+    """Return where one written motion goes over into the next, those that bend most first."""
+    if piece.curve is None:
+        return {}
+    joints = sorted(joints_of(piece.curve), key=lambda each: -each.bend)
+    return {
+        "joints": [
+            {
+                "x": each.place[0],
+                "y": each.place[1],
+                "z": each.place[2],
+                "bend_deg": math.degrees(each.bend),
+                "curvature_step_per_mm": each.curvature_step,
+            }
+            for each in joints[:LISTED]
+        ],
+        "joints_not_listed": max(len(joints) - LISTED, 0),
     }
 
 

@@ -36,6 +36,7 @@ from ..surfaces.sections.compound import CompoundSurface, CuttingPlanes
 from ..surfaces.sections.planes import even_planes, widened
 from ..surfaces.sections.section import compound_surface
 from .effort import scene_effort
+from .plane_rules import expanded
 from .scene_findings import moves_findings, scene_findings
 
 FLOOR = "floor"
@@ -118,34 +119,76 @@ def compute(scene: Scene, sources: SceneFiles, progress: Progress = NO_PROGRESS)
     Raises:
         HitofudeError: a surface cannot be made, or passes cannot be computed. Cancelled: the job was asked to stop.
     """
-    built = build(scene, sources, progress.part(0.0, 0.05))
-    # what surfaces coincide is told by names, not by order
-    order = sorted(range(len(built)), key=lambda k: built[k].surface.name)
-    facets = scene_facets([built[k] for k in order], progress=progress.part(0.05, 0.15))
-    numbers = np.array([*order, len(built)])
-    stock = stock_of(scene, facets.facets)
-    post = load_post(scene.post)
-    digits = post.digits(scene.out_units)
-    grid = scene.out_units.value * 10.0 ** -min(digits.X, digits.Y, digits.Z)
-    origin = tuple(round(value / grid) * grid for value in origin_of(scene, stock))
-    wanted = [passes for passes in scene.passes if passes.enabled]
-    tools, families = [_tool(scene, passes) for passes in wanted], []
+    context = _resolved(scene, sources, progress.part(0.0, 0.15))
+    requested = [single for passes in scene.passes if passes.enabled for single in expanded(passes)]
+    plans = [_plan(context, passes) for passes in requested]
+    tools = [plan.tool for plan in plans]
     progress.step(0.15, "Looking for holes")
-    found = tuple(scene_findings(built, facets.facets, stock, tools))
-    plans = [_plan(facets.facets, passes, tool, stock) for passes, tool in zip(wanted, tools, strict=True)]
-    announce(scene_effort(facet_crossings(facets.facets, plan.planes) for plan in plans), progress)
-    for number, plan in enumerate(plans):
-        share = progress.part(0.15 + 0.75 * number / len(wanted), 0.15 + 0.75 * (number + 1) / len(wanted))
-        families.append(_family(scene, facets, plan, (grid, sources), share).numbered(numbers))
+    found = tuple(scene_findings(context.built, context.facets.facets, context.stock, tools))
+    announce(scene_effort(facet_crossings(context.facets.facets, plan.planes) for plan in plans), progress)
+    families = [
+        _family(context, plan, progress.part(0.15 + 0.75 * k / len(plans), 0.15 + 0.75 * (k + 1) / len(plans)))
+        for k, plan in enumerate(plans)
+    ]
     progress.step(0.9, "Joining passes")
-    top = max(stock.z1, float(facets.facets.triangles[:, :, 2].max()))
+    top = max(context.stock.z1, float(context.facets.facets.triangles[:, :, 2].max()))
     moves = surface_moves([_milling(family) for family in families], top + scene.safe_z, top + scene.retract_z)
-    trimmed, uncut = (replace(each, owner=numbers[each.owner]) for each in (facets.facets, facets.uncut))
-    own = SceneFacets(trimmed, uncut, {order[number]: area for number, area in facets.areas.items()})
-    found += tuple(moves_findings(moves, stock, tools))
     return ComputedScene(
-        scene, built, own, tuple(families), moves, stock, (origin[0], origin[1], origin[2]), grid, found
+        scene,
+        context.built,
+        context.as_listed(),
+        tuple(families),
+        moves,
+        context.stock,
+        context.origin,
+        context.grid,
+        (*found, *moves_findings(moves, context.stock, tools)),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _SceneContext:
+    """What all passes of a scene are computed with, resolved once.
+
+    Attributes:
+        built: its surfaces, made.
+        order: of these, by name: what surfaces coincide is told by names, not by the order of the scene.
+        facets: of the surfaces in this order.
+        stock, origin, grid: as a ComputedScene has them.
+        sources: reads the files that the scene names.
+    """
+
+    scene: Scene
+    built: tuple[BuiltSurface, ...]
+    order: tuple[int, ...]
+    facets: SceneFacets
+    stock: StockBox
+    origin: tuple[float, float, float]
+    grid: float
+    sources: SceneFiles
+
+    @property
+    def numbers(self) -> NDArray[np.int64]:
+        """Number in the scene of each surface in the order of the facets; behind them that of the floor."""
+        return np.array([*self.order, len(self.built)])
+
+    def as_listed(self) -> SceneFacets:
+        """Return the facets, their surfaces numbered as in the scene."""
+        facets, numbers = self.facets, self.numbers
+        trimmed, uncut = (replace(each, owner=numbers[each.owner]) for each in (facets.facets, facets.uncut))
+        return SceneFacets(trimmed, uncut, {self.order[number]: area for number, area in facets.areas.items()})
+
+
+def _resolved(scene: Scene, sources: SceneFiles, progress: Progress) -> _SceneContext:
+    """Make the surfaces of a scene, and find stock, origin and the grid of what is written."""
+    built = build(scene, sources, progress.part(0.0, 1 / 3))
+    order = tuple(sorted(range(len(built)), key=lambda k: built[k].surface.name))
+    facets = scene_facets([built[k] for k in order], progress=progress.part(1 / 3, 1.0))
+    stock = stock_of(scene, facets.facets)
+    digits = load_post(scene.post).digits(scene.out_units)
+    grid = scene.out_units.value * 10.0 ** -min(digits.X, digits.Y, digits.Z)
+    x, y, z = (round(value / grid) * grid for value in origin_of(scene, stock))
+    return _SceneContext(scene, built, order, facets, stock, (x, y, z), grid, sources)
 
 
 def stock_of(scene: Scene, facets: SurfaceFacets) -> StockBox:
@@ -177,30 +220,26 @@ class _PlannedPasses:
     planes: CuttingPlanes
 
 
-def _plan(facets: SurfaceFacets, passes: Passes, tool: Tool, stock: StockBox) -> _PlannedPasses:
-    overrun = _overrun(passes, tool, stock)
-    return _PlannedPasses(passes, tool, overrun, _planes(facets, passes, tool, overrun.far))
+def _plan(context: _SceneContext, passes: Passes) -> _PlannedPasses:
+    tool = _tool(context.scene, passes)
+    overrun = _overrun(passes, tool, context.stock)
+    return _PlannedPasses(passes, tool, overrun, _planes(context.facets.facets, passes, tool, overrun.far))
 
 
-def _family(
-    scene: Scene, facets: SceneFacets, plan: _PlannedPasses, rest: tuple[float, SceneFiles], progress: Progress
-) -> ComputedFamily:
-    """Compute one family of passes; `rest` is the grid, and what reads files."""
-    grid, sources = rest
-    passes, tool, overrun, planes = plan.passes, plan.tool, plan.overrun, plan.planes
-    below = (
-        facets.facets
-        if passes.floor is None
-        else _with_floor(facets.facets, passes.floor, len(scene.surfaces), overrun.far)
-    )
-    follower = Follower(below, tool, FollowOptions(passes.stock_to_leave, passes.chord_tolerance, grid))
-    area = _area(passes.boundary, tool, sources)
-    path = cutter_path(follower, planes, area, progress.part(0.0, 0.7), overrun)
+def _family(context: _SceneContext, plan: _PlannedPasses, progress: Progress) -> ComputedFamily:
+    """Compute one family of passes."""
+    passes, tool, facets = plan.passes, plan.tool, context.facets
+    below = facets.facets
+    if passes.floor is not None:
+        below = _with_floor(below, passes.floor, len(context.built), plan.overrun.far)
+    follower = Follower(below, tool, FollowOptions(passes.stock_to_leave, passes.chord_tolerance, context.grid))
+    area = _area(passes.boundary, tool, context.sources)
+    path = cutter_path(follower, plan.planes, area, progress.part(0.0, 0.7), plan.overrun)
     if not path.runs:
         name = passes.name or f"with T{tool.number}"
         raise GeometryError(f"passes {name} touch no surface; check their boundary and the surfaces' trims.")
     surface = compound_surface(facets.uncut, path.planes, passes.chord_tolerance, facets.areas, progress.part(0.7, 1.0))
-    return ComputedFamily(passes, tool, surface, path, follower, area)
+    return ComputedFamily(passes, tool, surface, path, follower, area).numbered(context.numbers)
 
 
 def _planes(facets: SurfaceFacets, passes: Passes, tool: Tool, far: float) -> CuttingPlanes:

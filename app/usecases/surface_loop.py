@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from ..core.file_bytes import FileBytes
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.scene_curves import SceneFiles
 from .cut import CutOptions, cut
@@ -23,7 +25,6 @@ _PROVENANCE = re.compile(rb"Surface \d+ [^)\n]*")
 _TOLD = ("gouge", "left", "rapids_in_material", "removed_mm3", "certificate")
 
 Json = dict[str, Any]
-Texts = tuple[tuple[str, bytes], ...]
 
 
 def closed_loop(written: WrittenScene, sources: SceneFiles, tolerance: float, progress: Progress = NO_PROGRESS) -> Json:
@@ -41,26 +42,28 @@ def closed_loop(written: WrittenScene, sources: SceneFiles, tolerance: float, pr
     Raises:
         HitofudeError: a program cannot be cut or smoothed. Cancelled: the job was asked to stop.
     """
-    texts = tuple((f"{number}{file.suffix}", file.nc.text.encode()) for number, file in enumerate(written.files, 1))
+    texts = tuple(
+        FileBytes(f"{number}{file.suffix}", file.nc.text.encode()) for number, file in enumerate(written.files, 1)
+    )
     first = _cut(written, sources, texts, progress.part(0.0, 0.4))
     options = SmoothOptions(tolerance=tolerance, post=written.post, dialect=written.post.dialect)
     share = 0.2 / len(texts)
     done = [
         smooth(*text, options, progress.part(0.4 + n * share, 0.4 + (n + 1) * share)) for n, text in enumerate(texts)
     ]
-    smoothed = tuple((each.name, each.data) for each in done)
+    smoothed = tuple(FileBytes(each.name, each.data) for each in done)
     return {
         "cut": first,
         "smooth": [smooth_report(each) for each in done],
         "boundaries_kept": all(
-            _PROVENANCE.findall(one) == _PROVENANCE.findall(other)
-            for (_, one), (_, other) in zip(texts, smoothed, strict=True)
+            _PROVENANCE.findall(one.data) == _PROVENANCE.findall(other.data)
+            for one, other in zip(texts, smoothed, strict=True)
         ),
         "cut_smoothed": _cut(written, sources, smoothed, progress.part(0.6, 1.0)),
     }
 
 
-def _cut(written: WrittenScene, sources: SceneFiles, texts: Texts, progress: Progress) -> Json:
+def _cut(written: WrittenScene, sources: SceneFiles, texts: Sequence[FileBytes], progress: Progress) -> Json:
     """Return what programs leave of the stock, beside the scene's surfaces."""
     dialect = written.post.dialect
     ready = setup_of(tuple(examine(*text, ExamineOptions(dialect), progress.part(0.0, 0.3)) for text in texts))

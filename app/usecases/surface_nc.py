@@ -29,6 +29,7 @@ from ..model.tool import Tool
 from ..surfaces.passes.path import ALLOWED
 from ..surfaces.sections.compound import NO_SURFACE, BoundaryKind
 from .family_requests import closest_passes, left_in
+from .plane_rules import ALONE
 from .scene_left import SceneLeft, left_findings
 from .scene_load import SceneBlank, SceneCut, scene_cut
 from .surface import ComputedFamily, ComputedScene, job_of
@@ -177,6 +178,8 @@ def pass_words(family: ComputedFamily) -> str:
     """Return a family of passes in words."""
     passes, count = family.passes, len(family.planes.offsets)
     apart = f"pitch {passes.pitch:g} mm" if passes.pitch is not None else f"scallop {passes.scallop:g} mm"
+    if passes.pitch == ALONE:
+        apart = f"at {passes.angle_deg:.4g} degrees through {passes.through[0]:.4g}, {passes.through[1]:.4g}"
     name = f" {safe_name(passes.name)}" if passes.name else ""
     return (
         f"Passes{name} T{family.tool.number}: {count} planes, {apart}, {passes.strategy.value}, "

@@ -5,7 +5,8 @@ last bit.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,29 +42,32 @@ _NONE = ",,,,,,,"
 
 def scene_points_csv(computed: ComputedScene) -> bytes:
     """Return the compound surfaces of all families of passes, one after another under one header."""
-    rows = (row for family in computed.families for row in _rows(family.surface, computed.names, family.tool.number))
-    return _text(rows)
+    return points_csv((ToolSurface(each.surface, each.tool.number) for each in computed.families), computed.names)
 
 
-def points_csv(compound: CompoundSurface, names: Sequence[str], tool: int | None = None) -> bytes:
-    """Return a compound surface as a table: a row a point in the order of generation, then a row a boundary point.
+class ToolSurface(NamedTuple):
+    """A compound surface, and the T number of its tool; None = of no tool."""
+
+    surface: CompoundSurface
+    tool: int | None = None
+
+
+def points_csv(surfaces: Iterable[ToolSurface], names: Sequence[str]) -> bytes:
+    """Return compound surfaces as a table: a row a point in the order of generation, then a row a boundary point.
 
     Args:
-        names: of its surfaces, by number. tool: T number, or None.
+        names: of the surfaces that they are made of, by number.
 
     Passes, runs, points and surfaces count from 1. A point's surface is that of the chord behind it, the last one's
     that before it.
     """
-    return _text(_rows(compound, names, tool))
-
-
-def _text(rows: Iterator[str]) -> bytes:
+    rows = (row for each in surfaces for row in _rows(each, names))
     return "\r\n".join([",".join(COLUMNS), *rows, ""]).encode()
 
 
-def _rows(compound: CompoundSurface, names: Sequence[str], tool: int | None) -> Iterator[str]:
-    known = [_quoted(name) for name in names]
-    head = "" if tool is None else str(tool)
+def _rows(made: ToolSurface, names: Sequence[str]) -> Iterator[str]:
+    compound, known = made.surface, [_quoted(name) for name in names]
+    head = "" if made.tool is None else str(made.tool)
     parameters = _Parameters(compound)
     before: dict[int, int] = {}
     for run in compound.runs:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ..core.durations import minutes_words
 from ..formats.machine_toml import DEFAULT_MACHINE, load_machine
 from ..gcode.timing.duration import TIME_METHOD
 from ..model.finding import Finding
@@ -259,11 +260,10 @@ def _summary(data: Json) -> Iterator[str]:
     length = data["length_mm"]
     head = f"{data['scene']}: {len(data['surfaces'])} surfaces, {length['cut']:.0f} mm of passes"
     if "gouge" in data:
-        minutes, seconds = divmod(round(data["time_s"]), 60)
         gouge = data["gouge"]
         sure = f"proven: no move deeper than {gouge['max_mm']} mm in a surface"
         proven = f"{gouge['count']} moves not proven" if gouge["count"] else sure
-        head += f", {data['retracts']} retracts, {minutes}:{seconds:02d} min; {proven}"
+        head += f", {data['retracts']} retracts, {minutes_words(data['time_s'])} min; {proven}"
         if data["left"] is not None:
             head += f"; {data['left']['reachable_mm2']:.3f} mm2 left within reach"
     yield head

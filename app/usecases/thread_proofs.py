@@ -22,9 +22,8 @@ from ..model.hole_operations import TapOperation, ThreadOperation
 from ..model.job import Job
 from ..model.motion import MotionKind
 from ..model.moves import Program
-from ..model.stock_box import stock_box, work_origin
 from ..model.thread_sizes import ThreadSize
-from .written import WrittenProgram
+from .written import OperationMotions, WrittenMotions
 
 Floats = NDArray[np.float64]
 
@@ -84,58 +83,43 @@ class ThreadProof:
             yield Finding(FindingKind.LEFT_REACHABLE, text, self.x, self.y, amount=self.bare_mm)
 
 
-def thread_proofs(program: Program, job: Job, written: WrittenProgram) -> dict[int, ThreadProof]:
+def thread_proofs(program: Program, job: Job, motions: WrittenMotions) -> dict[int, ThreadProof]:
     """Return what is proven, by index of the operation, of those that cut threads and have holes."""
     threading = [
         k
         for k, each in enumerate(job.operations)
         if isinstance(each, ThreadOperation | TapOperation) and each.cut.enabled and program.areas[k].regions
     ]
-    if not written.files or not threading:
+    if not motions.files:
         return {}
-    turns = _Turns.of(program, job, written)
-    return {k: turns.proof(k) for k in threading}
+    origin = np.array(motions.origin)
+    return {k: _Turns(program, job, motions.done_for(k), origin).proof(k) for k in threading}
 
 
 @dataclass(frozen=True, eq=False)
 class _Turns:
-    """Motions of a program as read back, n of them, part coordinates."""
+    """Motions of an operation as read back; part = program + origin, mm."""
 
     program: Program
     job: Job
-    start: Floats
-    end: Floats
-    centre: Floats
-    kind: NDArray[np.uint8]
-    feed: Floats
-    operation: NDArray[np.int16]
-
-    @staticmethod
-    def of(program: Program, job: Job, written: WrittenProgram) -> _Turns:
-        """Return those of written files."""
-        origin = np.array(work_origin(job, stock_box(job, program.regions, program.lines)))
-        motions = [each.motions for each in written.programs]
-        start, end, centre, kind, feed = (
-            np.concatenate([getattr(each, name) for each in motions])
-            for name in ("start", "end", "centre", "kind", "feed")
-        )
-        operation = program.moves.operation[written.move]
-        return _Turns(program, job, start + origin, end + origin, centre[:, :2] + origin[:2], kind, feed, operation)
+    motions: OperationMotions
+    origin: Floats
 
     def proof(self, index: int) -> ThreadProof:
         """Return what is proven of an operation."""
         operation = self.job.operations[index]
         if isinstance(operation, TapOperation):
-            return self._tapped(index, operation)
+            return self._tapped(operation)
         assert isinstance(operation, ThreadOperation)
         return self._milled(index, operation)
 
-    def _tapped(self, index: int, operation: TapOperation) -> ThreadProof:
-        own = (self.operation == index) & (self.kind == MotionKind.LINE)
+    def _tapped(self, operation: TapOperation) -> ThreadProof:
+        own = self.motions.kind == MotionKind.LINE
         speed = round(self.job.tool(operation.cut.tool).spindle_speed)
-        off = np.abs(self.feed[own] / speed - operation.thread.pitch)
+        off = np.abs(self.motions.feed[own] / speed - operation.thread.pitch)
         floor = operation.cut.floor + operation.beyond
-        bottoms = self.end[own & (self.end[:, 2] < self.start[:, 2]), 2]
+        start, end = self.motions.start[:, 2] + self.origin[2], self.motions.end[:, 2] + self.origin[2]
+        bottoms = end[own & (end < start)]
         bare = max(0.0, float((bottoms + floor).max(initial=-np.inf)))
         return ThreadProof(operation.thread, len(bottoms), float(off.max(initial=0.0)), bare_mm=bare)
 
@@ -143,16 +127,18 @@ class _Turns:
         thread, tool = operation.thread, self.job.tool(operation.cut.tool)
         circles = (region.boundary.primitives[0] for region in self.program.areas[index].regions)
         axes = [each.centre for each in circles if isinstance(each, Circle)]
-        arcs = (self.operation == index) & (self.kind >= MotionKind.ARC_CW) & (self.kind <= MotionKind.ARC_CCW)
+        motions, kind = self.motions, self.motions.kind
+        start, end, centre = motions.start + self.origin, motions.end + self.origin, motions.centre + self.origin
+        arcs = (kind >= MotionKind.ARC_CW) & (kind <= MotionKind.ARC_CCW)
         lead = diameter = bare = 0.0
         place: tuple[float, float] = axes[0]
         for x, y in axes:
-            own = np.flatnonzero(arcs & (np.hypot(self.centre[:, 0] - x, self.centre[:, 1] - y) < _ABOUT))
+            own = np.flatnonzero(arcs & (np.hypot(centre[:, 0] - x, centre[:, 1] - y) < _ABOUT))
             if not len(own):
                 return ThreadProof(thread, len(axes), 0.0, 0.0, operation.cut.depth, x, y)
-            a, b = self.start[own] - (x, y, 0.0), self.end[own] - (x, y, 0.0)
+            a, b = start[own] - (x, y, 0.0), end[own] - (x, y, 0.0)
             angle = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1])
-            sweep = np.where(self.kind[own] == MotionKind.ARC_CCW, angle % math.tau, -(-angle % math.tau))
+            sweep = np.where(kind[own] == MotionKind.ARC_CCW, angle % math.tau, -(-angle % math.tau))
             lead = max(lead, float(np.abs((b[:, 2] - a[:, 2]) * math.tau / sweep - thread.pitch).max()))
             for way in np.unique(np.round(np.hypot(a[:, 0], a[:, 1]), 6)):
                 off = _pitch_diameter_off(thread, tool.radius, float(way), operation.external)

@@ -22,10 +22,11 @@ from ..gcode.writer.write import NcFile, write_files
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.machine import Machine
-from ..model.motion import MotionKind
+from ..model.motion import MotionKind, Motions
 from ..model.motion_path import anchored, lengths
 from ..model.moves import Program
 from ..model.part import Units
+from ..model.stock_box import stock_box, work_origin
 
 Floats = NDArray[np.float64]
 
@@ -121,6 +122,68 @@ class WrittenProgram:
             f"(decimals.{table})."
         )
         return (Finding(FindingKind.TOLERANCE, text, amount=far),)
+
+
+@dataclass(frozen=True, eq=False)
+class OperationMotions:
+    """Motions of one operation, as read back, n of them.
+
+    Attributes:
+        start, end, centre: (n, 3) mm, program coordinates; centres of arcs.
+        kind: (n,) MotionKind.
+        feed: (n,) mm/min.
+        line: (n,) of the NC text of its file.
+    """
+
+    start: Floats
+    end: Floats
+    centre: Floats
+    kind: NDArray[np.uint8]
+    feed: Floats
+    line: NDArray[np.int32]
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+
+@dataclass(frozen=True, eq=False)
+class WrittenMotions:
+    """Motions of all files as read back, and the operation that each is done for: what all judges of single operations
+    walk over.
+
+    Attributes:
+        files: motions of each file.
+        operations: for each file, (m,) indices in the job.
+        origin: program = part - origin, mm.
+    """
+
+    files: tuple[Motions, ...]
+    operations: tuple[NDArray[np.int16], ...]
+    origin: tuple[float, float, float]
+
+    @staticmethod
+    def of(written: WrittenProgram, program: Program, job: Job) -> WrittenMotions:
+        """Return the motions of a program's files."""
+        if not written.files:
+            return WrittenMotions((), (), (0.0, 0.0, 0.0))
+        operations = tuple(program.moves.operation[each.move] for each in written.checks)
+        box = stock_box(job, program.regions, program.lines)
+        return WrittenMotions(tuple(each.motions for each in written.programs), operations, work_origin(job, box))
+
+    def done_for(self, operation: int, cutting: bool = False) -> OperationMotions:
+        """Return the motions of one operation of the job; `cutting`: without its rapids."""
+        rows = [which == operation for which in self.operations]
+        if cutting:
+            rows = [own & (each.kind != MotionKind.RAPID) for own, each in zip(rows, self.files, strict=True)]
+        own = [(each, np.flatnonzero(row)) for each, row in zip(self.files, rows, strict=True)]
+        return OperationMotions(
+            np.concatenate([np.zeros((0, 3)), *(each.start[row] for each, row in own)]),
+            np.concatenate([np.zeros((0, 3)), *(each.end[row] for each, row in own)]),
+            np.concatenate([np.zeros((0, 3)), *(each.centre[row] for each, row in own)]),
+            _joined([each.kind[row] for each, row in own], np.uint8),
+            _joined([each.feed[row] for each, row in own], np.float64),
+            _joined([each.line[row] for each, row in own], np.int32),
+        )
 
 
 def write_and_check(

@@ -21,6 +21,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,6 +113,20 @@ class BodyContacts:
     open: dict[Key, BodyContact]
 
 
+class _StepwiseContacts(NamedTuple):
+    """What motions meet, by motion and body, and which of these could be afforded to ask."""
+
+    contacts: dict[Key, BodyContact]
+    keys: set[Key]
+
+
+class _ChordHit(NamedTuple):
+    """A chord that meets metal, by its number, and where."""
+
+    chord: int
+    hit: RapidHit
+
+
 @dataclass(frozen=True, eq=False)
 class BodyContactQuery:
     """What is asked: a program, the metal before it, the cutters and the bodies by T number."""
@@ -182,15 +197,13 @@ class BodyContactQuery:
             _keep(found[int(late[k])], int(paths.row[k]), int(body[k]), hit)
         return found
 
-    def _stepwise(
-        self, chords: MotionChords, keys: set[Key], cells: float, progress: Progress
-    ) -> tuple[dict[Key, BodyContact], set[Key]]:
-        """Return what motions meet that are cut and asked by turns, and which of the keys could be afforded."""
+    def _stepwise(self, chords: MotionChords, keys: set[Key], cells: float, progress: Progress) -> _StepwiseContacts:
+        """Return what motions meet that are cut and asked by turns."""
         steps = np.clip(np.ceil((chords.start[:, 2] - chords.end[:, 2]) / STEP), 1, MOST_STEPS)
         keys = self.affordable(chords, keys, cells, steps)
         chords = chords.of(np.isin(chords.row, [row for row, _ in keys]))
         if not len(chords):
-            return {}, keys
+            return _StepwiseContacts({}, keys)
         descent = np.maximum(chords.start[:, 2] - chords.end[:, 2], 0.0)
         count = np.clip(np.ceil(descent / STEP), 1, MOST_STEPS).astype(int)
         chord, step = np.repeat(np.arange(len(count)), count), np.concatenate([np.arange(n) for n in count])
@@ -214,12 +227,12 @@ class BodyContactQuery:
             row[order], MotionChords(start[order], end[order], row[order]), tools[order], cuts, progress
         ):
             _keep(found, int(row[order[k]]), int(body[order[k]]), hit)
-        return found, keys
+        return _StepwiseContacts(found, keys)
 
     def _trimmed(
         self, at: Rows, chords: MotionChords, tools: NDArray[np.intp], cuts: Rows, progress: Progress
-    ) -> list[tuple[int, RapidHit]]:
-        """Return which chords meet metal, and where; `cuts` are those that cut, the others are asked."""
+    ) -> list[_ChordHit]:
+        """Return which chords meet metal; `cuts` are those that cut, the others are asked."""
         more = straight(chords.start, chords.end)
         kind = more.kind.copy()
         kind[cuts] = MotionKind.LINE
@@ -231,7 +244,7 @@ class BodyContactQuery:
         shapes = [each.shape for bodies in self.bodies.values() for each in bodies]
         cutters = {**self.cutters, **dict(enumerate(shapes, self._first()))}
         hits = trim(self.workpiece, made, cutters, TrimOptions(Rapids.ASKED, TOUCH), progress).rapids
-        return list(zip(owner[[hit.motion for hit in hits]].tolist(), hits, strict=True)) if hits else []
+        return [_ChordHit(int(owner[hit.motion]), hit) for hit in hits]
 
     def affordable(
         self, chords: MotionChords, keys: Collection[Key], cells: float, times: Floats | None = None

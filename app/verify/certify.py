@@ -23,7 +23,7 @@ from ..simulation.sweeps.pieces import helix_chord
 from .judge import PartTarget
 from .judgement import Certificate
 from .parts import SolidPart
-from .solid_depth import CutColumns, DepthInSolid
+from .solid_depth import CutColumns
 
 ROUNDING = 2e-5
 """mm that heights in float32 and chords of curves may be off."""
@@ -96,7 +96,7 @@ def _in_solid(part: SolidPart, target: PartTarget, low: Heights, before: Workpie
     rows, cols = np.divmod(cut, grid.cols)
     places = np.column_stack([grid.x0 + (cols + 0.5) * grid.pitch, grid.y0 + (rows + 0.5) * grid.pitch])
     columns = CutColumns(places, low.ravel()[cut].astype(np.float64), before.heights.ravel()[cut].astype(np.float64))
-    depth_in, fine, worst = DepthInSolid(part.solid, part.leave), part.tolerance / 10, part.leave + half
+    depth_in, fine, worst = part.depths, part.tolerance / 10, part.leave + half
     for first in range(0, len(cut), PORTION):
         if seems[first] <= worst or first >= MOST_ASKED:
             return max(worst, float(seems[first]) if first >= MOST_ASKED else 0.0)

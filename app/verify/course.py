@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,10 +88,15 @@ def straight(start: Floats, end: Floats, kind: MotionKind = MotionKind.RAPID) ->
     )
 
 
-def inserted(
-    course: Course, at: NDArray[np.intp], more: Motions, tool: NDArray[np.int32]
-) -> tuple[Course, NDArray[np.intp]]:
-    """Return a course with more motions in it, and which of these each of its motions is, -1: none.
+class InsertedMotions(NamedTuple):
+    """A course, and for each of its motions which of the inserted ones it is, -1: none."""
+
+    course: Course
+    owner: NDArray[np.intp]
+
+
+def inserted(course: Course, at: NDArray[np.intp], more: Motions, tool: NDArray[np.int32]) -> InsertedMotions:
+    """Return a course with more motions in it.
 
     Args:
         at: (n,) row of the course that each comes before, in any order; those before one row keep their order.
@@ -104,4 +110,4 @@ def inserted(
     made = Course(
         replace(course.motions, splines=splines, **columns), np.insert(course.tool, at, tool).astype(np.int32), left_out
     )
-    return made, owner
+    return InsertedMotions(made, owner)

@@ -39,6 +39,9 @@ DEEP, DEEP_MM = 0.25, 0.5
 ALONE, ALONE_MM = 1.0, 3.0
 """The same, where the program has one feed for everything."""
 
+STEP = 0.01
+"""mm; shorter motions between two descents are part of one: paths down a wall have such in their last decimals."""
+
 LEAST = 0.3
 """mm; shorter descents tell of no plunge rate."""
 
@@ -105,6 +108,7 @@ def fast_plunges(
         & (motions.end[:, 2] < top - LEVEL)
     )
     fast[list(course.left_out)] = False
+    fast |= _between(fast, motions.end - motions.start)
     spans = [
         span for span in alike_runs(fast.astype(np.int64), course.tool) if _may_be_deep(stock, tools, known, span, top)
     ]
@@ -147,6 +151,18 @@ def _descends(way: Floats, kind: NDArray[np.uint8]) -> NDArray[np.bool_]:
     return np.asarray(
         (kind == MotionKind.LINE) & (way[:, 2] < 0) & (-way[:, 2] > STEEP * np.hypot(way[:, 0], way[:, 1]))
     )
+
+
+def _between(fast: NDArray[np.bool_], way: Floats) -> NDArray[np.bool_]:
+    """Return which motions are short steps between fast descents."""
+    short = ~fast & (np.linalg.norm(way, axis=1) <= STEP)
+    rows = np.arange(len(fast))
+    before = np.maximum.accumulate(np.where(short, -1, rows))
+    behind = np.minimum.accumulate(np.where(short, len(fast), rows)[::-1])[::-1]
+    inner = short & (before >= 0) & (behind < len(fast))
+    found = np.zeros(len(fast), np.bool_)
+    found[inner] = fast[before[inner]] & fast[behind[inner]]
+    return found
 
 
 def _rates(

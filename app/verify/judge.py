@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,7 +71,7 @@ def part_target(
         Cancelled: the job was asked to stop.
     """
     grid = cut.before.grid
-    solid = part if isinstance(part, SolidPart) and part.block is None and part.solid.shells == 1 else None
+    solid = part if isinstance(part, SolidPart) and part.block is None else None
     if isinstance(part, FlatPart):
         flat = flat_target(part, grid)
         target, reach = flat.target, flat.reach
@@ -176,23 +177,31 @@ def judge(judging: JudgementInput, certificate: Certificate | None) -> Judgement
     )
 
 
-def _gouges(judging: JudgementInput, deviation: NDArray[np.float32]) -> tuple[tuple[Spot, ...], int]:
-    """Return the gouges, the deepest first, and how many: by closed forms, or where these know of none, those that the
+class _FoundGouges(NamedTuple):
+    """Gouges, the deepest first, and how many there are."""
+
+    spots: tuple[Spot, ...]
+    number: int
+
+
+def _gouges(judging: JudgementInput, deviation: NDArray[np.float32]) -> _FoundGouges:
+    """Return the gouges: by closed forms, or where these know of none, those that the
     cells show.
     """
     part = judging.part
     exact = tuple(_exact_gouges(judging))
     if exact:
-        return exact, len(exact)
+        return _FoundGouges(exact, len(exact))
     gouged = np.asarray(deviation < -part.tolerance)
     places, count = places_of(gouged, -deviation, judging.grid)
     if isinstance(part, SolidPart) and judging.lowest is not None:
         cut, around = judging.cut, judging.part_target.target.around
         measure = SolidGouges(part, judging.lowest, cut.before, cut.heights, gouged, around, judging.lines)
         spots = measure.spots(places, judging.probe)
-        return tuple(spots), len(spots) + count - len(places)
+        return _FoundGouges(tuple(spots), len(spots) + count - len(places))
     spots = [spot for spot in (_gouge_of_cells(judging, place) for place in places) if spot.depth_mm > part.tolerance]
-    return tuple(sorted(spots, key=lambda spot: -spot.depth_mm)), len(spots) + count - len(places)
+    spots.sort(key=lambda spot: -spot.depth_mm)
+    return _FoundGouges(tuple(spots), len(spots) + count - len(places))
 
 
 def _exact_gouges(judging: JudgementInput) -> Iterator[Spot]:

@@ -16,6 +16,7 @@ from ..simulation.field.solid import SolidStock
 
 if TYPE_CHECKING:
     from ..toolpath.coverage.floor_target import FloorTarget
+    from .solid_depth import DepthInSolid
 
 TOLERANCE = 0.01
 """mm; metal within this of the part is neither gouged nor left."""
@@ -91,6 +92,13 @@ class SolidPart:
     tolerance: float = TOLERANCE
     block: StockBox | None = None
     allowance: float = 0.0
+
+    @cached_property
+    def depths(self) -> DepthInSolid:
+        """How deep places lie in it, asked of its bodies together."""
+        from .solid_depth import DepthInSolid  # compiled code: loaded where it is used
+
+        return DepthInSolid(self.solid, self.leave)
 
 
 Part = FlatPart | SolidPart

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,15 +37,21 @@ class CellPlace:
     disc_mm: float
 
 
-def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -> tuple[tuple[CellPlace, ...], int]:
-    """Return the connected places of a mask, that with the largest value first, not more than MOST, and how many there
-    are.
+class FoundPlaces(NamedTuple):
+    """Places, that with the largest value first, not more than MOST, and how many there are."""
+
+    places: tuple[CellPlace, ...]
+    number: int
+
+
+def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -> FoundPlaces:
+    """Return the connected places of a mask.
 
     Args:
         mask: (rows, cols). value: (rows, cols), of which the largest is the worst.
     """
     if not mask.any():
-        return (), 0
+        return FoundPlaces((), 0)
     import cv2  # there mostly is none
 
     count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
@@ -63,4 +70,4 @@ def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -
         disc = (2 * float(inner[mine].max()) - 1) * grid.pitch
         requested = np.concatenate([mine[:ASKED], mine[ASKED :: 1 + len(mine) // ASKED]])
         found.append(CellPlace(requested, divmod(int(mine[0]), grid.cols), float(worst[k]), area, disc))
-    return tuple(found), count - 1
+    return FoundPlaces(tuple(found), count - 1)

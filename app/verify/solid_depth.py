@@ -5,6 +5,7 @@ away.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from ..model.motion import Floats
 from ..simulation.field.solid import SolidStock
 from ..simulation.field.solid_rays import SolidRays
 from ..simulation.field.triangle_tree import TriangleTree
+from .outer_faces import outer_faces
 
 FINE = 1e-5
 """mm by which the depth of a column may be told too small."""
@@ -41,12 +43,19 @@ class CutColumns:
         return CutColumns(self.places[rows], self.low[rows], self.high[rows])
 
 
+class _ColumnParts(NamedTuple):
+    """Parts of columns: which column each is of, and x, y, low, high (k, 4), mm."""
+
+    column: NDArray[np.int64]
+    segments: Floats
+
+
 class DepthInSolid:
     """Answers how deep metal was cut into a solid with stock to leave on it."""
 
     def __init__(self, solid: SolidStock, leave: float = 0.0) -> None:
         self._rays, self._leave = SolidRays(solid), leave
-        self._tree = solid.tree if solid.shells == 1 else TriangleTree.of(self._outer_faces(solid.triangles))
+        self._tree = solid.tree if solid.shells == 1 else TriangleTree.of(outer_faces(solid))
 
     def of(self, columns: CutColumns, known: float = 0.0, fine: float = FINE) -> Floats:
         """Return how deep the deepest place of each column lies below the surface of what is wanted, mm, >= 0.
@@ -66,20 +75,8 @@ class DepthInSolid:
             depth[skin] = np.maximum(self._leave - self._tree.distances(places), 0.0)
         return depth
 
-    def _outer_faces(self, triangles: Floats) -> Floats:
-        """Return the triangles that have no metal before them: of bodies that overlap, faces within another one are no
-        surface.
-
-        One that is only partly within another body stays.
-        """
-        normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-        before = triangles.mean(axis=1) + ASIDE * normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-        point, heights, up = self._rays.met(before[:, :2])
-        winds = np.bincount(point, np.where(heights < before[point, 2], -up, 0.0), len(before))
-        return np.asarray(triangles[winds < 0.5])
-
-    def _in_solid(self, columns: CutColumns) -> tuple[NDArray[np.int64], Floats]:
-        """Return what of columns lies in the solid, by the winding number: which column, and x, y, low, high (k, 4)."""
+    def _in_solid(self, columns: CutColumns) -> _ColumnParts:
+        """Return what of columns lies in the solid, by the winding number."""
         point, heights, up = self._rays.met(columns.places + np.array([ASIDE, ASIDE * 0.7]))
         order = np.lexsort((heights, point))
         point, heights, up = point[order], heights[order], up[order]
@@ -92,4 +89,4 @@ class DepthInSolid:
             np.minimum(heights[inside + 1], columns.high[column]),
         )
         some = high > low
-        return column[some], np.column_stack([columns.places[column], low, high])[some]
+        return _ColumnParts(column[some], np.column_stack([columns.places[column], low, high])[some])

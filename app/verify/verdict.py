@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -137,10 +138,23 @@ def gouge_depths(
     return MoveDepths(chosen, depth, np.column_stack([places, low]))
 
 
-def _slanted(bound: OperationBound, moves: Moves, job: Job) -> tuple[NDArray[np.int64], Floats, Floats]:
-    """Return which moves are straight ones of a cone that go up or down, how far they reach beyond walls, each as wide
-    as it is there, and where, (n, 2).
-    """
+class _SlantedReach(NamedTuple):
+    """Moves, how far they reach beyond walls, mm, and where, (n, 2)."""
+
+    move: NDArray[np.int64]
+    depth: Floats
+    places: Floats
+
+
+class _OutsideMoves(NamedTuple):
+    """Moves whose end lies in no region, and how far outside, mm."""
+
+    move: NDArray[np.int64]
+    beyond: Floats
+
+
+def _slanted(bound: OperationBound, moves: Moves, job: Job) -> _SlantedReach:
+    """Return how far straight moves of a cone that go up or down reach beyond walls, each as wide as it is there."""
     cones = {tool.number: tool.profile for tool in job.tools if tool.kind is ToolKind.V}
     start, end = moves.start, moves.end
     straight = np.isin(moves.tool, list(cones)) & (moves.kind <= MoveKind.LINE)
@@ -156,7 +170,7 @@ def _slanted(bound: OperationBound, moves: Moves, job: Job) -> tuple[NDArray[np.
     outside, beyond = _outside(rows, bound.area.regions)
     depth[outside] = np.maximum(slanted.width(np.ones(len(mine)))[outside], 0.0) + beyond
     places[outside] = rows[outside, 2:4]
-    return mine, depth, places
+    return _SlantedReach(mine, depth, places)
 
 
 def clear_moves(moves: Moves, depths: MoveDepths, within: float) -> NDArray[np.bool_]:
@@ -263,14 +277,14 @@ def _depths(rows: Floats, need: Floats, walls: Floats, progress: Progress = NO_P
     return depth, places
 
 
-def _outside(rows: Floats, regions: Sequence[Region]) -> tuple[NDArray[np.int64], Floats]:
-    """Return the moves whose end lies in no region, and how far outside, mm."""
+def _outside(rows: Floats, regions: Sequence[Region]) -> _OutsideMoves:
+    """Return the moves whose end lies in no region."""
     field = DistanceField.of(pack(regions).rows)
     ends = rows[:, 2:4]
     out = np.flatnonzero(~field.inside(ends))
     distance = field.nearest(ends[out])[0]
     far = distance > 2 * _CHORD
-    return out[far], distance[far]
+    return _OutsideMoves(out[far], distance[far])
 
 
 def rapids_in_material(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> tuple[RapidInMaterial, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from ..model.motion import Floats
 from ..simulation.field.solid import SolidStock
 from ..simulation.field.solid_rays import SolidRays
 from ..simulation.field.workpiece import Workpiece
+from ..simulation.sweeps.probe import LowestReach
 from .parts import SolidPart
 
 STEEP = 0.45
@@ -35,8 +37,8 @@ ASIDE = 1e-4
 FINER = 0.1
 """Of the tolerance: a gouge that is deeper than what is known by less is not looked at."""
 
-Probe = Callable[[Floats], tuple[Floats, NDArray[np.int64]]]
-"""Gives the height that is left at points (m, 2), and the motion that cut it, -1 = none."""
+Probe = Callable[[Floats], LowestReach]
+"""Gives the height that is left at points (m, 2)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,7 +156,7 @@ def metal_at(workpiece: Workpiece, places: Floats) -> Floats:
 
 def unseen_walls(part: SolidPart, pitch: float) -> Iterator[Finding]:
     """Yield the remark that a solid has more walls than are looked at half a cell apart, and where gouges may hide."""
-    apart = _step(_walls(part.solid)[2], pitch)
+    apart = _step(_walls(part.solid).length, pitch)
     if apart > pitch / 2:
         text = (
             f"The walls of the solid are so long that they were asked every {apart:.3f} mm only, not every "
@@ -168,7 +170,7 @@ def wall_points(solid: SolidStock, pitch: float) -> tuple[Floats, Floats]:
     """Return points (m, 2) on a solid's walls seen from above, half a cell apart, and the way into the solid there, of
     length 1.
     """
-    (begin, end), inwards, length = _walls(solid)
+    begin, end, inwards, length = _walls(solid)
     if not len(length):
         return np.zeros((0, 2)), np.zeros((0, 2))
     counts = np.maximum(1, np.ceil(length / _step(length, pitch))).astype(np.int64)
@@ -182,10 +184,17 @@ def _step(length: Floats, pitch: float) -> float:
     return max(pitch / 2, float(length.sum()) / MOST_POINTS)
 
 
-def _walls(solid: SolidStock) -> tuple[tuple[Floats, Floats], Floats, Floats]:
-    """Return of each triangle that is a wall both ends (n, 2) as seen from above, the way into the solid (n, 2), and
-    its length (n,).
-    """
+class _WallTriangles(NamedTuple):
+    """Walls as seen from above: both ends (n, 2), the way into the solid (n, 2), length (n,), mm."""
+
+    begin: Floats
+    end: Floats
+    inwards: Floats
+    length: Floats
+
+
+def _walls(solid: SolidStock) -> _WallTriangles:
+    """Return the triangles that are walls."""
     a, b, c = np.moveaxis(solid.triangles, 1, 0)
     normal = np.cross(b - a, c - a)
     size = np.linalg.norm(normal, axis=1)
@@ -196,4 +205,4 @@ def _walls(solid: SolidStock) -> tuple[tuple[Floats, Floats], Floats, Floats]:
     spread = np.einsum("ijk,ik->ij", corners[..., :2], along)
     each = np.arange(len(corners))
     begin, end = corners[each, np.argmin(spread, axis=1), :2], corners[each, np.argmax(spread, axis=1), :2]
-    return (begin, end), inwards, np.hypot(*(end - begin).T)
+    return _WallTriangles(begin, end, inwards, np.hypot(*(end - begin).T))

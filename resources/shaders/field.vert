@@ -10,6 +10,7 @@ uniform int stride;       // cells from vertex to vertex
 uniform float floor_z;
 uniform vec3 section;     // normal and offset of the plane that takes metal away
 out vec2 cell;
+out float level;          // height in cells
 
 void main() {
     ivec2 at = min(first + ivec2(gl_VertexID >> 1, gl_InstanceID + (gl_VertexID & 1)) * stride, last);
@@ -23,5 +24,6 @@ void main() {
     gl_ClipDistance[0] = section.z - dot(section.xy, place.xy);
     gl_ClipDistance[1] = place.z - floor_z - 1e-4;
 #endif
+    level = place.z / corner.z;
     gl_Position = to_clip * vec4(place, 1.0);
 }

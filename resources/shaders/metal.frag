@@ -8,6 +8,7 @@ uniform vec3 light;           // towards the light, length 1
 uniform vec3 halfway;         // between the light and the eye, length 1
 uniform vec3 stock;           // colours, 0 to 1
 uniform vec3 hatch;
+uniform vec3 edge;            // of fine lines where metal ends
 uniform vec3 strength;        // of the ambient light, of the light, of its mirror image
 uniform float floor_z;
 uniform int face;             // 0 = metal, 1 = face of the section
@@ -36,7 +37,9 @@ vec3 lit(vec3 base, vec3 normal, float open) {
 
 #if defined(TOP) || defined(TOP_CLIPPED)
 in vec2 cell;
+in float level;
 uniform ivec2 last_cell;
+uniform int stride;
 uniform sampler2D heights;
 
 // A wall belongs to whoever cut the lower of the cells that it stands between.
@@ -44,11 +47,47 @@ ivec2 foot_of_wall(ivec2 here) {
     ivec2 found = here;
     float lowest = texelFetch(heights, here, 0).r;
     for (int k = 0; k < 9; ++k) {
-        ivec2 near = clamp(here + ivec2(k % 3, k / 3) - 1, ivec2(0), last_cell);
+        ivec2 near = clamp(here + (ivec2(k % 3, k / 3) - 1) * stride, ivec2(0), last_cell);
         float z = texelFetch(heights, near, 0).r;
         if (z < lowest) { lowest = z; found = near; }
     }
     return found;
+}
+
+vec2 aside_of(vec2 map) {
+    vec2 root = map * (255.0 / 127.0) - (128.0 / 127.0);
+    return root * abs(root);
+}
+
+// Whether the triangle is a wall: it rises over so many cells as nothing does that was not cut by a tool's side.
+bool wall() {
+    vec3 across = vec3(dFdx(cell), dFdx(level)), along = vec3(dFdy(cell), dFdy(level));
+    vec3 square = cross(across, along);
+    return abs(square.z) < 0.35 * length(square);
+}
+
+// Which way a wall faces, and the light there: what its cells say, and those a little way along it; one of them alone
+// knows only steps.
+vec3 facing(ivec2 here) {
+    vec3 sum = vec3(0.0);
+    for (int k = 0; k < 25; ++k) {
+        ivec2 near = clamp(here + (ivec2(k % 5, k / 5) - 2) * 2, ivec2(0), last_cell);
+        vec3 map = texelFetch(relief, near, 0).rgb;
+        vec2 aside = aside_of(map.xy);
+        sum += vec3(aside * smoothstep(0.3, 0.7, length(aside)), map.z / 25.0);
+    }
+    return vec3(dot(sum.xy, sum.xy) > 0.0 ? normalize(sum.xy) : vec2(0.0), sum.z);
+}
+
+// How much of an edge a pixel is: metal that ends within a pixel, where it falls off steeply.
+float rim(ivec2 here) {
+    vec2 reach = max(fwidth(cell), vec2(1.0));
+    float z = texelFetch(heights, here, 0).r, fall = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        ivec2 aside = ivec2((k < 2 ? vec2(reach.x, 0.0) : vec2(0.0, reach.y)) * (k % 2 == 0 ? 1.0 : -1.0));
+        fall = max(fall, z - texelFetch(heights, clamp(here + aside, ivec2(0), last_cell), 0).r);
+    }
+    return smoothstep(2.0, 4.0, fall / (corner.z * max(reach.x, reach.y)));
 }
 
 void main() {
@@ -56,15 +95,22 @@ void main() {
     if (elsewhere(corner.xy + cell * corner.z)) discard;
 #endif
     vec3 map = texture(relief, cell / vec2(last_cell + 1)).rgb;
-    vec2 root = map.xy * (255.0 / 127.0) - (128.0 / 127.0);
-    vec2 aside = root * abs(root);
-    vec3 normal = vec3(aside, sqrt(max(1.0 - dot(aside, aside), 0.0)));
+    vec2 aside = aside_of(map.xy);
     ivec2 here = clamp(ivec2(cell), ivec2(0), last_cell);
-    if (normal.z < 0.85) here = foot_of_wall(here);
+    float line = 0.0;
+    if (wall()) {
+        vec3 faces = facing(here);
+        if (faces.xy != vec2(0.0)) aside = 0.999 * faces.xy;
+        map.z = faces.z;
+        here = foot_of_wall(here);
+    } else {
+        line = 0.4 * rim(here);
+    }
+    vec3 normal = vec3(aside, sqrt(max(1.0 - dot(aside, aside), 0.0)));
     int number = int(texelFetch(values, here, 0).r * 255.0 + 0.5);
     vec3 base = texelFetch(palette, ivec2(number, 0), 0).rgb;
     if (number == 254 && striped(8.0, 2.5)) base = hatch;
-    colour = vec4(lit(base, normal, map.z), 1.0);
+    colour = vec4(mix(lit(base, normal, map.z), edge, line), 1.0);
 }
 #elif defined(UNDERSIDE)
 in vec3 place;

@@ -93,7 +93,7 @@ def sort() -> float:
 
 @pytest.mark.parametrize(
     ("drawing", "contour", "pocket", "sorts"),
-    [("complex", 0.5, 1, 14.0), ("forms", 1, 2, 22.0)],
+    [("complex", 0.5, 1, 12.0), ("forms", 1, 2, 11.0)],
     ids=["complex", "forms"],
 )
 def test_a_drawing_of_small_tools(

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from app.cli.main import main
-from app.formats.machine_toml import load_machine, write_machine
+from app.core.toml_tables import write_tables
+from app.formats.machine_toml import load_machine
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.usecases.examine import CONTROLS
@@ -76,7 +77,7 @@ def test_a_machine_that_it_does_not_fit(plate: Path, tmp_path: Path, capsys: pyt
     assert checked(plate, "--machine", "router") == 0
     capsys.readouterr()
     small = tmp_path / "small.toml"
-    small.write_bytes(write_machine(load_machine("bench_mill")).replace(b"high = 380.0", b"high = 55.0"))
+    small.write_bytes(write_tables(load_machine("bench_mill")).encode().replace(b"high = 380.0", b"high = 55.0"))
     assert checked(plate, "--machine", small) == 1
     shown = capsys.readouterr().out
     assert (

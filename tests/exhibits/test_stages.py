@@ -210,3 +210,22 @@ def test_figure_5_in_codes() -> None:
         ".11111111111. .2RRRRRRRRR2. .2RRRRRRRRR2. .11111111111.",
         "............. ............. ............. .............",
     ]
+
+
+def test_the_published_rules_stand_beside_the_settled_ones_with_what_they_come_to() -> None:
+    from app.core.resources import resource
+    from app.exhibits.stage_files import run_stages
+    from app.usecases.bitmap_options import BitmapOptions, BitmapSize
+    from app.usecases.options import MakeOptions
+
+    data = resource("samples", "fig2.dxf").read_bytes()
+    options = MakeOptions(bitmap=BitmapOptions(BitmapSize(160)))
+    runs = {
+        variant: {stage.number: stage for stage in run_stages("fig2.dxf", data, (options, variant)).last}
+        for variant in Variant
+    }
+    for number in (301, 304, 307, 401, 403, 404, 405, 406, 407):
+        assert runs[Variant.PUBLISHED][number].beside and not runs[Variant.SETTLED][number].beside
+        assert runs[Variant.PUBLISHED][number].beside in runs[Variant.PUBLISHED][number].sentence
+    assert "px" in runs[Variant.PUBLISHED][406].beside and "formula II" in runs[Variant.PUBLISHED][401].beside
+    assert len(runs[Variant.PUBLISHED][407].rows) > 0

@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.geometry.arcs.nurbs import flattened, flattened_all, nurbs_points
+from app.geometry.arcs.nurbs import flattened, flattened_all
 from app.model.motion import Nurbs
 from tests.examples import examples
+from tests.nurbs_oracle import nurbs_points
 
 
 @st.composite

@@ -9,7 +9,8 @@ import pytest
 
 from app.core.errors import InputError
 from app.core.settings import config_folder
-from app.formats.machine_toml import DEFAULT_MACHINE, load_machine, machine_files, read_machine, write_machine
+from app.core.toml_tables import write_tables
+from app.formats.machine_toml import DEFAULT_MACHINE, load_machine, machine_files, read_machine
 
 ROUTER = load_machine(DEFAULT_MACHINE)
 
@@ -18,7 +19,7 @@ ROUTER = load_machine(DEFAULT_MACHINE)
 def test_what_ships_is_sane_and_comes_back(name: str) -> None:
     machine = load_machine(name)
     for moved in (machine, replace(machine, work_origin=(1.5, -2.0, 0.25), title='A "b"\\ 刃\n')):
-        assert read_machine("m.toml", write_machine(moved)) == moved
+        assert read_machine("m.toml", write_tables(moved).encode()) == moved
     assert all(100 <= axis.travel <= 2000 and axis.rapid >= machine.largest_feed / 2 for axis in machine.axes)
 
 
@@ -26,9 +27,9 @@ def test_a_users_machine_is_found_by_name_and_by_path(tmp_path: Path) -> None:
     folder = config_folder() / "machines"
     folder.mkdir(parents=True)
     mine = replace(ROUTER, title="Mine", largest_feed=1234.0)
-    (folder / "mine.toml").write_bytes(write_machine(mine))
-    (folder / "vmc.toml").write_bytes(write_machine(mine))
-    (tmp_path / "other.toml").write_bytes(write_machine(mine))
+    (folder / "mine.toml").write_bytes(write_tables(mine).encode())
+    (folder / "vmc.toml").write_bytes(write_tables(mine).encode())
+    (tmp_path / "other.toml").write_bytes(write_tables(mine).encode())
     assert list(machine_files()) == ["bench_mill", "mine", "router", "vmc"]
     assert load_machine("mine") == load_machine("vmc") == load_machine(str(tmp_path / "other.toml")) == mine
 
@@ -63,7 +64,7 @@ def test_a_machine_that_is_not_there_names_those_that_are() -> None:
     ],
 )
 def test_what_is_wrong_is_named_with_its_line(old: str, new: str, words: str) -> None:
-    text = write_machine(ROUTER).decode()
+    text = write_tables(ROUTER).encode().decode()
     assert old in text
     with pytest.raises(InputError, match=words):
         read_machine("m.toml", text.replace(old, new).encode())
@@ -71,7 +72,9 @@ def test_what_is_wrong_is_named_with_its_line(old: str, new: str, words: str) ->
 
 def test_what_may_be_left_out_has_its_default() -> None:
     text = "\n".join(
-        line for line in write_machine(ROUTER).decode().splitlines() if not line.startswith(("tool_change", "corner"))
+        line
+        for line in write_tables(ROUTER).encode().decode().splitlines()
+        if not line.startswith(("tool_change", "corner"))
     )
     machine = read_machine("m.toml", text.encode())
     assert (machine.tool_change, machine.corner, machine.work_origin) == (0.0, 0.01, None)

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.errors import InputError
-from app.formats.scene.toml import read_scene, write_scene
+from app.formats.scene.toml import read_scene
 from app.model.job import OriginXY, OriginZ
 from app.model.part import Units
 from app.model.scene import (
@@ -42,6 +42,7 @@ from app.model.scene_shapes import (
 )
 from app.model.tool import FeedRow, Tool, ToolKind
 from tests.examples import examples
+from tests.scene_text import write_scene
 
 ZERO, X = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
 TABLE = SectionCurve(

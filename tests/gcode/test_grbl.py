@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.core.errors import ParameterError
 from app.gcode.posts.posts import load_post
-from app.gcode.writer.write import write_files, write_program
+from app.gcode.writer.write import write_files
 from app.model.job import OriginXY
 from app.model.part import Part, Units
 from app.model.tool import Tool
 from tests.examples import examples
 from tests.gcode.grbl_syntax import LINE, grbl_errors
+from tests.gcode.one_file import write_program
 from tests.gcode.programs import Path, job, two_tools
 from tests.gcode.test_write_motion import arc_steps, line_steps, random_path
 
@@ -102,11 +102,6 @@ def test_a_program_of_one_tool_is_one_plain_file() -> None:
     (file,) = write_files(path.program(), job(), GRBL)
     assert file.suffix == "" and "(File" not in file.nc.text and "Z zero" not in file.nc.text
     assert write_program(path.program(), job(), GRBL).text == file.nc.text
-
-
-def test_several_tools_are_not_one_program() -> None:
-    with pytest.raises(ParameterError, match="grbl changes no tools, so this program is 2 files, not one"):
-        write_program(two_tools().program(), job(), GRBL)
 
 
 def test_it_never_leaves_the_path() -> None:

@@ -9,8 +9,8 @@ import pytest
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post
-from app.gcode.writer.write import write_program
 from app.model.part import Units
+from tests.gcode.one_file import write_program
 from tests.gcode.programs import Path, job, two_tools
 from tests.gcode.rs274_oracle import canonical_calls
 

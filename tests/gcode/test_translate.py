@@ -147,11 +147,6 @@ REFUSED = [
     ("haas", "M101\nG0 X1\nM2\n", "a.ngc:1:1: M101: M101 has no counterpart"),
     ("haas", "S100.5 M3\nG0 X1\nM2\n", "a.ngc:1:1: S100.5: Haas takes whole speeds only"),
     ("haas", "S100 M3\nF100\nG0 Z5\nG84 X1 Y1 Z-1 R1 P0.1\nM2\n", "a.ngc:4:1: G84: the dwell of G84 is at another"),
-    (
-        "haas",
-        "S100 M3\nF100\nG0 Z5\nG98 G84 X1 Y1 Z-1 R1\nM2\n",
-        "a.ngc:4:5: G84: out of a tapped hole Haas goes at feed to R",
-    ),
     ("haas", "S100 M3\nF100\nG0 Z5\nG91 G99 G84 X1 Y1 Z-1 R1\nM2\n", "a.ngc:4:9: G84: G84 under G91"),
     ("mach3", "S100 M3\nF100\nG0 Z5\nG99 G84 X1 Y1 Z-1 R1\nM2\n", "a.ngc:4:5: G84: G84 does not tap alike on Mach3"),
     ("fanuc", "S100 M3\nF100\nG0 Z5\nG88 X1 Y1 Z-1 R1 P1\nM2\n", "a.ngc:4:1: G88: behind G88 the operator"),
@@ -212,6 +207,64 @@ def test_out_of_a_tapped_hole_fanuc_goes_at_feed_to_r_alone() -> None:
     ]
 
 
+@pytest.mark.parametrize(("control", "units"), [("haas", "G21"), ("fanuc", "G20")])
+def test_a_tap_that_linuxcnc_leaves_up_to_the_first_height_is_left_as_the_control_does(
+    control: str, units: str
+) -> None:
+    """At feed to R, and up the way that it came down at rapid rate; the head says so."""
+    made = into(control, HOLES.format(" M3", "G98 G84").replace("G21", units))
+    head = b"(OUT OF TAPPED HOLES THE TOOL GOES AT FEED TO R AND AT RAPID RATE FROM THERE)"
+    assert made.data.count(b"G99 G84") == 2 and head in made.data
+    motions = made.program.motions
+    up = np.flatnonzero((motions.end[:, 2] > motions.start[:, 2]) & (motions.start[:, 2] > -4 * made.off))
+    assert set(motions.kind[up].tolist()) == {MotionKind.RAPID}
+    before = read_program(HOLES.format(" M3", "G98 G84").replace("G21", units).encode()).motions
+    fed = np.flatnonzero((before.kind == MotionKind.LINE) & (before.end[:, 2] == before.end[:, 2].max()))
+    assert len(fed) == 2 and not np.isin(fed, made.rows).any(), "they are motions of the first program no more"
+    kept = made.rows >= 0
+    assert np.abs(motions.end[kept] - before.end[made.rows[kept]]).max() <= made.off
+
+
+def test_a_way_out_of_a_tapped_hole_at_another_height_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    right = Blocks.block
+    monkeypatch.setattr(Blocks, "block", lambda self, line: right(self, line.replace("R2.", "R3.")))
+    assert "is not the same there" in told("haas", HOLES.format(" M3", "G98 G84"))
+
+
+SUBS = {
+    "fanuc": "G21 G90 F100.\nG0 X9.\nM30\nO7 (corner)\nG91 G1 X1.\nG90\nM99\n",
+    "mach3": "G21 G90 F100\nG0 X9\nM30\nO7\nG1 X1\nM99\n",
+    "linuxcnc": "G21 G90 F100\nG0 X9\nM2\no7 sub\nG1 X1\no7 endsub\n",
+}
+
+
+@pytest.mark.parametrize("control", [*CONTROLS, "grbl"])
+@pytest.mark.parametrize("came", SUBS)
+def test_a_subprogram_that_nothing_calls_is_not_written_and_the_head_says_so(came: str, control: str) -> None:
+    if came == control:
+        return
+    made = into(control, SUBS[came], came)
+    assert made.program.motions.end[:, 0].tolist() == [9.0]
+    assert b"o7 is not called, so it is not written" in made.data.lower()
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("G0 X9.\nM30\nG1 X5.\nO7\nG1 X1.\nM99\n", 3),
+        ("G0 X9.\nM30\nO7\nG1 X1.\nM99\nG1 X5.\n", 6),
+        ("G0 X9.\nM30\nG1 X5.\n", 3),
+    ],
+)
+def test_what_stands_beside_such_a_subprogram_is_still_refused(text: str, line: int) -> None:
+    assert f"a.ngc:{line}: what stands behind the end" in told("linuxcnc", "G21 F100. " + text, "fanuc")
+
+
+def test_subprograms_that_nothing_calls_are_counted_where_they_are_many() -> None:
+    calls = "G21 F100.\nM98 P3\nM30\n" + "".join(f"O{k}\nG1 X{k}.\nM99\n" for k in range(1, 9))
+    assert b"7 subprograms are not called, so they are not written" in into("linuxcnc", calls, "fanuc").data
+
+
 @pytest.mark.skipif(RS274 is None, reason="LinuxCNC is not installed")
 @pytest.mark.parametrize("cycle", ["G98 G84", "G99 G84", "G98 G86", "G99 G89"])
 def test_cycles_of_fanuc_are_what_linuxcnc_makes_of_them(cycle: str) -> None:
@@ -224,22 +277,21 @@ def test_cycles_of_fanuc_are_what_linuxcnc_makes_of_them(cycle: str) -> None:
 CURVES = "G21 G90 G17\nF100\nG0 X0 Y0 Z5\nG5 X20 Y10 I10 J0 P-3 Q8\nG5.1 X40 Y0 I10 J12\nG1 X50\nM2\n"
 
 
-def driven_along(motions: Motions) -> np.ndarray:
-    """Points (n, 2) of level lines and arcs, from their centres and directions."""
-    points = [motions.start[0, :2]]
+def driven_along(motions: Motions, chord: float = 2e-5) -> np.ndarray:
+    """Points (n, 2) of level lines and arcs, from their centres and directions; chords keep within `chord` mm."""
+    points = [motions.start[:1, :2]]
     for k in range(len(motions)):
         a, b, centre = motions.start[k, :2], motions.end[k, :2], motions.centre[k, :2]
         if motions.kind[k] >= MotionKind.ARC_CW:
             first, last = (math.atan2(*(place - centre)[::-1]) for place in (a, b))
             sign = 1 if motions.kind[k] == MotionKind.ARC_CCW else -1
             turn = sign * ((sign * (last - first)) % math.tau)
-            for share in np.linspace(0, 1, 40)[1:-1]:
-                size = math.hypot(*(a - centre)) * (1 - share) + math.hypot(*(b - centre)) * share
-                points.append(
-                    centre + size * np.array([math.cos(first + share * turn), math.sin(first + share * turn)])
-                )
-        points.append(b)
-    return np.array(points)
+            count = 2 + math.ceil(abs(turn) * math.sqrt(math.hypot(*(a - centre)) / (8 * chord)))
+            share = np.linspace(0, 1, count)[1:-1, None]
+            size = math.hypot(*(a - centre)) * (1 - share) + math.hypot(*(b - centre)) * share
+            points.append(centre + size * np.hstack([np.cos(first + share * turn), np.sin(first + share * turn)]))
+        points.append(b[None])
+    return np.concatenate(points)
 
 
 def bezier(points: list[tuple[float, float]], at: np.ndarray) -> np.ndarray:
@@ -262,6 +314,24 @@ def test_splines_are_written_as_arcs_within_the_last_decimals(control: str, step
     driven = shapely.LineString(driven_along(motions))
     assert driven.hausdorff_distance(shapely.LineString(meant)) < 2.5 * step
     assert len(motions) < 120
+
+
+WIDE = "G20 G90 G17\nF10\nG0 X0 Y0 Z1\nG5 X{} Y{} I{} J0 P-{} Q{}\nM2\n"
+
+
+@pytest.mark.parametrize("control", ["mach3", "grbl"])
+@pytest.mark.parametrize("wide", [1, 10, 40])
+def test_a_spline_a_metre_wide_is_written_in_hundred_thousandths_of_an_inch(control: str, wide: int) -> None:
+    """Its chords in the proof are as fine as the last decimal asks, not a thousand however wide it is."""
+    numbers = (0.8 * wide, 0.4 * wide, 0.4 * wide, 0.1 * wide, 0.3 * wide)
+    made = into(control, WIDE.format(*(f"{number:g}" for number in numbers)))
+    x, y, i, p, q = (25.4 * number for number in numbers)
+    meant = bezier([(0, 0), (i, 0), (x - p, y + q), (x, y)], np.linspace(0, 1, 20_001))
+    turns = made.program.motions.kind >= MotionKind.ARC_CW
+    assert np.any(turns) and b"spline" in made.data.lower()
+    driven = shapely.LineString(driven_along(made.program.motions))
+    assert max(shapely.distance(shapely.points(meant), driven)) < 2 * 25.4e-5
+    assert max(shapely.distance(shapely.points(driven.coords), shapely.LineString(meant))) < 2 * 25.4e-5
 
 
 @pytest.mark.parametrize("milliseconds", [119, 351, 407, 348, 18, 773, 103])

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from app.gcode.posts.post import ArcCentre, Numbers
 from app.gcode.posts.posts import load_post
-from app.gcode.writer.write import write_program
 from app.model.job import OriginXY, OriginZ
 from app.model.part import Units
 from tests.examples import examples
+from tests.gcode.one_file import write_program
 from tests.gcode.programs import Path, job, two_tools
 from tests.gcode.rs274_oracle import assert_same_motion
 

@@ -12,13 +12,14 @@ import pytest
 from app.formats.readers import read_drawing
 from app.gcode.checks.check import CheckReference, check
 from app.gcode.posts.posts import load_post, post_names
-from app.gcode.writer.write import write_files, write_program
+from app.gcode.writer.write import write_files
 from app.model.job import Job, OriginXY, OriginZ
 from app.model.part import Units
 from app.model.stock_box import stock_box, work_origin
 from app.operations.compute import compute
 from tests.conftest import ROOT
 from tests.gcode.grbl_syntax import grbl_errors
+from tests.gcode.one_file import write_program
 from tests.gcode.rs274_oracle import assert_same_motion
 
 FIG2 = ROOT / "resources" / "samples" / "fig2.dxf"

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from app.geometry import near_points, triangulation
-from app.geometry.near_points import all_within, groups, nearest, pairs_within
+from app.geometry.near_points import all_within, groups, groups_within, nearest, pairs_within
 from app.geometry.triangulation import neighbours
 from tests.examples import examples
 
@@ -72,6 +72,20 @@ def test_groups_are_numbered_by_their_first(given_pairs) -> None:
     assert few.tolist() == many.tolist()
     assert all(few[a] == few[b] for a, b in joined)
     assert list(dict.fromkeys(few.tolist())) == list(range(few.max() + 1))
+
+
+@SOME
+@given(
+    points=st.integers(1, 60).flatmap(
+        lambda n: arrays(np.float64, st.tuples(st.just(n), st.just(2)), elements=st.integers(-9, 9))
+    ),
+    owners=st.integers(1, 20),
+    reach=st.sampled_from([0.5, 1.0, 1.5, 3.0, 40.0]),
+)
+def test_things_are_grouped_by_points_of_theirs_that_are_near(points, owners: int, reach: float) -> None:
+    owner = np.arange(len(points)) * 7 % owners
+    expected = groups(owners, owner[pairs_within(points, reach)])
+    assert groups_within(points, owner, owners, reach).tolist() == expected.tolist()
 
 
 @pytest.mark.parametrize("offset", [0.0, 3000.0])

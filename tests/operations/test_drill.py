@@ -10,7 +10,6 @@ import pytest
 
 from app.core.errors import ParameterError
 from app.gcode.posts.posts import load_post
-from app.gcode.writer.write import write_program
 from app.geometry.region import polygon_contour
 from app.model.curve_selectors import on_layers
 from app.model.curves import Arc
@@ -25,6 +24,7 @@ from app.toolpath.drawn_contours import drawn_contours
 from app.toolpath.drill_holes import circle_of, holes_of, tip_depth
 from app.toolpath.ordering.tour import in_short_order
 from app.verify.verdict import gouge_depths, rapids_in_material
+from tests.gcode.one_file import write_program
 from tests.part_shapes import circle, layered_part, square
 
 DRILL = Tool(1, 5.0, ToolKind.DRILL, tip_angle=math.radians(118))

@@ -20,7 +20,15 @@ from app.model.operation import CutParameters, Direction, PocketOperation
 from app.model.part import Contour, Entity, Part, Region
 from app.model.tool import Tool
 from app.operations.compute import compute, regions_of
-from app.operations.pocket.paths import MOST_COMPARED, MOST_LINKED, PocketStrokes, PocketTarget, candidates, shortest
+from app.operations.pocket.paths import (
+    MOST_COMPARED,
+    MOST_LINKED,
+    PocketStrokes,
+    PocketTarget,
+    between_rings,
+    candidates,
+    shortest,
+)
 from app.toolpath.coverage.coverage import measure
 from app.toolpath.linking.link import LinkOptions
 from app.toolpath.machining_areas import MachiningArea
@@ -81,6 +89,26 @@ def test_what_is_reported_of_a_way_is_what_its_strokes_measure() -> None:
     assert chosen.length == pytest.approx(sum(float(lengths(stroke.rows).sum()) for stroke in chosen.strokes))
     rings = sum(ring.length for level in chosen.levels for ring in level.rings)
     assert chosen.linked == pytest.approx(1 - rings / chosen.length)
+
+
+@pytest.mark.parametrize(
+    "contours",
+    [fig2(), [square(30)], [circle(20)], [square(30), circle(3), circle(2, 9, 9), square(4, -9, -8)]],
+    ids=["fig2", "square", "circle", "islands"],
+)
+def test_what_is_not_linked_would_not_have_been_chosen(contours: list[Contour]) -> None:
+    """The lengths by which stepovers are ruled out before their rings are linked are not above the true ones."""
+    sheet = sheet_of(nest(contours))
+    stepovers = candidates(R, len(sheet.primitives.rows))
+    chosen = shortest(sheet, WANTED, stepovers)
+    alone = [shortest(sheet, WANTED, (each,)) for each in stepovers]
+    assert (chosen.stepover, chosen.length) == min(
+        ((each.linked > MOST_LINKED, each.length), (each.stepover, each.length)) for each in alone
+    )[1]
+    for each in alone:
+        rings = sum(ring.length for level in each.levels for ring in level.rings)
+        least = rings + each.filling.length + between_rings(each.levels, each.filling.halves)
+        assert least <= each.length + 1e-6
 
 
 def test_drawings_with_very_many_rows_take_one_stepover_unmeasured() -> None:

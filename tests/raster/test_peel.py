@@ -86,25 +86,37 @@ def test_peeling_at_1600() -> None:
     assert np.array_equal(shrink(area, 25.0), area & (squared_distance(area, frame) > 625))
 
 
-def test_the_exception_of_step_304_keeps_the_ends_of_thin_lines() -> None:
+@pytest.mark.parametrize("wide", [1, 2])
+def test_the_exception_of_step_304_keeps_a_dumbbell_whole_where_peels_alone_part_it(wide: int) -> None:
+    area = np.zeros((17, 40), bool)
+    area[2:15, 2:15] = area[2:15, 25:38] = True
+    area[8 : 8 + wide, 15:25] = True
+    plain, kept = ([left for left, _ in peels(area, 4, keep_narrow=keep)][-1] for keep in (False, True))
+    assert ndimage.label(plain, np.ones((3, 3)))[1] == 2 and ndimage.label(kept, np.ones((3, 3)))[1] == 1
+    assert kept[8 : 8 + wide, 15:25].all() and np.all(kept[plain])
+    ((first, _),) = peels(area, 1, keep_narrow=True)
+    square = np.zeros_like(area)
+    square[3:14, 3:14] = True
+    assert np.array_equal(first[:, :12], square[:, :12]), "all else is peeled as ever"
+    corrected = [correct_by_circles(left, area, 4.0) for left in (plain, kept)]
+    assert np.array_equal(*corrected), "which the circles take away again"
+
+
+def test_a_line_of_one_pixel_is_never_peeled_by_the_exception() -> None:
     area = np.zeros((7, 12), bool)
     area[3, 1:11] = True
-    assert not peeled(area, 1).any()
-    ((left, borders),) = peels(area, 1, keep_ends=True)
-    assert np.argwhere(left).tolist() == [[3, 1], [3, 10]]
-    assert len(borders) == 1
-    assert not correct_by_circles(left, area, 1.0).any(), "which the circles take away again"
+    assert not peeled(area, 1).any() and not list(peels(area, 3, keep_narrow=True))
 
 
 def test_peeling_ends_where_kept_ends_alone_are_left() -> None:
     area = np.zeros((9, 14), bool)
     area[2:7, 2:12] = True
     area[4, 0:14] = True
-    turns = [left for left, _ in peels(area, 500, keep_ends=True)]
+    turns = [left for left, _ in peels(area, 500, keep_narrow=True)]
     assert 1 < len(turns) < 9
     assert turns[-1].any()
     assert all(np.count_nonzero(b) < np.count_nonzero(a) for a, b in pairwise([area, *turns]))
-    assert not list(peels(turns[-1], 3, keep_ends=True))
+    assert not list(peels(turns[-1], 3, keep_narrow=True))
 
 
 @pytest.mark.exhaustive

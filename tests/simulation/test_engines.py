@@ -12,12 +12,12 @@ from app.core.errors import Cancelled, HitofudeError
 from app.core.progress import Progress
 from app.simulation.engines import (
     Compute,
+    CutStep,
     Cutters,
     Engine,
     EngineReport,
     Graphics,
     HeightEngine,
-    Job,
     hardware,
     published_error,
     quads,
@@ -33,7 +33,7 @@ from tests.simulation.courses import CUTTERS as KINDS
 from tests.simulation.courses import box_piece, course_of, polyline
 from tests.simulation.test_sweep import REDUCED, walk
 
-JOB: Job = (box_piece(cells=120), course_of(polyline(walk(4, 60, 0.9, 0.6))), {1: KINDS["ball"]})
+JOB = CutStep(box_piece(cells=120), course_of(polyline(walk(4, 60, 0.9, 0.6))), {1: KINDS["ball"]})
 
 
 def spoiled(spoil: Callable[[Heights], None]) -> Compute:
@@ -72,7 +72,7 @@ def fails(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: 
     raise moderngl.Error("the context is lost")
 
 
-def later(job: Job, compute: Compute) -> Compute:
+def later(job: CutStep, compute: Compute) -> Compute:
     """A way to compute that is right but for one job: it passes the trial."""
 
     def chosen(
@@ -142,7 +142,7 @@ def test_the_published_method_states_its_error() -> None:
 @pytest.mark.parametrize("cutter", KINDS)
 def test_creases_and_walls_of_facets_are_no_faults(cutter: str) -> None:
     for name in ("rough walk", "sharp", "raster 30.0"):
-        job: Job = (box_piece(cells=290), course_of(polyline(REDUCED[name])), {1: KINDS[cutter]})
+        job = CutStep(box_piece(cells=290), course_of(polyline(REDUCED[name])), {1: KINDS[cutter]})
         engine = HeightEngine(Engine.PATENT, Graphics())
         engine.beside(trim(*job).heights, job)
         assert engine.report.engine is Engine.PATENT, engine.report.fault

@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.geometry.arcs.nurbs import nurbs_points
 from app.model.motion import Floats, MotionKind, Motions, Nurbs, Plane
 from app.model.motion_path import arc_paths
 from app.model.stock_box import StockBox
 from app.simulation.field.workpiece import BoxStock, Grid
 from app.simulation.sweeps.course import TrimOptions
 from app.simulation.sweeps.pieces import CHORD, PieceSplitter, SweepPieces, SweepWindow
+from tests.nurbs_oracle import nurbs_points
 from tests.simulation.courses import CUTTERS, arc, box_piece, cut, joined, polyline
 from tests.simulation.test_sweep import excess, walk
 

@@ -44,3 +44,17 @@ def stl(triangles: np.ndarray, header: bytes = b"") -> bytes:
     """Triangles as a binary STL file."""
     records = b"".join(struct.pack("<12fH", 0, 0, 0, *triangle.ravel().tolist(), 0) for triangle in triangles)
     return header.ljust(80, b"\0") + struct.pack("<I", len(triangles)) + records
+
+
+def bossed_block(degrees: float = 0.0) -> np.ndarray:
+    """A block of 40 x 30 round the zero, Z -20 to -10, with a boss of 20 x 14 x 10 in its middle, turned by an angle:
+    (28, 3, 3).
+    """
+    low, high = _ring(-20, -15, 20, 15, -20), _ring(-20, -15, 20, 15, -10)
+    foot, top = _ring(-10, -7, 10, 7, -10), _ring(-10, -7, 10, 7, 0)
+    found = [*_quad(*low[3::-1]), *_quad(*top[:4])]
+    for outer, inner in ((low, high), (high, foot), (foot, top)):
+        for (a, b), (c, d) in zip(pairwise(outer), pairwise(inner), strict=True):
+            found += _quad(a, b, d, c)
+    cos, sin = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return np.array(found, float) @ np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])

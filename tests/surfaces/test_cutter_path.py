@@ -21,6 +21,7 @@ from app.surfaces.patches.facets import SurfaceFacets
 from app.surfaces.sections.compound import BoundaryKind, CompoundSurface, CuttingPlanes
 from app.surfaces.sections.planes import even_planes
 from tests.surfaces.scenes import along_x, ball, facets_of, plane
+from tests.surfaces.solids import bossed_block
 
 TORUS = Path(__file__).parents[1] / "data" / "meshes" / "torus.stl"
 BALL = Tool(1, 4.0, ToolKind.BALL)
@@ -333,3 +334,36 @@ def test_a_boundary_point_nearer_to_a_place_than_points_may_be_is_told_where_it_
         marks = cutter_path(follower, along_x(*np.arange(20.0, 41.0).tolist())).boundaries
         both = (marks.before + marks.after == 3) & (marks.before * marks.after == 2)
         assert marks.plane[both].tolist() == list(range(21)) and marks.place[both, 0] == pytest.approx(x, abs=1e-6)
+
+
+def beside_the_boss(degrees: float, away: float, tool: Tool, moved: float = 0.0) -> tuple[Follower, np.ndarray]:
+    """The path (n, 3) of a tool's tip so far from a boss's long side, along it."""
+    triangles = bossed_block(degrees).astype(np.float32).astype(float) + [moved, moved, 0.0]  # as STL files store it
+    follower = Follower(SurfaceFacets.of_mesh(triangles, 0), tool, FollowOptions(0.0, 0.01, 1e-4))
+    cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    ends = [(moved + x * cos - y * sin, moved + x * sin + y * cos) for x, y in ((-19.0, 7 + away), (19.0, 7 + away))]
+    found = follower.between(ends[0], ends[1])
+    assert found is not None
+    return follower, found
+
+
+@pytest.mark.parametrize("tool", [Tool(1, 6.0, ToolKind.BALL), Tool(1, 6.0), Tool(1, 6.0, ToolKind.BULL, 1.0)])
+@pytest.mark.parametrize(("degrees", "moved"), [(0.0, 0.0), (90.0, 0.0), (0.0, 100.1), (180.0, 12.7)])
+def test_a_wall_that_is_just_touched_along_a_pass_is_passed_by(tool: Tool, degrees: float, moved: float) -> None:
+    """A ball's rim meets the wall's upper edge there and nothing else: the floor lets it down all the way."""
+    follower, found = beside_the_boss(degrees, tool.radius, tool, moved)
+    assert found[:, 2].tolist() == pytest.approx([-10.0] * len(found), abs=1.1e-4)
+    assert follower.proven(np.hstack([found[:-1], found[1:]])).all()
+
+
+@pytest.mark.parametrize("degrees", [17.0, 45.0, 123.4])
+@pytest.mark.parametrize("off", [-2e-4, -6e-5, -1e-5, 0.0, 1e-5, 6e-5, 2e-4])
+def test_rounded_places_beside_a_wall_make_no_swings(degrees: float, off: float) -> None:
+    """Whether a place is on this side of the wall's reach or on that hangs on its last decimal: it went up and down
+    thousands of times.
+    """
+    tool = Tool(1, 6.0, ToolKind.BALL)
+    follower, found = beside_the_boss(degrees, tool.radius + off, tool)
+    swings = float(np.abs(np.diff(found[:, 2])).sum())
+    assert swings < 2 * 7.1 + 0.1 and len(found) < 100
+    assert follower.proven(np.hstack([found[:-1], found[1:]])).all()

@@ -2,12 +2,15 @@
 sentence.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.errors import InputError
+from app.simulation.field.solid import read_solid
 from app.surfaces.meshes.read import read_mesh
 from tests.examples import examples
 from tests.surfaces.solids import pocketed_block, stl
@@ -66,3 +69,23 @@ def test_a_library_does_not_complain_beside_the_sentence(capfd: pytest.CaptureFi
         with pytest.raises(InputError):
             read_mesh(name, data)
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("far", [1e308, 1e20, float("nan"), float("inf")])
+@pytest.mark.parametrize("read", [read_mesh, read_solid])
+def test_a_corner_that_is_no_place_of_a_part_is_told(far: float, read: Callable[[str, bytes], object]) -> None:
+    """Of a solid too: beyond them sewing counted with numbers that are none."""
+    block = BLOCK.copy()
+    block[3, 1, 0] = far
+    with pytest.raises(InputError, match=r"^a\.stl: a corner of a triangle is no number, or far out of range"):
+        read("a.stl", text(block))
+
+
+def test_an_edge_too_short_to_have_a_length_is_no_error_of_ours() -> None:
+    block = BLOCK.copy()
+    block[14, 0] = (1e-300, 30.0, -10.0)
+    with (
+        np.errstate(invalid="raise", divide="raise"),
+        pytest.raises(InputError, match="the solid's surface is not closed"),
+    ):
+        read_solid("a.stl", text(block))

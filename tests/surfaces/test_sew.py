@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from app.surfaces.meshes.orientation import orient_outwards
@@ -35,6 +35,7 @@ def single(triangles: np.ndarray) -> np.ndarray:
     st.floats(-200, 200),
     st.booleans(),
 )
+@example(0, 0, [0.05, 0.05000000000000001], 0.0, True)
 @settings(max_examples=examples(60), deadline=None)
 def test_a_corner_on_an_edge_opens_nothing(
     triangle: int, side: int, shares: list[float], away: float, reverse: bool
@@ -43,7 +44,8 @@ def test_a_corner_on_an_edge_opens_nothing(
     wound = orient_outwards(torn[:, ::-1] if reverse else torn)
     assert wound.fault == ""
     assert volume(wound.triangles) == pytest.approx(BLOCK_MM3 * 0.7**3, abs=1e-6 * 28 * 21 * max(abs(away), 40))
-    assert int(wound.turned.sum()) == (len(torn) if reverse else 0)
+    some = sum(len(np.unique(each, axis=0)) == 3 for each in torn)  # two corners may be one in the file
+    assert int(wound.turned.sum()) == (some if reverse else 0)
 
 
 @given(st.integers(0, 10_000))

@@ -16,6 +16,7 @@ from shapely import affinity
 
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import Rows, within_half_turn
+from app.toolpath.coverage import proven
 from app.toolpath.coverage.proven import uncertain
 from tests.examples import examples
 
@@ -138,3 +139,22 @@ def test_what_is_not_in_doubt_is_covered(
     spots = np.random.default_rng(1).uniform(-9, 9, (4000, 2))
     asked = spots[shapely.contains_xy(wanted, spots) & ~shapely.intersects_xy(doubt, spots)]
     assert np.all(DistanceField.of(within_half_turn(rows)).nearest(asked)[0] <= 1.0 + SLACK)
+
+
+@pytest.mark.parametrize("missing", [None, 0, 7])
+def test_an_area_is_in_doubt_alike_in_portions_and_at_once(
+    monkeypatch: pytest.MonkeyPatch, missing: int | None
+) -> None:
+    """Ten squares, each with its own path, one of them without."""
+    squares = [shapely.box(20 * k, 0, 20 * k + 12, 12) for k in range(10)]
+    paths = [np.array(_line(*shapely.box(20 * k + 2, 2, 20 * k + 10, 10).exterior.coords)) for k in range(10)]
+    paths += [np.array(_line((20 * k + 2, 6), (20 * k + 10, 6))) for k in range(10)]
+    rows = np.concatenate([path for k, path in enumerate(paths) if k % 10 != missing])
+    wanted = shapely.intersection(
+        shapely.multipolygons(squares), shapely.union_all(_swath(np.concatenate(paths), 1.99))
+    )
+    whole = uncertain(wanted, [(rows, RADIUS)])
+    monkeypatch.setattr(proven, "_EDGES_AT_A_TIME", 400)
+    portions = uncertain(wanted, [(rows, RADIUS)])
+    assert (len(whole) == 0) == (missing is None)
+    assert shapely.equals(whole, portions).all() and len(whole) == len(portions)

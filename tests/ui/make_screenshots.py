@@ -267,6 +267,9 @@ def main() -> None:
         wiring.window_.choose_theme(theme)
         for width, height in SIZES:
             wiring.window_.resize(width, height)
+            wiring.open_start()
+            wait_until(lambda: not wiring.start_controller.worker.busy)
+            take(wiring, folder / f"start-{theme.value}-{width}.png")
             for view in views():
                 wiring.display_controller.show_view(view)
                 wait(50)

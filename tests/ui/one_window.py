@@ -14,6 +14,7 @@ from app.ui.framework.fade import FADE_MS
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.reading_section import MODEL_SPACE
+from app.ui.shell.new_job import MATERIALS
 from app.ui.shell.start import build
 from app.ui.shell.window_controller import WindowController
 from app.ui.views.canvas.modes import CanvasTool, PathColourBy
@@ -157,6 +158,7 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.command_line.log.show_lines(wiring.log.lines)
     window.canvas.set_colour_by(PathColourBy.TOOL)
     wiring.display_controller.show_view(View.DRAW)
+    _forget_start(wiring)
     window.side.show_page("Drawing")  # it is filled while it is seen
     window.side.show_page("Job")
     window.panel.choose(Subject(SubjectKind.OPERATION, 0))
@@ -167,6 +169,19 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     _settle()
     window.canvas.set_view(view)
     _forget_habits(wiring)
+
+
+def _forget_start(wiring: WindowController) -> None:
+    """Take the files from the page that the window begins with, and what was asked of a new part."""
+    page, control = wiring.window_.views.start, wiring.start_controller
+    control.worker.finish(20.0)
+    control._left, control._painting, control._theme = [], None, None
+    control._pictures.clear()
+    page.show_files([], [])
+    page.new.machine.set_choices([])
+    page.new.material.show_value(MATERIALS[0])
+    for field, value in zip(page.new.lengths, (80.0, 50.0, 10.0), strict=True):
+        field.show_value(value)
 
 
 def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:

@@ -351,7 +351,7 @@ def test_cells_show_when_a_pixel_is_six_screen_pixels(hand: Hand) -> None:
     assert not hand.canvas.cells_shown
     hand.canvas.set_view(ViewTransform(24.0, 100, 500))
     assert hand.canvas.cells_shown
-    hand.canvas.set_frame(BitmapFrame(100, 100, 0.1))
+    hand.canvas.frame = BitmapFrame(100, 100, 0.1)
     assert not hand.canvas.cells_shown
 
 

@@ -6,6 +6,7 @@ from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
 from app.ui.panels.changes import with_tool
+from app.ui.shell.nc_export_controller import ExportPlace, post_filters
 from tests.ui.conftest import WAIT_MS
 
 
@@ -13,7 +14,7 @@ def test_a_control_without_tool_changes_gets_a_file_for_each_tool_or_none(qtbot,
     document, exporting = computed.document, computed.files.export_controller
     document.change_job("post", replace(document.job, post="grbl"))
     (tmp_path / "part_2_T2.nc").mkdir()
-    exporting.choose_file = lambda ending: tmp_path / "part"
+    exporting.choose_file = lambda suffix, post: ExportPlace(tmp_path / "part", post)
     with qtbot.waitSignal(exporting.failed, timeout=WAIT_MS) as caught:
         exporting.start()
     assert "part_2_T2.nc" in caught.args[0]
@@ -32,11 +33,13 @@ def test_the_frame_is_computed_and_written(qtbot, computed, tmp_path):
     document = computed.document
     document.change_job("safe Z", replace(document.job, safe_z=7.5))
     asked = []
-    computed.files.export_controller.choose_file = lambda ending: asked.append(ending) or tmp_path / "frame.ngc"
+    computed.files.export_controller.choose_file = lambda suffix, post: (
+        asked.append(suffix) or ExportPlace(tmp_path / "frame.ngc", post)
+    )
     with qtbot.waitSignal(computed.files.export_controller.written, timeout=WAIT_MS):
         computed.window_.actions_["frame"].trigger()
     assert computed.computation.state is ComputationState.CURRENT
-    assert asked == ["_frame.ngc"]
+    assert asked == ["_frame"]
     text = (tmp_path / "frame.ngc").read_text("ascii")
     assert text == computed.computation.made.frame()
     assert "Z7.5000" in text
@@ -46,8 +49,8 @@ def test_the_frame_is_computed_and_written(qtbot, computed, tmp_path):
 def test_what_was_proven_is_said_before_the_file_is_asked_for(qtbot, computed, tmp_path):
     said = []
     notice = computed.window_.notice
-    computed.files.export_controller.choose_file = lambda ending: (
-        said.append((notice.isVisible(), notice.text.text())) or tmp_path / "part"
+    computed.files.export_controller.choose_file = lambda suffix, post: (
+        said.append((notice.isVisible(), notice.text.text())) or ExportPlace(tmp_path / "part", post)
     )
     with qtbot.waitSignal(computed.files.export_controller.written, timeout=WAIT_MS):
         computed.files.export_controller.start()
@@ -61,7 +64,7 @@ def test_what_was_proven_is_said_before_the_file_is_asked_for(qtbot, computed, t
 def test_metal_left_is_shown_in_the_cut_before_anything_is_written(qtbot, computed, tmp_path):
     document, exporting, window = computed.document, computed.files.export_controller, computed.window_
     asked = []
-    exporting.choose_file = lambda ending: asked.append(ending)
+    exporting.choose_file = lambda suffix, post: asked.append(suffix)
     document.change_job(
         "wide",
         replace(document.job, operations=(PocketOperation(CutParameters(1)), ContourOperation(CutParameters(2)))),
@@ -83,3 +86,22 @@ def test_metal_left_is_shown_in_the_cut_before_anything_is_written(qtbot, comput
         and window.views.cut.overlay.pin.place == window.cut_panel.chosen.place
     )
     assert not asked
+
+
+def test_the_control_is_chosen_with_the_file_and_the_job_computed_for_it(qtbot, computed, tmp_path):
+    exporting = computed.files.export_controller
+    exporting.choose_file = lambda suffix, post: ExportPlace(tmp_path / "part", "haas")
+    with qtbot.waitSignal(exporting.written, timeout=WAIT_MS) as caught:
+        exporting.start()
+    assert computed.document.job.post == computed.computation.made.job.post == "haas"
+    (path,) = caught.args[0]
+    assert path.read_text("ascii") == computed.computation.made.nc.text
+    assert "O0" in path.read_text("ascii")
+    computed.document.undo()
+    assert computed.document.job.post == "linuxcnc"
+
+
+def test_every_control_is_offered_with_the_suffix_of_its_files():
+    filters = post_filters()
+    assert filters["LinuxCNC (*.ngc)"] == "linuxcnc" and "grbl" in filters.values()
+    assert all("(*." in each for each in filters)

@@ -27,6 +27,7 @@ from app.ui.framework import style
 from app.ui.framework.dropping import place_under
 from app.ui.framework.theme import LIGHT, TEXT_PX, text_font
 from app.ui.panels.changes import Subject, SubjectKind, with_tool
+from app.ui.panels.lists import OperationTimes
 from app.ui.panels.side_panel import WIDTH, SidePanel
 
 SCROLL_BAR_PX = 8
@@ -248,7 +249,7 @@ def test_what_only_the_job_knows_is_said_at_the_field(qtbot, document, panel):
 def test_nothing_is_wider_than_the_panel(qtbot, document, panel, kind):
     panel.resize(panel.width(), 300)
     enter(qtbot, panel.operation_form.number("depth"), "12")
-    panel.show_results({0: 36_000.0, 1: 0.0}, 123)
+    panel.show_results(OperationTimes({0: 36_000.0, 1: 0.0}), 123)
     panel.choose(Subject(kind, 1 if kind is SubjectKind.TOOL else 0))
     qtbot.wait(20)
     assert panel.widget().minimumSizeHint().width() <= WIDTH - SCROLL_BAR_PX

@@ -106,12 +106,13 @@ def test_what_a_crash_left_comes_back(qtbot, wiring, crashed):
     assert len(read_project("x", crashed.read_bytes()).state.job.part.entities) == 2
 
 
-def test_a_start_offers_it_before_the_sample(qtbot, wiring, crashed):
+def test_a_start_offers_it_before_the_last_files(qtbot, wiring, crashed):
     start.begin(wiring, None)
     assert "plate.hito" in wiring.window_.notice.text.text()
     assert not wiring.window_.worker.busy
-    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
-        press(wiring, "Discard")
+    assert not wiring.window_.views.starting
+    press(wiring, "Discard")
+    assert wiring.window_.views.starting
 
 
 def test_a_start_with_a_file_offers_it_once_that_is_open(qtbot, wiring, crashed):

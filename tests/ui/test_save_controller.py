@@ -13,6 +13,7 @@ from app.formats.project.project import Project, read_project
 from app.model.underlay import Underlay
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
+from app.ui.shell.nc_export_controller import ExportPlace
 from tests.ui.conftest import WAIT_MS
 
 
@@ -282,7 +283,7 @@ def test_the_program_bears_the_name_of_the_file(qtbot, wiring, tmp_path):
     qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
     save_to(qtbot, wiring, tmp_path / "lid.hito")
     assert wiring.computation.state is ComputationState.STALE
-    wiring.files.export_controller.choose_file = lambda ending: tmp_path / "lid.ngc"
+    wiring.files.export_controller.choose_file = lambda suffix, post: ExportPlace(tmp_path / "lid.ngc", post)
     with qtbot.waitSignal(wiring.files.export_controller.written, timeout=WAIT_MS):
         wiring.files.export_controller.start()
         qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)

@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 
 import pytest
+from PySide6.QtWidgets import QLabel
 
 from app.core.errors import ParameterError
 from app.drafting.document import Document
@@ -83,18 +84,19 @@ def test_the_panel_marks_the_tool_at_once(qtbot, word, tool):
     assert in_list.property("role") == ("error" if refused(word, tool) else "muted")
 
 
-def test_computing_says_why_not_in_notice_status_and_findings(qtbot, wiring):
+def test_computing_says_why_not_once_above_the_view_and_in_the_findings(qtbot, wiring):
     window, drill = wiring.window_, Tool(1, 6.0, ToolKind.DRILL)
     wiring.document.load(Job(PART, (drill,), (OPERATION_KINDS["pocket"](CutParameters(1)),)))
     wiring.compute()
     qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.FAILED, timeout=20_000)
-    assert window.notice.text.text() == window.status.message.toolTip() == NO_MILL.format("pocket")
+    assert window.notice.text.text() == NO_MILL.format("pocket")
+    assert window.status.message.toolTip() == "Could not be computed"
     assert window.status.badge.text() == "Could not be computed"
     window.canvas.hovered.emit("Part")
     window.canvas.hovered.emit("")
-    assert window.status.message.toolTip() == NO_MILL.format("pocket"), (
-        "it stays when the mouse has passed over something"
-    )
+    assert window.status.message.toolTip() == "Could not be computed"
+    wiring.display_controller.open_findings()
+    assert NO_MILL.format("pocket") in [label.text() for label in window.findings_list.findChildren(QLabel)]
 
 
 @pytest.mark.parametrize("pixels", [False, True], ids=["exact", "pixels"])

@@ -147,8 +147,21 @@ def test_the_codes_of_the_choices() -> None:
 
 LATIN = re.compile(r"[A-Za-z]{3,}")
 JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
-NOT_TRANSLATED = {"English", "NC (Ctrl+7)", "Fanuc", "Haas", "LinuxCNC", "Mach3", "grbl", "mm/min", "rpm", "dpi", "Esc"}
-NOT_TRANSLATED |= {"UNC", "UNF"}
+NOT_TRANSLATED = {
+    "English",
+    "NC (Ctrl+7)",
+    "Fanuc",
+    "Haas",
+    "LinuxCNC",
+    "Mach3",
+    "grbl",
+    "mm/min",
+    "rpm",
+    "dpi",
+    "Esc",
+    "UNC",
+    "UNF",
+}
 """Names of controls, units, keys and threads."""
 
 

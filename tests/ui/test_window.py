@@ -16,6 +16,7 @@ from app.ui.framework.theme import DARK, LIGHT
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.file_controller import FIRST_START
+from app.ui.shell.nc_export_controller import ExportPlace
 from app.ui.shell.window_geometry import fit_onto
 from app.ui.views.canvas.modes import CanvasTool, PathColourBy
 from tests.ui.conftest import WAIT_MS
@@ -80,14 +81,14 @@ def test_tabs_lead_from_drawing_to_nc(qtbot, computed):
 
 def test_export_writes_what_was_computed(qtbot, computed, tmp_path):
     target = tmp_path / "part"
-    computed.files.export_controller.choose_file = lambda _: target
+    computed.files.export_controller.choose_file = lambda _, post: ExportPlace(target, post)
     with qtbot.waitSignal(computed.files.export_controller.written, timeout=WAIT_MS):
         press(qtbot, computed, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
     assert (tmp_path / "part.ngc").read_text("ascii") == computed.computation.made.nc.text
 
 
 def test_export_that_cannot_be_written_says_so(qtbot, computed, tmp_path):
-    computed.files.export_controller.choose_file = lambda _: tmp_path / "no" / "folder.ngc"
+    computed.files.export_controller.choose_file = lambda _, post: ExportPlace(tmp_path / "no" / "folder.ngc", post)
     with qtbot.waitSignal(computed.files.export_controller.failed) as caught:
         computed.files.export_controller.start()
     assert "folder.ngc" in caught.args[0]
@@ -96,7 +97,7 @@ def test_export_that_cannot_be_written_says_so(qtbot, computed, tmp_path):
 
 def test_export_of_a_changed_job_computes_first_and_shows_findings_before_the_file(qtbot, computed, tmp_path):
     target = tmp_path / "open.ngc"
-    computed.files.export_controller.choose_file = lambda _: target
+    computed.files.export_controller.choose_file = lambda _, post: ExportPlace(target, post)
     computed.document.run("line 150,0 150,50 170,50")
     computed.files.export_controller.start()
     notice = computed.window_.notice

@@ -5,25 +5,33 @@ from __future__ import annotations
 import math
 import re
 import time
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 
+from app.core.effort import Reckoning
 from app.core.progress import Progress
 from app.formats.scene.toml import sources_of
 from app.gcode.interpreter.reader import read_program
+from app.model.curves import Curve
 from app.model.stock_box import StockBox
 from app.model.tool import Tool
 from app.simulation.field.workpiece import BoxStock
 from app.surfaces.passes.facet_crossings import facet_crossings
 from app.surfaces.patches.facets import SurfaceFacets
 from app.surfaces.sections.compound import CuttingPlanes
+from app.usecases.bitmap_job import BitmapJob, drawn_job
+from app.usecases.bitmap_options import BitmapSize
+from app.usecases.bitmap_way import compute_on_bitmap
 from app.usecases.cut import CutOptions, CutSetup, cut
 from app.usecases.effort import cut_effort, smooth_effort
+from app.usecases.make import finish
 from app.usecases.smooth import smooth
 from app.usecases.smooth_result import OutputForm, SmoothOptions
 from app.usecases.surface import read_and_compute
 from tests.conftest import ROOT
+from tests.operations.test_reckoning import holes, job_of, square, wavy
 
 SAMPLES = ROOT / "resources" / "samples"
 NO_FILES = sources_of(lambda name: b"")
@@ -97,6 +105,56 @@ def test_finer_cells_and_a_drawing_to_compare_with_make_a_cut_longer() -> None:
     plain, fine = (cut_effort((program,), {1: Tool(1, 6.0)}, pitch, False, False).seconds for pitch in (0.4, 0.1))
     judged = cut_effort((program,), {1: Tool(1, 6.0)}, 0.4, True, True).seconds
     assert 10 < fine / plain < 16 and judged > 3 * plain
+
+
+def on_pixels(curves: list[Curve], points: int, diameter: float) -> BitmapJob:
+    return drawn_job(job_of(curves, diameter), BitmapSize(points))
+
+
+@pytest.mark.parametrize(
+    ("ready", "words"),
+    [
+        (on_pixels(wavy(45.0, 300), 2048, 0.2), r"about \d+ seconds: [\d,]+ pixels of paths in 1 contour .* bitmap"),
+        (on_pixels(holes(20), 1024, 3.0), r"about \d+ seconds: [\d,]+ pixels of paths in 400 contours .* layers"),
+    ],
+    ids=["paths", "contours"],
+)
+def test_a_long_job_on_pixels_is_announced_before_it_is_computed(ready: BitmapJob, words: str) -> None:
+    with pytest.raises(HeardError, match=words):
+        compute_on_bitmap(ready.job, ready.part, Progress(remarks=stop))
+
+
+def test_a_short_job_on_pixels_says_nothing() -> None:
+    ready = on_pixels(square(60.0), 400, 6.0)
+    compute_on_bitmap(ready.job, ready.part, Progress(remarks=stop))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize(
+    ("curves", "points", "diameter"),
+    [
+        (square(100.0), 1024, 1.0),
+        (wavy(45.0, 300), 1024, 2.0),
+        (wavy(45.0, 1000), 4096, 3.0),
+        (holes(10), 2048, 1.5),
+        (holes(8), 1024, 2.0),
+    ],
+    ids=["square", "waves", "fine waves", "circles", "coarse circles"],
+)
+def test_what_is_said_of_jobs_on_pixels_is_within_a_factor_of_three(
+    curves: list[Curve], points: int, diameter: float
+) -> None:
+    def made(ready: BitmapJob, heard: Callable[[str], None]) -> float:
+        begun = time.process_time()
+        finish(compute_on_bitmap(ready.job, ready.part, Progress(remarks=heard)).program, ready.job)
+        return time.process_time() - begun
+
+    made(on_pixels(square(50.0), 256, 6.0), stop)  # loads the code
+    said: list[Reckoning] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("app.usecases.bitmap_way.announce", lambda effort, progress: said.append(effort))
+        took = made(on_pixels(curves, points, diameter), stop)
+    assert took / WITHIN < said[0].seconds < took * WITHIN, f"said {said[0].seconds:.1f} s, took {took:.1f} s"
 
 
 @pytest.mark.exhaustive

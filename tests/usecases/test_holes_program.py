@@ -225,6 +225,13 @@ def test_waits_stand_at_the_bottoms_and_are_read_back(post: str) -> None:
     assert pecked.clean and blocks(pecked).count(wait) == 2
 
 
+def test_files_of_other_tools_wait_nowhere() -> None:
+    """grbl changes no tools: the file of a mill has no hole in it."""
+    milled = '[[operation]]\nkind = "contour"\ntool = 1\ndepth = 10\nside = "outside"\ncurves = ["outer"]\n'
+    made = made_of(DRILL + "dwell = 0.5\n" + milled, post="grbl")
+    assert ["G4 P0.5" in file.nc.text for file in made.files] == [True, False]
+
+
 @pytest.mark.parametrize("post", ["fanuc", "haas", "linuxcnc", "mach3"])
 @pytest.mark.parametrize(("breaks", "word"), [("false", "G83"), ("true", "G73")])
 def test_pecking_cycles(post: str, breaks: str, word: str) -> None:

@@ -19,7 +19,7 @@ from app.surfaces.sections.compound import (
     SectionRun,
 )
 from app.usecases.surface import ComputedScene, compute
-from app.usecases.surface_points import COLUMNS, points_csv, scene_points_csv
+from app.usecases.surface_points import COLUMNS, ToolSurface, points_csv, scene_points_csv
 from tests.conftest import ROOT
 
 SAMPLES = ROOT / "resources" / "samples"
@@ -47,7 +47,7 @@ def floats(rows: list[dict[str, str]], *columns: str) -> np.ndarray:
 def test_points_and_boundary_points_come_back_exactly() -> None:
     computed = the_compound()
     compound, names = computed.families[0].surface, computed.names
-    rows = rows_of(points_csv(compound, names, 1))
+    rows = rows_of(points_csv([ToolSurface(compound, 1)], names))
     points, marks = [row for row in rows if row["kind"] == "point"], [row for row in rows if row["kind"] != "point"]
     assert rows == points + marks
     np.testing.assert_array_equal(floats(points, "x", "y", "z"), np.concatenate([run.points for run in compound.runs]))
@@ -63,7 +63,7 @@ def test_points_and_boundary_points_come_back_exactly() -> None:
     ]
     assert [int(row["point"]) for row in marks] == list(range(1, len(found) + 1))
     assert {row["tool"] for row in rows} == {"1"}
-    assert scene_points_csv(computed) == points_csv(compound, names, 1)
+    assert scene_points_csv(computed) == points_csv([ToolSurface(compound, 1)], names)
 
 
 def test_parameters_that_are_told_are_those_of_the_surface_there() -> None:
@@ -74,7 +74,11 @@ def test_parameters_that_are_told_are_those_of_the_surface_there() -> None:
         for curve in surface.curves
         for point, at in zip(curve.points.tolist(), curve.parameters.tolist(), strict=True)
     }
-    points = [row for row in rows_of(points_csv(surface, computed.names)) if row["kind"] == "point" and row["u"]]
+    points = [
+        row
+        for row in rows_of(points_csv([ToolSurface(surface)], computed.names))
+        if row["kind"] == "point" and row["u"]
+    ]
     told = [
         (row, known.get((int(row["pass"]) - 1, int(row["surface"]) - 1, *(float(row[c]) for c in "xyz"))))
         for row in points
@@ -103,7 +107,7 @@ def test_hostile_names_ends_and_meshes() -> None:
         (SectionRun(0, points, np.array([0, 1])), SectionRun(0, points[:2], np.array([1]))),
         marks,
     )
-    rows = rows_of(points_csv(compound, names))
+    rows = rows_of(points_csv([ToolSurface(compound)], names))
     assert [(row["kind"], row["run"], row["point"], row["name"]) for row in rows[:5]] == [
         ("point", "1", "1", names[0]),
         ("point", "1", "2", names[1]),
@@ -127,5 +131,5 @@ def test_a_hundred_thousand_points() -> None:
         (SectionRun(0, points, np.zeros(99_999, np.int64)),),
         BoundaryPoints.none(),
     )
-    data = points_csv(compound, ("one",))
+    data = points_csv([ToolSurface(compound)], ("one",))
     assert data.count(b"\r\n") == 100_001

@@ -109,6 +109,16 @@ def test_descents_that_were_not_looked_at_to_the_end_are_counted(monkeypatch: py
     assert [(each.amount, each.counts) for each in said] == [(2.0, False)]
 
 
+@pytest.mark.parametrize(("aside", "seen"), [(0.0002, True), (0.009, True), (0.5, False)])
+def test_a_descent_by_way_of_tiny_steps_is_one(aside: float, seen: bool) -> None:
+    """Each half goes through less metal than tells of a plunge, both together through more."""
+    halves = f"G0 Z5\nX30 Y20 Z0\nG1 Z-1.2 F900\nX{30 + aside}\nZ-2.4\nG0 Z5\n"
+    found = told(f"{SLOWLY}{SLOT}{halves}")
+    assert bool(found) is seen
+    if seen:
+        assert found[0].amount == pytest.approx(2.4, abs=1e-6)
+
+
 SCENE = """
 name = "part"
 stock = { box = [-1, -1, -10, 41, 31, 1] }

@@ -4,82 +4,28 @@ from __future__ import annotations
 
 import argparse
 import json
-import re
-from collections.abc import Callable
-from pathlib import Path
 
-from ...core.atomic import write_together
-from ...core.errors import InputError
+from ...core.input_file import read_input
 from ...exhibits.die_programs import PROGRAMS
 from ...exhibits.figure_eleven import FigureOptions, figure_eleven
-from ..command import CliCommand, OptionParser
-from ..files import check_outputs, shown_progress
-from ..output import tell
-from ..signals import StopFlag, undisturbed
-from ..values import typed
-
-LEAST_CELLS, MOST_CELLS, MOST_RUNS = 16, 4096, 100
-_USUAL = FigureOptions()
-EPILOG = """\
-Cuts zigzags over a curved die of 100 mm, A and B with the moves and radii that were printed, C with more and finer
-ones, in every way there is, one after the other in one process, and prints how long the best run of each took. Other
-work on the machine shows in the times; ratios between the columns suffer less. Exit status 0: done; 2: something
-cannot be used; 130: cancelled.
-"""
+from ...exhibits.films.program_input import program_input
+from ..command import CliCommand
+from ..figure_options import EPILOG, add_figure_options
+from ..files import check_outputs, named_files, shown_progress
+from ..outcome import CommandOutcome
+from ..signals import StopFlag
 
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status, 0."""
-    if arguments.report is not None:
-        check_outputs({"report": arguments.report}, [])
-    done = figure_eleven(
-        FigureOptions(arguments.programs, arguments.grid, arguments.repeat), shown_progress(arguments.quiet, stopped)
-    )
-    if arguments.report is not None:
-        with undisturbed():
-            write_together({arguments.report: (json.dumps(done.report(), indent=2, allow_nan=False) + "\n").encode()})
-    if not arguments.quiet:
-        tell(done.text())
-    return 0
-
-
-def _add_options(parser: OptionParser) -> None:
-    parser.add_argument(
-        "--programs", metavar="A,B,C", type=typed(_programs), default=tuple(PROGRAMS), help="which (default all)"
-    )
-    parser.add_argument(
-        "--grid",
-        metavar="N",
-        type=typed(_whole("cells", LEAST_CELLS, MOST_CELLS)),
-        default=_USUAL.cells,
-        help=f"cells along each side, {LEAST_CELLS} to {MOST_CELLS} (default {_USUAL.cells})",
-    )
-    parser.add_argument(
-        "--repeat",
-        metavar="N",
-        type=typed(_whole("runs", 1, MOST_RUNS)),
-        default=_USUAL.repeat,
-        help=f"runs, of which the best one counts, 1 to {MOST_RUNS} (default {_USUAL.repeat})",
-    )
-    parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
-    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
-
-
-def _programs(text: str) -> tuple[str, ...]:
-    names = tuple(name.strip().upper() for name in text.split(","))
-    wrong = next((name for name in names if name not in PROGRAMS), None)
-    if wrong is not None or len(set(names)) < len(names):
-        raise InputError(f"'{text}' names no programs; write some of {','.join(PROGRAMS)}, each once")
-    return names
-
-
-def _whole(what: str, least: int, most: int) -> Callable[[str], int]:
-    def read(text: str) -> int:
-        if not re.fullmatch(r"\d{1,6}", text.strip()) or not least <= int(text) <= most:
-            raise InputError(f"'{text}' is no number of {what}; write a whole number from {least} to {most}")
-        return int(text)
-
-    return read
+    outputs = named_files(arguments, "report")
+    check_outputs(outputs, arguments.own)
+    progress = shown_progress(arguments.quiet, stopped)
+    own = tuple(program_input(path.name, read_input(path)) for path in arguments.own)
+    names = arguments.programs if arguments.programs is not None else () if own else tuple(PROGRAMS)
+    done = figure_eleven(FigureOptions(names, arguments.grid, arguments.repeat, own, arguments.facet), progress)
+    report = (json.dumps(done.report(), indent=2, allow_nan=False) + "\n").encode()
+    return CommandOutcome(dict.fromkeys(outputs.values(), report), [done.text()]).delivered(arguments, progress)
 
 
 COMMAND = CliCommand(
@@ -88,6 +34,6 @@ COMMAND = CliCommand(
     "",
     ("Measure how long plain software, the published depth buffer, and this program's engines take for the same cuts."),
     EPILOG,
-    _add_options,
+    add_figure_options,
     _run,
 )

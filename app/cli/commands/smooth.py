@@ -3,142 +3,29 @@
 from __future__ import annotations
 
 import argparse
-import math
-from pathlib import Path
 
-from ...core.atomic import write_together
-from ...fitting.line_arcs.arc_fit import BEND
-from ...gcode.interpreter.dialect import DIALECT_RULES, Dialect
-from ...gcode.posts.post import Post
-from ...gcode.posts.posts import load_post
-from ...usecases.smooth import OutputForm, SmoothedProgram, SmoothOptions, smooth
+from ...core.input_file import read_input
+from ...gcode.interpreter.dialect import DIALECT_RULES
+from ...usecases.smooth import SmoothedProgram, smooth
 from ...usecases.smooth_report import certificate, findings, report_text
-from ..command import CliCommand, OptionParser
-from ..effective_options import add_effective_options, effective_method
-from ..files import check_outputs, read_input, shown_progress
-from ..output import REMARKS, finding_lines, tell
-from ..signals import StopFlag, undisturbed
-from ..values import number, typed
-
-EPILOG = """\
-What is written is read back and proven: nowhere are curve and moves farther apart than T, both ways and in order.
-Corners, feeds, spindle, tools and comments stay in place. Exit status 0: done; 1: a stretch could not be proven and
-stayed as it was; 2: bad input.
-"""
+from ..command import CliCommand
+from ..files import check_outputs, named_files, shown_progress
+from ..outcome import CommandOutcome
+from ..output import REMARKS, finding_lines
+from ..signals import StopFlag
+from ..smooth_options import EPILOG, add_smooth_options, smooth_options
 
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 done, 1 with findings."""
-    outputs = {name: path for name in ("output", "report") if (path := getattr(arguments, name)) is not None}
+    outputs = named_files(arguments, "output", "report")
     check_outputs(outputs, [arguments.program])
     progress = shown_progress(arguments.quiet, stopped)
-    done = smooth(arguments.program.name, read_input(arguments.program), _options(arguments), progress)
-    texts = {outputs["output"]: done.data}
+    done = smooth(arguments.program.name, read_input(arguments.program), smooth_options(arguments), progress)
+    files = {outputs["output"]: done.data}
     if "report" in outputs:
-        texts[outputs["report"]] = report_text(done).encode()
-    progress.step(1.0)
-    with undisturbed():
-        write_together(texts)
-    if not arguments.quiet:
-        tell("\n".join(_lines(done)))
-    return 1 if findings(done) else 0
-
-
-def _add_options(parser: OptionParser) -> None:
-    parser.add_argument("program", metavar="PROGRAM.ngc", type=Path, help="the NC program")
-    parser.add_argument("-o", "--output", metavar="OUT.ngc", type=Path, required=True, help="the smoothed program")
-    parser.add_argument(
-        "--tolerance",
-        metavar="T",
-        type=number("tolerance"),
-        default=0.01,
-        help="how far curve and moves may be apart, both ways (default 0.01 mm)",
-    )
-    parser.add_argument(
-        "--as",
-        dest="form",
-        choices=[form.value for form in OutputForm],
-        default=OutputForm.ARCS.value,
-        help="what is written (default arcs)",
-    )
-    parser.add_argument(
-        "--region",
-        metavar="cylinder|barrel:MID",
-        type=_region,
-        default=None,
-        help="the tube's shape: T wide all along, or MID wide half way between two points (default cylinder)",
-    )
-    parser.add_argument(
-        "--degree",
-        type=int,
-        choices=[3, 5],
-        default=3,
-        help="of splines (default 3); 5, which no control knows, goes out as cubics near it",
-    )
-    parser.add_argument(
-        "--corner",
-        metavar="ANGLE",
-        type=_angle,
-        default=math.radians(30),
-        help="bends above it are kept, degrees (default 30)",
-    )
-    parser.add_argument(
-        "--bend",
-        metavar="DEG",
-        type=_angle,
-        default=BEND,
-        help="by how much neighbouring lines and arcs may bend, or as the moves do there; more only where that saves "
-        "blocks (default 0.5)",
-    )
-    parser.add_argument(
-        "--post",
-        metavar="NAME",
-        type=typed(load_post),
-        help="the control that all of it is written for, and read back as (default: the program's own)",
-    )
-    parser.add_argument(
-        "--dialect",
-        choices=[dialect.value for dialect in Dialect],
-        help="the control that the program is for (default: as the text looks)",
-    )
-    add_effective_options(parser)
-    parser.add_argument("--report", metavar="R.json", type=Path, help="the certificate and every stretch, as JSON")
-    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
-
-
-def _region(text: str) -> float | None:
-    if text == "cylinder":
-        return None
-    kind, _, middle = text.partition(":")
-    if kind != "barrel" or not middle:
-        raise argparse.ArgumentTypeError(
-            f"is wrong: '{text}' is no region; write cylinder, or barrel:0.05 with the radius in the middle"
-        )
-    return number("radius in the middle")(middle)
-
-
-def _angle(text: str) -> float:
-    value = number("angle", unit="degrees")(text)
-    if value > 180:
-        raise argparse.ArgumentTypeError(f"is {value:g} degrees; the angle must not be more than 180 degrees")
-    return math.radians(value)
-
-
-def _options(arguments: argparse.Namespace) -> SmoothOptions:
-    post: Post | None = arguments.post
-    dialect = Dialect(arguments.dialect) if arguments.dialect else None
-    effective = effective_method(arguments)
-    return SmoothOptions(
-        arguments.tolerance,
-        OutputForm(arguments.form),
-        arguments.region,
-        arguments.degree,
-        arguments.corner,
-        post,
-        dialect,
-        effective,
-        arguments.bend,
-    )
+        files[outputs["report"]] = report_text(done).encode()
+    return CommandOutcome(files, _lines(done), bool(findings(done))).delivered(arguments, progress)
 
 
 def _lines(done: SmoothedProgram) -> list[str]:
@@ -167,6 +54,6 @@ COMMAND = CliCommand(
         "is proven."
     ),
     EPILOG,
-    _add_options,
+    add_smooth_options,
     _run,
 )

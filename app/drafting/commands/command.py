@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import count
+from typing import NamedTuple
 
 from ...core.errors import InputError
 from ...geometry.transform import Similarity, transformed, transformed_note
@@ -150,19 +151,26 @@ class Transform:
         )
 
 
+class AddedCurve(NamedTuple):
+    """A new curve, on the layer of an entity, by its id."""
+
+    beside: int
+    curve: Curve
+
+
 @dataclass(frozen=True, slots=True)
 class ReplaceCurves:
     """Put other curves in the place of some.
 
     Attributes:
         pieces: by id what each becomes: the first piece keeps the id, the others follow it, none takes it away.
-        added: (id, curve): new curves on the layers of these entities.
+        added: new curves.
     """
 
     pieces: Mapping[int, tuple[Curve, ...]]
     name: str
     reply: str
-    added: tuple[tuple[int, Curve], ...] = ()
+    added: tuple[AddedCurve, ...] = ()
 
     def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with the pieces, on fresh ids but for the first of each."""

@@ -8,6 +8,7 @@ here the drawing itself would.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from ...core.errors import InputError
 from ...core.tolerances import WELD
@@ -27,7 +28,28 @@ bends.
 """
 
 Side = Line | Arc | Circle
-Filleted = tuple[Side, Arc, Side]
+
+
+class Filleted(NamedTuple):
+    """Two curves, shortened or lengthened, and the arc between."""
+
+    first: Side
+    arc: Arc
+    second: Side
+
+
+class _FoundFillet(NamedTuple):
+    """A fillet, and how far it begins and ends from the places that were pointed at, mm."""
+
+    away: float
+    made: Filleted
+
+
+class _CutLine(NamedTuple):
+    """A line that was cut back, and where it ends now."""
+
+    line: Line
+    end: Point
 
 
 def fillet(a: Side, b: Side, radius: float, near: tuple[Point, Point]) -> Filleted:
@@ -42,14 +64,13 @@ def fillet(a: Side, b: Side, radius: float, near: tuple[Point, Point]) -> Fillet
     """
     if isinstance(a, Circle) and not isinstance(b, Circle):
         second, arc, first = fillet(b, a, radius, (near[1], near[0]))
-        return first, Arc(arc.end, arc.start, arc.centre, not arc.ccw), second
+        return Filleted(first, Arc(arc.end, arc.start, arc.centre, not arc.ccw), second)
     found = _fillets(a, b, radius, near) or _fillets(a, b, radius, _beyond_corner(a, b, near))
     if not found:
         raise InputError(
             f"No arc of radius {radius:.3f} mm touches both curves here; use another radius, or point at other sides."
         )
-    _, first, arc, second = min(found, key=lambda each: each[0])
-    return first, arc, second
+    return min(found, key=lambda each: each.away).made
 
 
 def sharp(a: Line | Arc, b: Line | Arc, near: tuple[Point, Point]) -> tuple[Line | Arc, Line | Arc]:
@@ -92,7 +113,7 @@ def chamfer(a: Line, b: Line, sizes: tuple[float, float], near: tuple[Point, Poi
     return first, Line(p, q), second
 
 
-def _cut_back(line: Line, corner: Point, size: float, near: Point) -> tuple[Line, Point]:
+def _cut_back(line: Line, corner: Point, size: float, near: Point) -> _CutLine:
     far = max((line.start, line.end), key=lambda p: math.dist(p, corner))
     if between(line, corner) and math.dist(corner, near) > WELD:
         toward = (near[0] - corner[0], near[1] - corner[1])
@@ -101,7 +122,7 @@ def _cut_back(line: Line, corner: Point, size: float, near: Point) -> tuple[Line
     if not WELD <= size < room - WELD:
         raise InputError(f"The chamfer is {size:.3f} mm and the line {room:.3f} mm from its corner; use less.")
     at = (corner[0] + (far[0] - corner[0]) * size / room, corner[1] + (far[1] - corner[1]) * size / room)
-    return (Line(at, line.end) if far == line.end else Line(line.start, at)), at
+    return _CutLine(Line(at, line.end) if far == line.end else Line(line.start, at), at)
 
 
 def _beyond_corner(a: Side, b: Side, near: tuple[Point, Point]) -> tuple[Point, Point]:
@@ -125,8 +146,8 @@ def _far_end(curve: Side, corner: Point, near: Point) -> Point:
     return max((side.start, side.end), key=lambda p: math.dist(p, corner))
 
 
-def _fillets(a: Side, b: Side, radius: float, near: tuple[Point, Point]) -> list[tuple[float, Side, Arc, Side]]:
-    """Return (how far from the places pointed at, first, arc, second) of every fillet on these sides."""
+def _fillets(a: Side, b: Side, radius: float, near: tuple[Point, Point]) -> list[_FoundFillet]:
+    """Return every fillet on these sides."""
     found = []
     for centre in _centres(a, b, radius):
         touch = touch_of(a, centre, radius), touch_of(b, centre, radius)
@@ -135,7 +156,8 @@ def _fillets(a: Side, b: Side, radius: float, near: tuple[Point, Point]) -> list
             continue
         arc = Arc(touch[0], touch[1], centre, _turns_left(first, touch, centre))
         if abs(arc.sweep) < math.pi - _CLOSE and _goes_on(second, arc):
-            found.append((math.dist(touch[0], near[0]) + math.dist(touch[1], near[1]), first, arc, second))
+            away = math.dist(touch[0], near[0]) + math.dist(touch[1], near[1])
+            found.append(_FoundFillet(away, Filleted(first, arc, second)))
     return found
 
 

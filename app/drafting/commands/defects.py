@@ -7,6 +7,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -232,8 +233,11 @@ def gaps(curves: Mapping[int, Curve], tolerance: float) -> list[Defect]:
     return found
 
 
-End = tuple[int, bool]
-"""A curve, and whether its last point is meant."""
+class End(NamedTuple):
+    """An end of a curve, by its number: its first point or its last one."""
+
+    number: int
+    last: bool
 
 
 def point_of(curve: Curve, last: bool) -> Point:
@@ -250,8 +254,8 @@ def meetings(curves: Mapping[int, Curve], tolerance: float) -> list[list[End]]:
         if math.dist(curve.start, curve.end) > tolerance:
             for last in (False, True):
                 x, y = point_of(curve, last)
-                at[round(x / WELD), round(y / WELD)].append((number, last))
-    groups = [_EndGroup([point_of(curves[ends[0][0]], ends[0][1])], ends) for ends in at.values()]
+                at[round(x / WELD), round(y / WELD)].append(End(number, last))
+    groups = [_EndGroup([point_of(curves[ends[0].number], ends[0].last)], ends) for ends in at.values()]
     group, places = list(groups), [each.places[0] for each in groups]
     for a, b in sorted(_pairs(places, tolerance), key=lambda pair: math.dist(places[pair[0]], places[pair[1]])):
         one, other = group[a], group[b]

@@ -17,6 +17,7 @@ from .command import DraftingSession, check_ids
 from .defects import (
     Defect,
     DefectKind,
+    End,
     common_turn,
     curve_distance,
     duplicates,
@@ -154,7 +155,7 @@ class _HealJob:
             self.curves[short] = self.drawn[short] = left
         return left is not goes
 
-    def _close(self, meeting: list[tuple[int, bool]]) -> bool:
+    def _close(self, meeting: list[End]) -> bool:
         """Move ends to one point; return whether they were apart. Ends that cannot move, of ellipses, are where the
         others go.
         """

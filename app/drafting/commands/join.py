@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import NamedTuple
 
 from ...core.errors import InputError
 from ...core.tolerances import CURVE, JOIN, WELD
@@ -35,7 +36,7 @@ def join(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     layers = {e.id: e.layer for e in session.part.entities if e.id in drawn}
     chains, curves = chained(met), dict[int, Curve | None](met)
     for chain in chains:
-        for numbers, made in _runs(chain, layers):
+        for numbers, _, made in _runs(chain, layers):
             curves.update(dict.fromkeys(numbers))
             curves[min(numbers)] = made
     pieces = {
@@ -48,8 +49,15 @@ def join(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     return ReplaceCurves(pieces, "Join", f"{counted(gaps, 'gap')} closed, {became}; {shapes}.")
 
 
-def gaps_closed(drawn: Mapping[int, Curve], within: float) -> tuple[dict[int, Curve], int]:
-    """Return curves whose ends, where they are no farther apart than a distance, meet; and how many gaps there were.
+class CurvesWithoutGaps(NamedTuple):
+    """Curves by number, and how many gaps between them were closed."""
+
+    curves: dict[int, Curve]
+    gaps: int
+
+
+def gaps_closed(drawn: Mapping[int, Curve], within: float) -> CurvesWithoutGaps:
+    """Return curves whose ends, where they are no farther apart than a distance, meet.
 
     Two lines or arcs go on, or back, to where they cross; other ends go to their middle, or to the end that cannot
     move.
@@ -59,7 +67,7 @@ def gaps_closed(drawn: Mapping[int, Curve], within: float) -> tuple[dict[int, Cu
         points = [point_of(curves[number], last) for number, last in meeting]
         to = _meeting_point([curves[number] for number, _ in meeting], points, within)
         gaps += brought_to(to, curves, meeting, lambda number, last, to: _with_end(curves[number], last, to))
-    return curves, gaps
+    return CurvesWithoutGaps(curves, gaps)
 
 
 def brought_to(
@@ -107,24 +115,32 @@ def _with_end(curve: Curve, last: bool, to: Point) -> Curve | None:
         return None
 
 
-def _runs(chain: CurveChain, layers: Mapping[int, str]) -> list[tuple[list[int], Curve]]:
-    """Return which neighbours of a chain are one curve, and that curve."""
-    runs = list[tuple[list[int], list[Point], Curve]]()
+class _JoinedRun(NamedTuple):
+    """Neighbours of a chain that are one curve: their numbers, the points where they met, the curve."""
+
+    numbers: list[int]
+    joints: list[Point]
+    curve: Curve
+
+
+def _runs(chain: CurveChain, layers: Mapping[int, str]) -> list[_JoinedRun]:
+    """Return which neighbours of a chain are one curve."""
+    runs = list[_JoinedRun]()
     for number, curve in zip(chain.numbers, chain.curves, strict=True):
         if (
             runs
-            and layers[runs[-1][0][0]] == layers[number]
-            and (longer := _one(runs[-1][2], curve, runs[-1][1])) is not None
+            and layers[runs[-1].numbers[0]] == layers[number]
+            and (longer := _one(runs[-1].curve, curve, runs[-1].joints)) is not None
         ):
-            runs[-1] = ([*runs[-1][0], number], [*runs[-1][1], curve.start], longer)
+            runs[-1] = _JoinedRun([*runs[-1].numbers, number], [*runs[-1].joints, curve.start], longer)
         else:
-            runs.append(([number], [], curve))
-    if chain.closed and len(runs) > 1 and layers[runs[-1][0][0]] == layers[runs[0][0][0]]:
+            runs.append(_JoinedRun([number], [], curve))
+    if chain.closed and len(runs) > 1 and layers[runs[-1].numbers[0]] == layers[runs[0].numbers[0]]:
         (first, joints, begins), (last, more, ends) = runs[0], runs[-1]
         if (longer := _one(ends, begins, [*more, *joints])) is not None:
-            runs[0] = ([*last, *first], [], longer)
+            runs[0] = _JoinedRun([*last, *first], [], longer)
             runs.pop()
-    return [(numbers, curve) for numbers, _, curve in runs if len(numbers) > 1]
+    return [each for each in runs if len(each.numbers) > 1]
 
 
 def _one(a: Curve, b: Curve, joints: list[Point]) -> Curve | None:

@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterable, Sequence
 from itertools import chain as flattened
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,9 +42,14 @@ long.
 """
 
 
-def chain_parallel(
-    contour: CurveChain, away: float, side: Point, rounded: bool = False
-) -> list[tuple[int, Line | Arc]]:
+class ParallelPiece(NamedTuple):
+    """A piece of a parallel, and the number of the curve that it goes along."""
+
+    along: int
+    curve: Line | Arc
+
+
+def chain_parallel(contour: CurveChain, away: float, side: Point, rounded: bool = False) -> list[ParallelPiece]:
     """Return the parallel of a chain at a distance, on the side of a point; empty where nothing is that far from it.
 
     Args:
@@ -53,7 +59,7 @@ def chain_parallel(
         rounded: corners that open stay arcs; else their sides go on until they meet, up to five times the distance.
 
     Returns:
-        Pairs of the number of the curve that the piece goes along, and the piece, in the chain's direction.
+        Pieces in the chain's direction.
     """
     pieces = _pieces(contour)
     if not pieces:
@@ -71,7 +77,7 @@ def chain_parallel(
         if rounded
         else sharpened(groups, away, lambda a, b: _near(_boxes(a), _boxes(b)))
     )
-    return [(m.source, m.curve) for m in (made if left else _turned(made))]
+    return [ParallelPiece(m.source, m.curve) for m in (made if left else _turned(made))]
 
 
 def _pieces(contour: CurveChain) -> list[OffsetPiece]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,14 +98,21 @@ class SelectEntities:
         return self.by is SelectCriterion.ALL
 
 
+class _CurveEnd(NamedTuple):
+    """An end of an entity."""
+
+    number: int
+    place: Point
+
+
 def joined(entities: Sequence[Entity], ids: frozenset[int]) -> frozenset[int]:
     """Return these ids, and those of all entities that join them end to end, one after the other."""
     cell = 10 * WELD
-    at: dict[tuple[int, int], list[tuple[int, Point]]] = {}
+    at: dict[tuple[int, int], list[_CurveEnd]] = {}
     ends = {e.id: (e.curve.start, e.curve.end) for e in entities}
     for number, both in ends.items():
         for x, y in both:
-            at.setdefault((round(x / cell), round(y / cell)), []).append((number, (x, y)))
+            at.setdefault((round(x / cell), round(y / cell)), []).append(_CurveEnd(number, (x, y)))
     found, fresh = set(ids), list(ids)
     while fresh:
         for x, y in ends.get(fresh.pop(), ()):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ...core.tolerances import WELD
 from ...model.curves import Curve, Point, reversed_curve
@@ -44,7 +45,7 @@ def chained(curves: Mapping[int, Curve]) -> list[CurveChain]:
             continue
         done.add(number)
         ahead = _walk(last, at, nodes, done)
-        closed = bool(ahead) and ahead[-1][2] == first and len(at[first]) == 2
+        closed = bool(ahead) and ahead[-1].node == first and len(at[first]) == 2
         behind = [] if closed else _walk(first, at, nodes, done)
         way = [
             *((n, not forward) for n, forward, _ in reversed(behind)),
@@ -56,11 +57,26 @@ def chained(curves: Mapping[int, Curve]) -> list[CurveChain]:
     return found
 
 
+class _ChainStep(NamedTuple):
+    """A curve of a chain by its number, whether it is gone along forward, and the node where that ends."""
+
+    number: int
+    forward: bool
+    node: int
+
+
+class _KnownNode(NamedTuple):
+    """A point where curves end."""
+
+    number: int
+    place: Point
+
+
 def _walk(
     node: int, at: Mapping[int, list[int]], nodes: Mapping[int, tuple[int, int]], done: set[int]
-) -> list[tuple[int, bool, int]]:
-    """Return what follows from a node: number, whether forward, and the node where it ends."""
-    way = list[tuple[int, bool, int]]()
+) -> list[_ChainStep]:
+    """Return what follows from a node."""
+    way = list[_ChainStep]()
     while len(at[node]) == 2:
         onward = next((number for number in at[node] if number not in done), None)
         if onward is None:
@@ -69,7 +85,7 @@ def _walk(
         first, last = nodes[onward]
         forward = first == node
         node = last if forward else first
-        way.append((onward, forward, node))
+        way.append(_ChainStep(onward, forward, node))
     return way
 
 
@@ -77,7 +93,7 @@ def _nodes(curves: Mapping[int, Curve]) -> dict[int, tuple[int, int]]:
     """Return for each curve numbers of the points where it starts and ends; ends within WELD of one another are one
     point.
     """
-    cells: dict[tuple[int, int], list[tuple[int, Point]]] = {}
+    cells: dict[tuple[int, int], list[_KnownNode]] = {}
     count = 0
 
     def node(point: Point) -> int:
@@ -91,7 +107,7 @@ def _nodes(curves: Mapping[int, Curve]) -> dict[int, tuple[int, int]]:
                     if math.dist(place, point) <= WELD:
                         return known
         count += 1
-        cells.setdefault((math.floor(x / _CELL), math.floor(y / _CELL)), []).append((count, point))
+        cells.setdefault((math.floor(x / _CELL), math.floor(y / _CELL)), []).append(_KnownNode(count, point))
         return count
 
     return {number: (node(curve.start), node(curve.end)) for number, curve in curves.items()}

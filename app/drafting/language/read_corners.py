@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import pairwise
+from typing import NamedTuple
 
 from ...core.errors import InputError
 from ...model.curves import Arc, Circle, Curve, Line, Point
-from ..commands.command import DraftingSession, ReplaceCurves, check_ids, counted
+from ..commands.command import AddedCurve, DraftingSession, ReplaceCurves, check_ids, counted
 from ..commands.corners import Side, chamfer, fillet, is_smooth, sharp
 from ..curves.chains import chained
 from ..curves.intersections import nearest_point
@@ -15,8 +16,29 @@ from ..curves.shapes import middle_of
 from ..expressions.arguments import Arguments
 
 Near = tuple[Point, Point]
-Corner = tuple[Curve, Curve | None, Curve]
-"""The first curve, what lies between, the second."""
+
+
+class Corner(NamedTuple):
+    """Two curves at a corner, and what lies between them."""
+
+    first: Curve
+    between: Curve | None
+    second: Curve
+
+
+class _CornerCurves(NamedTuple):
+    """Curves by number in the order in which they were named, and where some were pointed at."""
+
+    curves: dict[int, Curve]
+    places: dict[int, Point]
+
+
+class _CornerPair(NamedTuple):
+    """Two curves by number, and where they meet; None = they were pointed at."""
+
+    a: int
+    b: int
+    joint: Point | None = None
 
 
 def fillet_of(words: Arguments, session: DraftingSession) -> ReplaceCurves:
@@ -27,11 +49,11 @@ def fillet_of(words: Arguments, session: DraftingSession) -> ReplaceCurves:
 
     def work(a: Curve, b: Curve, near: Near) -> Corner:
         if radius > 0:
-            return fillet(_side(a), _side(b), radius, near)
+            return Corner(*fillet(_side(a), _side(b), radius, near))
         if isinstance(a, Circle) or isinstance(b, Circle):
             raise InputError("A circle has no end that could make a sharp corner; give a radius, or trim it.")
         first, second = sharp(_open(a), _open(b), near)
-        return first, None, second
+        return Corner(first, None, second)
 
     return _worked(words, session, "Fillet", work)
 
@@ -44,7 +66,7 @@ def chamfer_of(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     def work(a: Curve, b: Curve, near: Near) -> Corner:
         if not (isinstance(a, Line) and isinstance(b, Line)):
             raise InputError("Only the corner of two lines can be chamfered; round others with fillet.")
-        return chamfer(a, b, sizes, near)
+        return Corner(*chamfer(a, b, sizes, near))
 
     return _worked(words, session, "Chamfer", work)
 
@@ -71,7 +93,7 @@ def _worked(
     pairs = [_pointed(curves, places)] if len(curves) == 2 else list(_joints(curves))
     if not pairs:
         raise InputError("No two of these curves meet in a corner; name two curves.")
-    drawn, added, refused = dict(curves), list[tuple[int, Curve]](), list[InputError]()
+    drawn, added, refused = dict(curves), list[AddedCurve](), list[InputError]()
     for a, b, joint in pairs:
         near = (places[a], places[b]) if joint is None else _beside_joint(curves[a], curves[b], joint)
         try:
@@ -79,7 +101,7 @@ def _worked(
         except InputError as error:
             refused.append(error)
             continue
-        added += [(a, between)] if between is not None else []
+        added += [AddedCurve(a, between)] if between is not None else []
     if len(refused) == len(pairs):
         raise refused[0]
     reply = counted(len(pairs) - len(refused), "corner") + (f", {len(refused)} left as before" if refused else "") + "."
@@ -88,8 +110,8 @@ def _worked(
     )
 
 
-def _read(words: Arguments, session: DraftingSession) -> tuple[dict[int, Curve], dict[int, Point]]:
-    """Return the curves by number in the order in which they were named, and where some were pointed at."""
+def _read(words: Arguments, session: DraftingSession) -> _CornerCurves:
+    """Return the curves that are named."""
     places, ids = dict[int, Point](), list[int]()
     while words.more:
         ids += words.some("a curve")
@@ -102,24 +124,24 @@ def _read(words: Arguments, session: DraftingSession) -> tuple[dict[int, Curve],
     if len(curves) < 2:
         raise InputError("Two curves or more make a corner; name them, or select them before.")
     words.takes(curves.values())
-    return curves, places
+    return _CornerCurves(curves, places)
 
 
-def _pointed(curves: dict[int, Curve], places: dict[int, Point]) -> tuple[int, int, None]:
+def _pointed(curves: dict[int, Curve], places: dict[int, Point]) -> _CornerPair:
     """Return a pair of curves; where nobody pointed at one its middle stands for it."""
     for number, curve in curves.items():
         places[number] = nearest_point(curve, places.get(number) or middle_of(curve))
     a, b = curves
-    return a, b, None
+    return _CornerPair(a, b)
 
 
-def _joints(curves: dict[int, Curve]) -> Iterator[tuple[int, int, Point]]:
+def _joints(curves: dict[int, Curve]) -> Iterator[_CornerPair]:
     """Yield the neighbours end to end that do not go on in one another smoothly, and where they meet."""
     for chain in chained(curves):
         way = list(zip(chain.numbers, chain.curves, strict=True))
         for (a, one), (b, other) in pairwise([*way, way[0]] if chain.closed and len(way) > 1 else way):
             if not (isinstance(one, Line | Arc) and isinstance(other, Line | Arc) and is_smooth(one, other, one.end)):
-                yield a, b, one.end
+                yield _CornerPair(a, b, one.end)
 
 
 def _beside_joint(a: Curve, b: Curve, joint: Point) -> Near:

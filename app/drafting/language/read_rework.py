@@ -7,7 +7,7 @@ from ...core.tolerances import WELD
 from ...model.curves import Arc, Circle, Curve, Line, Point
 from ...model.notes import Guide, Note
 from ...model.part import Entity
-from ..commands.command import DraftingSession, ReplaceCurves, check_ids, counted
+from ..commands.command import AddedCurve, DraftingSession, ReplaceCurves, check_ids, counted
 from ..commands.command_curves import chosen_curves
 from ..commands.drafting import broken, extended, parallel, trimmed
 from ..commands.offset_chain import chain_parallel
@@ -68,7 +68,7 @@ def offset(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     if away < WELD:
         raise InputError(f"The distance is {away:.3f} mm; it must be greater than 0.")
     rounded = bool(words.accept("round"))
-    made, nothing = list[tuple[int, Curve]](), list[InputError]()
+    made, nothing = list[AddedCurve](), list[InputError]()
     for contour in chained(curves):
         try:
             made += _parallels(contour, away, side, rounded)
@@ -79,10 +79,10 @@ def offset(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     return ReplaceCurves({}, "Offset", f"{len(made)} drawn.", tuple(made))
 
 
-def _parallels(contour: CurveChain, away: float, side: Point, rounded: bool) -> list[tuple[int, Curve]]:
+def _parallels(contour: CurveChain, away: float, side: Point, rounded: bool) -> list[AddedCurve]:
     if len(contour.curves) == 1 and isinstance(contour.curves[0], Line | Arc | Circle):
-        return [(contour.numbers[0], parallel(contour.curves[0], away, side))]
-    made = list[tuple[int, Curve]](chain_parallel(contour, away, side, rounded))
+        return [AddedCurve(contour.numbers[0], parallel(contour.curves[0], away, side))]
+    made = [AddedCurve(each.along, each.curve) for each in chain_parallel(contour, away, side, rounded)]
     if not made:
         raise InputError(
             f"Nothing of the contour is {away:.3f} mm away on that side; use less, or point at the other side."

@@ -77,11 +77,10 @@ def set_property(words: Arguments, session: DraftingSession) -> SetProperty | Se
     check_ids(session.part, ids)
     if word == "layer":
         return SetLayer(words.name("the name of a layer"), ids)
-    return SetProperty(ids, word, _value(words, session.part, (ids, word)))
+    return SetProperty(ids, word, _value(words, session.part, ids, word))
 
 
-def _value(words: Arguments, part: Part, what: tuple[frozenset[int], str]) -> Value:
-    ids, word = what
+def _value(words: Arguments, part: Part, ids: frozenset[int], word: str) -> Value:
     if WORDS[word] is PropertyKind.ANGLE:
         return words.angle("the angle")
     if WORDS[word] is PropertyKind.LENGTH:

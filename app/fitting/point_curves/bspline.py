@@ -6,6 +6,7 @@ same share of the tolerance. Along the way every point's place on the curve is m
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Nurbs
-from .space_curve import DEGREE
+from .space_curve import DEGREE, SpaceCurve
 from .tube import ToleranceTube
 
 Floats = NDArray[np.float64]
@@ -41,6 +42,28 @@ _TORN = 8.0
 """By so much more than their distance the places of two samples may be apart, if that is more than the tolerance."""
 _STRETCH = (0.4, 1.3)
 """How much denser breaks may become at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class FitRound:
+    """One round of the text's figure 4: a curve was made, and looked at.
+
+    Attributes:
+        control: (k, 3) control points, mm. pieces: (m, 6, 3) of its spans.
+        feet: (n,) places on the pieces that answer to the points.
+        farthest: distance of a point from its place, mm, the largest.
+        outside: how many points are farther than the region is wide at them.
+        unproven: numbers of the chords whose stretch of curve is not proven to be in its region.
+        spread: whether all points were near and all chords proven before, and control points are now taken away.
+    """
+
+    control: Floats
+    pieces: Floats
+    feet: Floats
+    farthest: float
+    outside: int
+    unproven: Ints
+    spread: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +116,11 @@ class _Samples:
 
 
 def fit_spline(
-    points: Floats, tube: ToleranceTube, degree: int = 3, progress: Progress = NO_PROGRESS
+    points: Floats,
+    tube: ToleranceTube,
+    degree: int = 3,
+    progress: Progress = NO_PROGRESS,
+    observer: Callable[[FitRound], None] | None = None,
 ) -> SplineFit | Ints:
     """Return a spline in the tube round points; where there is none, the numbers of the points at which it needs
     corners.
@@ -103,8 +130,9 @@ def fit_spline(
         tube: region round their chords.
         degree: 3 or 5.
         progress: told of rounds; may cancel.
+        observer: is shown every round.
     """
-    work = _FitStretch(points, tube, degree, progress)
+    work = _FitStretch(points, tube, degree, progress, observer)
     state = work.halved()
     if not isinstance(state, _SplineState):
         return state
@@ -116,7 +144,15 @@ def fit_spline(
 class _FitStretch:
     """One stretch of points and what its spline has to keep to."""
 
-    def __init__(self, points: Floats, tube: ToleranceTube, degree: int, progress: Progress) -> None:
+    def __init__(
+        self,
+        points: Floats,
+        tube: ToleranceTube,
+        degree: int,
+        progress: Progress,
+        observer: Callable[[FitRound], None] | None,
+    ) -> None:
+        self._observer, self._spreads = observer, False
         self._points = np.ascontiguousarray(points, np.float64)
         self._samples, self._degree, self._progress = _Samples(self._points), degree, progress
         self._tube, self._squares = tube, tube.squares(1e-9)
@@ -205,7 +241,18 @@ class _FitStretch:
             moved,
             bad,
         )
+        if self._observer is not None:
+            self._observer(self._round(control, pieces, feet, bad))
         return _SplineState(breaks, self._mended(moved), control, pieces, feet, bad)
+
+    def _round(self, control: Floats, pieces: Floats, feet: Floats, bad: Mask) -> FitRound:
+        """Return what there is to see of a round."""
+        places = SpaceCurve(pieces, np.zeros(len(pieces), np.int64)).at(feet)
+        off = np.sqrt(np.sum((places - self._points) ** 2, axis=1))
+        outside = int(np.sum(off > self._tube.radius))
+        return FitRound(
+            control, pieces, feet, float(off.max()), outside, np.flatnonzero(bad).astype(np.int64), self._spreads
+        )
 
     def _mended(self, places: Floats) -> Floats:
         """Return places of samples, spread again where two lie so far apart that nothing holds the curve between
@@ -226,7 +273,7 @@ class _FitStretch:
         """Return a proven spline whose spans are as long as lets their curves be equally far from the points, if it has
         fewer.
         """
-        best, share = state, _USE
+        best, share, self._spreads = state, _USE, True
         for _ in range(_SPREADINGS):
             self._progress.step(0.4, f"fitting a curve: {len(best.pieces)} spans")
             made = self._halved_from(self._evened(state, share), state.places)

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +14,13 @@ from numpy.typing import NDArray
 from ...core.errors import ParameterError
 from ...model.motion import Floats
 from .correction import CorrectionCurve, CorrectionMove, CorrectionOptions, CorrectionScope, corrected
-from .effective_points import EffectiveOptions, PointState, RangeEnds, effective_points
+from .effective_points import EffectiveOptions, EffectivePoints, PointState, RangeEnds, effective_points
+from .facets import facets_of_rows
 
 _DEFAULTS = CorrectionOptions()
 
+_PASS = 3
+"""Chords of a run that is a pass, at least: shorter ones lead from pass to pass."""
 _DIGITS = 4.0
 """Points are off by 0.71 of a last decimal in a plane, and ends of blocks by as much again; arcs need some room."""
 _OF_EPSILON = 0.05
@@ -53,6 +58,8 @@ class EffectiveMethod:
     Attributes:
         choose: which points these are.
         correct: how the others, and these, are moved first (second embodiment); None: the others are left out (first).
+        across: points are told apart by the facets of the surface that neighbouring passes lie on, not by the ranges of
+            each path alone.
         nearness: how far from the points that it goes by the curve may be, mm, > 0; None: see `nearness_for`. The
             tolerance, which holds the sag of the facets, is no freedom to stray from them.
     """
@@ -60,6 +67,7 @@ class EffectiveMethod:
     choose: EffectiveOptions
     correct: CorrectionOptions | None = None
     nearness: float | None = None
+    across: bool = False
 
     def __post_init__(self) -> None:
         if self.nearness is not None and not self.nearness > 0:
@@ -85,14 +93,52 @@ class EffectiveMethod:
         share = _OF_EPSILON if self.choose.ends is RangeEnds.OUTER else 1.0
         return self.nearness if self.nearness is not None else max(_DIGITS * digit, share * self.choose.epsilon)
 
-    def classes(self, points: Floats, corners: NDArray[np.int64]) -> PointClasses:
-        """Return what the points (n, 3) of a path are, its corners by number being effective and unmoved."""
+    def classes(
+        self, points: Floats, corners: NDArray[np.int64], state: NDArray[np.uint8] | None = None
+    ) -> PointClasses:
+        """Return what the points (n, 3) of a path are, its corners by number being effective and unmoved.
+
+        Args:
+            state: (n,) what each is by the facets of its surface; None: by the ranges of the path.
+        """
         effective = effective_points(points, self.choose, corners.tolist())
+        if state is not None:
+            known = state.copy()
+            known[corners] = PointState.EFFECTIVE
+            at = np.flatnonzero(known)
+            effective = EffectivePoints(np.column_stack([at[:-1], at[1:]]), known)
         if self.correct is None:
             return PointClasses(effective.state, points, self.choose.epsilon, effective.ranges, np.zeros(len(points)))
         moved = corrected(points, effective.state, self.correct, corners.tolist())
         off = self.choose.epsilon + float(moved.moved.max())
         return PointClasses(moved.state, moved.places, off, effective.ranges, moved.moved)
+
+
+def states_across(
+    paths: Sequence[Floats], corners: Sequence[NDArray[np.int64]], epsilon: float
+) -> tuple[NDArray[np.uint8], ...]:
+    """Return of each path what its points are by the facets of the surface that neighbouring passes lie on.
+
+    A pass is a run from corner to corner of four points or more; what is between passes is effective as it is.
+
+    Args:
+        paths: (n, 3) mm each. corners: of each, numbers of its points, the outer ones among them. epsilon: mm, > 0.
+    """
+    states = tuple(np.full(len(points), PointState.EFFECTIVE, np.uint8) for points in paths)
+    runs = [
+        (number, first, last + 1)
+        for number, at in enumerate(corners)
+        for first, last in pairwise(at.tolist())
+        if last - first >= _PASS
+    ]
+    if len(runs) < 2:
+        return states
+    found = facets_of_rows([paths[number][first:stop] for number, first, stop in runs], epsilon).state
+    begin = 0
+    for number, first, stop in runs:
+        states[number][first:stop] = found[begin : begin + stop - first]
+        begin += stop - first
+    return states
 
 
 def second_embodiment(

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats, Nurbs
-from ..fitted import FittedPath, chained, lines_between, spline_motion
-from .bspline import fit_spline
+from ..fitted import FittedPath, Ints, RefusalReason, SplineRefusal, chained, lines_between, spline_motion
+from .bspline import FitRound, fit_spline
 from .corners import corners
 from .cubic_approximation import cubic_near
 from .smoothness import of_curve, of_points
@@ -23,6 +23,9 @@ _REACH = 4.0
 
 _ASTRAY = 0.5
 """Cosine of the angle that a spline may set out away from its points."""
+
+_DENSER, _BESIDE = 24, 2
+"""Where a spline has to be, so often so many chords on either side of a bend are halved that none holds yet."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +41,9 @@ class SplineOptions:
         level: the control knows splines at one height only.
         rest: what stands where there is no spline: where the path rises or falls and must be level, where a spline
             would take no fewer blocks than chords; chords unless said otherwise.
+        insist: one spline from corner to corner, however many blocks it takes; the rest stands only where the control
+            cannot be told of one.
+        observer: is shown every round of every spline that is fitted.
     """
 
     tube: ToleranceTube
@@ -47,6 +53,8 @@ class SplineOptions:
     blocks: Callable[[Nurbs], int] = lambda curve: len(curve.points)
     level: bool = False
     rest: Callable[[Floats, Progress], FittedPath] = lambda points, _: _chords(points)
+    insist: bool = False
+    observer: Callable[[FitRound], None] | None = None
 
 
 def fit_splines(points: Floats, options: SplineOptions, progress: Progress = NO_PROGRESS) -> FittedPath:
@@ -76,18 +84,32 @@ def _between_corners(points: Floats, options: SplineOptions, progress: Progress)
     """Return splines and the rest, which do not bend more than the points where they meet; else nothing but the
     rest.
     """
+    if options.insist:
+        return _insisted(points, options, progress)
     path = chained(_fitted(points, options, progress))
     if not path.motions.splines or len(path.motions) == 1:
         return path
     bend = of_curve(curve_of_motions(path.motions), points[:0]).bend
-    return path if bend <= of_points(points, points[:0]).bend else options.rest(points, progress)
+    if bend <= of_points(points, points[:0]).bend:
+        return path
+    return _rest(points, options, progress, RefusalReason.BENT, _blocks(path, options))
+
+
+def _rest(
+    points: Floats, options: SplineOptions, progress: Progress, reason: RefusalReason, blocks: int = 0
+) -> FittedPath:
+    """Return what stands where there is no spline, and why."""
+    made = options.rest(points, progress)
+    return replace(made, refusals=(SplineRefusal(reason, blocks, len(made.motions)),))
 
 
 def _fitted(points: Floats, options: SplineOptions, progress: Progress) -> list[FittedPath]:
     """Return what replaces the points between two corners, cut at further ones where it has to be."""
-    if len(points) <= options.degree + 1 or (options.level and np.ptp(points[:, 2]) > 0):
-        return [options.rest(points, progress)]
-    made = fit_spline(points, options.tube, options.degree, progress)
+    if options.level and np.ptp(points[:, 2]) > 0:
+        return [_rest(points, options, progress, RefusalReason.LEVEL)]
+    if len(points) <= options.degree + 1:
+        return [_rest(points, options, progress, RefusalReason.SHORT)]
+    made = fit_spline(points, options.tube, options.degree, progress, options.observer)
     if isinstance(made, np.ndarray):
         edges = [0, *made.tolist(), len(points) - 1]
         parts = [part for a, b in pairwise(edges) for part in _fitted(points[a : b + 1], options, progress)]
@@ -95,10 +117,37 @@ def _fitted(points: Floats, options: SplineOptions, progress: Progress) -> list[
         curve = cubic_near(made.curve, options.cubic) if options.cubic else made.curve
         parts = [FittedPath(spline_motion(curve), np.array([len(points) - 1]))]
         if _hooked(curve, points, _REACH * options.tube.widest):
-            return [options.rest(points, progress)]
-    return (
-        parts if sum(_blocks(part, options) for part in parts) < len(points) - 1 else [options.rest(points, progress)]
-    )
+            return [_rest(points, options, progress, RefusalReason.HOOKED, _blocks(parts[0], options))]
+    blocks = sum(_blocks(part, options) for part in parts)
+    return parts if blocks < len(points) - 1 else [_rest(points, options, progress, RefusalReason.BLOCKS, blocks)]
+
+
+def _insisted(points: Floats, options: SplineOptions, progress: Progress) -> FittedPath:
+    """Return one spline for all points between two corners, whatever it takes: smooth of the second order all along.
+
+    Where none is found, places on the chords beside the points that would need a corner are points, too, until one
+    rounds them within the tube: it has room for a curve at every bend, however small. Such places lie within the
+    chord's region as wide as it is at the points.
+    """
+    if options.level and np.ptp(points[:, 2]) > 0:
+        return _rest(points, options, progress, RefusalReason.LEVEL)
+    dense, tube = points, options.tube
+    while len(dense) <= options.degree + 1:
+        dense, tube = _with_middles(dense, np.arange(len(dense) - 1)), ToleranceTube(tube.radius)
+    for _ in range(_DENSER):
+        made = fit_spline(dense, tube, options.degree, progress, options.observer)
+        if not isinstance(made, np.ndarray):
+            curve = cubic_near(made.curve, options.cubic) if options.cubic else made.curve
+            return FittedPath(spline_motion(curve), np.array([len(points) - 1]))
+        beside = np.unique(np.clip(made[:, None] + np.arange(-_BESIDE, _BESIDE), 0, len(dense) - 2))
+        dense, tube = _with_middles(dense, beside), ToleranceTube(tube.radius)
+    return _rest(points, options, progress, RefusalReason.UNPROVEN)
+
+
+def _with_middles(points: Floats, chords: Ints) -> Floats:
+    """Return points (n, 3) with the middles of some chords, by number, among them."""
+    middles = (points[chords] + points[chords + 1]) / 2
+    return np.ascontiguousarray(np.insert(points, chords + 1, middles, axis=0))
 
 
 def _hooked(curve: Nurbs, points: Floats, reach: float) -> bool:

@@ -57,6 +57,36 @@ def of_curve(curve: SpaceCurve, corners: Floats) -> Smoothness:
     return Smoothness(_most(bends[smooth]), _most(np.abs(into[1][:-1] - out[1][1:])[smooth]))
 
 
+@dataclass(frozen=True, slots=True)
+class CurveJoint:
+    """Where one motion of a path goes over into the next.
+
+    Attributes:
+        place: mm.
+        bend: change of direction, radians.
+        curvature_step: change of curvature, 1/mm.
+    """
+
+    place: tuple[float, float, float]
+    bend: float
+    curvature_step: float
+
+
+def joints_of(curve: SpaceCurve) -> tuple[CurveJoint, ...]:
+    """Return the places where one motion ends and the next begins, in order; within one it is a polynomial, or smooth
+    as a spline is.
+    """
+    control = curve.control
+    at = np.flatnonzero(np.diff(curve.owner) != 0)
+    out, into = _ends(control[at + 1]), _ends(control[at][:, ::-1])
+    bends, steps = _angles(-into[0], out[0]), np.abs(into[1] - out[1])
+    places = control[at + 1, 0].tolist()
+    return tuple(
+        CurveJoint((x, y, z), bend, step)
+        for (x, y, z), bend, step in zip(places, bends.tolist(), steps.tolist(), strict=True)
+    )
+
+
 def _ends(control: Floats) -> tuple[Floats, Floats]:
     """Return the direction (m, 3) in which each piece sets out, and its curvature there, 1/mm."""
     first, second = control[:, 1] - control[:, 0], control[:, 2] - 2 * control[:, 1] + control[:, 0]

@@ -12,8 +12,8 @@ from typing import Any
 
 from ...core.errors import HitofudeError, InputError
 from ...geometry.affine import Affine, transformed
-from ...model.curves import Curve, Point
-from ..drawing_account import MOST_CURVES
+from ...model.curves import Point
+from ..drawing_account import MOST_CURVES, LayeredCurve
 from .curves import NegativeRadiusError, NoLengthError, curves_of, heights_of, plane_of
 from .fonts import Fonts
 from .hatch import Hatch, hatch_of
@@ -68,7 +68,7 @@ class DxfContent:
     """What a space or a block draws.
 
     Attributes:
-        curves: (curve, layer) in the sheet's own coordinates, drawing units.
+        curves: in the sheet's own coordinates, drawing units.
         letterings: what its texts draw. hatches: boundaries of its hatches.
         left_out: entities that are no curves, by type.
         without_length: places of entities that draw nothing, None where there is no place.
@@ -78,7 +78,7 @@ class DxfContent:
         heights: least and greatest Z seen, drawing units.
     """
 
-    curves: list[tuple[Curve, str]] = field(default_factory=list)
+    curves: list[LayeredCurve] = field(default_factory=list)
     letterings: list[TextCurves] = field(default_factory=list)
     hatches: list[Hatch] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
@@ -200,7 +200,7 @@ class DxfWalker:
             content.left_out[kind] += 1
             return
         content.see(heights_of(entity))
-        content.curves += [(curve, entity.dxf.layer) for curve in curves]
+        content.curves += [LayeredCurve(curve, entity.dxf.layer) for curve in curves]
         for each in made:
             content.add(each)
 
@@ -285,7 +285,7 @@ class DxfWalker:
             if moved is None:
                 content.without_length.append(place.point(curve.start))
             else:
-                content.curves.append((moved, outer if layer == "0" else layer))
+                content.curves.append(LayeredCurve(moved, outer if layer == "0" else layer))
         self._bounded(max(len(content.hidden), len(content.negative), len(content.unread), content.size))
 
     def _block(self, name: str, insert: Any) -> DxfContent:

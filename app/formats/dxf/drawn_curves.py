@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import compress
 
 from ...model.curves import Curve
+from ..drawing_account import LayeredCurve
 from .blocks import DxfContent
 from .hatch import Hatch, bounding_alone
 
@@ -19,13 +20,13 @@ class DrawnCurves:
     ever was.
 
     Attributes:
-        curves: (curve, layer), drawing units.
+        curves: drawing units.
         strokes: so many of the last ones are strokes of letters.
         boundaries: of hatches on layers that are machined; `repeated` of them lie on drawn curves and are none of
             these.
     """
 
-    curves: tuple[tuple[Curve, str], ...]
+    curves: tuple[LayeredCurve, ...]
     strokes: int
     boundaries: int
     repeated: int
@@ -40,10 +41,12 @@ def all_drawn(content: DxfContent, machined: Callable[[str], bool], size: float)
     shown = [each for each in content.hatches if machined(each.layer)]
     rings = [(ring, each.layer) for each in shown for ring in each.boundaries]
     new = _new([ring for ring, _ in rings], content, machined, size) if rings else []
-    kept = [(curve, layer) for ring, layer in compress(rings, new) for curve in ring]
-    kept += [(curve, each.layer) for each in content.hatches if not machined(each.layer) for curve in _all(each)]
-    outlines = [(curve, each.layer) for each in content.letterings for curve in each.outlines]
-    strokes = [(curve, each.layer) for each in content.letterings for curve in each.strokes]
+    kept = [LayeredCurve(curve, layer) for ring, layer in compress(rings, new) for curve in ring]
+    kept += [
+        LayeredCurve(curve, each.layer) for each in content.hatches if not machined(each.layer) for curve in _all(each)
+    ]
+    outlines = [LayeredCurve(curve, each.layer) for each in content.letterings for curve in each.outlines]
+    strokes = [LayeredCurve(curve, each.layer) for each in content.letterings for curve in each.strokes]
     return DrawnCurves((*content.curves, *kept, *outlines, *strokes), len(strokes), len(rings), len(rings) - sum(new))
 
 

@@ -5,19 +5,20 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from itertools import starmap
 from pathlib import PurePath
 from typing import Any
 
 from ...core import tolerances
 from ...geometry.affine import scaled
-from ...model.curves import Curve
 from ...model.finding import Finding, FindingKind
 from ...model.part import Entity, Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
-from ..drawing import Drawing
+from ..drawing import Drawing, LeftOutKind
 from ..drawing_account import (
     MOVE,
+    LayeredCurve,
     UsableCurves,
     all_left_out,
     listed,
@@ -147,7 +148,12 @@ def read_dxf(
         None if unit.named or units else units_question(unit.shown, size_of(part), reading)
     )
     return Drawing(
-        part, tuple(findings), tuple(sorted((+left_out + found.missing).items())), unit.named, contents, question
+        part,
+        tuple(findings),
+        tuple(starmap(LeftOutKind, sorted((+left_out + found.missing).items()))),
+        unit.named,
+        contents,
+        question,
     )
 
 
@@ -212,7 +218,7 @@ def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> 
     said = listed(+left_out, "; left out: ")
     if found.far and found.moved is None:
         return (
-            f"all of the drawing lies beyond 1 km, at ({found.far[0][0][0]:.3f}, {found.far[0][0][1]:.3f}) mm; "
+            f"all of the drawing lies beyond 1 km, at ({found.far[0].place[0]:.3f}, {found.far[0].place[1]:.3f}) mm; "
             f"{MOVE}{said}."
         )
     if content.hidden:
@@ -227,12 +233,12 @@ def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> 
     return f"the drawing has no lines, arcs or curves to machine{said}."
 
 
-def _spelled(document: Any, curves: Iterable[tuple[Curve, str]]) -> list[tuple[Curve, str]]:
+def _spelled(document: Any, curves: Iterable[LayeredCurve]) -> list[LayeredCurve]:
     """Return curves with layers as the table spells them; DXF tells no difference between capitals and small
     letters.
     """
     spelling = {layer.dxf.name.casefold(): layer.dxf.name for layer in document.layers}
-    return [(curve, spelling.get(layer.casefold(), layer)) for curve, layer in curves]
+    return [LayeredCurve(curve, spelling.get(layer.casefold(), layer)) for curve, layer in curves]
 
 
 def _layers(document: Any, entities: tuple[Entity, ...]) -> tuple[Layer, ...]:

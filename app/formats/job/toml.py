@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...core.errors import InputError
 from ...core.toml_tables import brief, parsed
@@ -89,7 +89,18 @@ def read_out_units(text: str) -> Units:
     return one_of(text, OUT_UNITS, "unit of an NC program")
 
 
-def parse_origin(text: str) -> tuple[OriginXY | None, OriginZ | None]:
+class StatedOrigin(NamedTuple):
+    """A work origin as far as it is stated.
+
+    Attributes:
+        xy: in the plane. z: along Z; each None where nobody has said it.
+    """
+
+    xy: OriginXY | None = None
+    z: OriginZ | None = None
+
+
+def parse_origin(text: str) -> StatedOrigin:
     """Return the work origin that a text such as `centre,bottom`, `lower-left` or `bottom` names; None = not said.
 
     Raises:
@@ -106,7 +117,7 @@ def parse_origin(text: str) -> tuple[OriginXY | None, OriginZ | None]:
             raise InputError(
                 f"'{text}' is no origin; use one of drawing, lower-left, centre, and then ,top or ,bottom if need be"
             )
-    return xy, z
+    return StatedOrigin(xy, z)
 
 
 @dataclass(frozen=True)
@@ -138,7 +149,14 @@ def read_job(name: str, data: bytes) -> JobFile:
     return read_job_tables(text, tree)
 
 
-def job_tree(name: str, data: bytes, sample: str) -> tuple[JobText, dict[str, Any]]:
+class JobTree(NamedTuple):
+    """A TOML file read: its text, which places are told by, and its tables."""
+
+    text: JobText
+    tables: dict[str, Any]
+
+
+def job_tree(name: str, data: bytes, sample: str) -> JobTree:
     """Return the text and the tables of a TOML file; `sample` shows how such a file is written.
 
     Raises:
@@ -153,7 +171,7 @@ def job_tree(name: str, data: bytes, sample: str) -> tuple[JobText, dict[str, An
         raise InputError(
             f"{name}:{with_line(brief(str(error)), text)}; correct it as resources/samples/{sample} shows"
         ) from error
-    return JobText(name, tuple(text.splitlines())), tree
+    return JobTree(JobText(name, tuple(text.splitlines())), tree)
 
 
 def read_job_tables(text: JobText, tree: dict[str, Any]) -> JobFile:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -118,11 +119,25 @@ def _lit(colours: Pixels, heights: Shades, pitch: float) -> Pixels:
     return np.asarray(np.clip(colours * dark[..., None] + light[..., None], 0, 255), np.uint8)
 
 
-def _marked(colours: Pixels, image: HeightImage) -> tuple[Pixels, list[tuple[str, Rgb]]]:
+class _LegendMark(NamedTuple):
+    """What a colour of the picture means."""
+
+    name: str
+    colour: Rgb
+
+
+class _MarkedPixels(NamedTuple):
+    """The picture with what is wrong put in, and what its colours mean."""
+
+    colours: Pixels
+    marks: list[_LegendMark]
+
+
+def _marked(colours: Pixels, image: HeightImage) -> _MarkedPixels:
     """Return the colours with what is wrong put in, and names and colours of what there is of it."""
     if image.deviation is None:
-        return colours, []
-    size, marks = (colours.shape[1], colours.shape[0]), []
+        return _MarkedPixels(colours, [])
+    size, marks = (colours.shape[1], colours.shape[0]), list[_LegendMark]()
     high = image.deviation > image.tolerance
     beyond = np.zeros_like(high) if image.unreachable is None else image.unreachable
     for name, colour, mask in (
@@ -132,9 +147,9 @@ def _marked(colours: Pixels, image: HeightImage) -> tuple[Pixels, list[tuple[str
     ):
         if not mask.any():
             continue
-        marks.append((name, colour))
+        marks.append(_LegendMark(name, colour))
         _paint(colours, _seen(mask, size), colour, hatched=name == "out of reach")
-    return colours, marks[::-1]
+    return _MarkedPixels(colours, marks[::-1])
 
 
 def _seen(mask: NDArray[np.bool_], size: tuple[int, int]) -> NDArray[np.bool_]:
@@ -172,7 +187,7 @@ def _sheet(metal: Pixels) -> Pixels:
     return sheet
 
 
-def _legend(sheet: Pixels, image: HeightImage, marks: list[tuple[str, Rgb]], pixel: float) -> None:
+def _legend(sheet: Pixels, image: HeightImage, marks: list[_LegendMark], pixel: float) -> None:
     """Draw title, depths, marks and the scale; `pixel` is the side of a pixel, mm."""
     x, y = sheet.shape[1] - MARGIN - LEGEND, MARGIN + 12
     _text(sheet, image.title[:26], (x, y), INK)
@@ -182,7 +197,7 @@ def _legend(sheet: Pixels, image: HeightImage, marks: list[tuple[str, Rgb]], pix
         _swatch(sheet, (x, y + k * ROW), RAMP[k], f"Z {image.top + depth:.3f} mm")
     y += 5 * ROW
     if image.heights.min() <= image.floor:
-        marks = [("no metal", NOTHING), *marks]
+        marks = [_LegendMark("no metal", NOTHING), *marks]
     for k, (name, colour) in enumerate(marks):
         _swatch(sheet, (x, y + k * ROW), colour, name)
     if image.deviation is not None and not any(name in ("gouge", "left") for name, _ in marks):

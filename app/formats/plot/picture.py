@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +38,21 @@ POCKET = PicturePathStyle("Pocket", "#009E73", 1.6)
 CONTOUR = PicturePathStyle("Contour", "#E69F00", 1.8, (9.0, 5.0))
 
 
+class StyledPath(NamedTuple):
+    """Connected rows (n, 8), mm, and how they are drawn."""
+
+    style: PicturePathStyle
+    rows: Rows
+
+
+class PictureLegendRow(NamedTuple):
+    """An entry of the legend; without a style a patch of the colour."""
+
+    label: str
+    colour: str
+    style: PicturePathStyle | None = None
+
+
 @dataclass(frozen=True)
 class PathPicture:
     """What is drawn, in part coordinates, mm, y up.
@@ -44,14 +60,14 @@ class PathPicture:
     Attributes:
         title: shown above the legend.
         contours: rows (n, 8) of each contour of the part.
-        paths: style and connected rows, drawn in this order.
+        paths: drawn in this order.
         plunges: (n, 2) where tools go down.
         left, unreachable: outlines (n, 2), holes among them, of floor that is left within and out of reach.
     """
 
     title: str
     contours: tuple[Rows, ...]
-    paths: tuple[tuple[PicturePathStyle, Rows], ...]
+    paths: tuple[StyledPath, ...]
     plunges: Points
     left: tuple[Points, ...] = ()
     unreachable: tuple[Points, ...] = ()
@@ -87,12 +103,10 @@ def layout(picture: PathPicture) -> PictureLayout:
     return PictureLayout(scale, float(across - scale * x0), float(MARGIN + scale * y1), height)
 
 
-def legend_rows(picture: PathPicture) -> list[tuple[str, str, PicturePathStyle | None]]:
-    """Return (label, colour, line style or None for a patch) of each entry of the legend."""
-    rows: list[tuple[str, str, PicturePathStyle | None]] = [
-        (style.name, style.colour, style) for style in picture.styles()
-    ]
-    rows += [("Plunge", PLUNGE, None)] if len(picture.plunges) else []
-    rows += [("Left, within reach", LEFT, None)] if picture.left else []
-    rows += [("Out of reach", UNREACHABLE, None)] if picture.unreachable else []
+def legend_rows(picture: PathPicture) -> list[PictureLegendRow]:
+    """Return the entries of the legend."""
+    rows = [PictureLegendRow(style.name, style.colour, style) for style in picture.styles()]
+    rows += [PictureLegendRow("Plunge", PLUNGE)] if len(picture.plunges) else []
+    rows += [PictureLegendRow("Left, within reach", LEFT)] if picture.left else []
+    rows += [PictureLegendRow("Out of reach", UNREACHABLE)] if picture.unreachable else []
     return rows

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,13 +40,23 @@ def free_places(lines: Sequence[Floats], points: Floats, texts: Sequence[str], h
     for point in points:
         _cells(taken, (point - corner - _POINT) / cell, (point - corner + _POINT) / cell)[:] = True
     found = [
-        _place(taken, (at, points - corner, cell), len(text) * height * _WIDE, height * _BODY) if text else None
+        _place(taken, _LabelledPoint(at, points - corner, cell), len(text) * height * _WIDE, height * _BODY)
+        if text
+        else None
         for at, text in enumerate(texts)
     ]
     return [None if place is None else (place[0] + float(corner[0]), place[1] + float(corner[1])) for place in found]
 
 
-def _place(taken: NDArray[np.bool_], where: tuple[int, Floats, float], wide: float, high: float) -> Place | None:
+class _LabelledPoint(NamedTuple):
+    """The number of a point among all, (m, 2), and the side of the squares of paper, mm."""
+
+    number: int
+    points: Floats
+    cell: float
+
+
+def _place(taken: NDArray[np.bool_], where: _LabelledPoint, wide: float, high: float) -> Place | None:
     """Return a free place beside one of the points, nearer to it than to the others, and take it; to the right and
     above first.
     """

@@ -12,7 +12,7 @@ import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import pairwise
-from typing import TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 from ...core.errors import InputError
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
@@ -31,35 +31,59 @@ Made = TypeVar("Made")
 _LAYER, _LETTERS = "layer ", " letters"
 
 
+class TextBlock(NamedTuple):
+    """Lines of curves or notes in a file: its name, the number of the first line, and the lines; places for errors."""
+
+    file: str
+    first_line: int
+    text: str
+
+
+class _NumberedLine(NamedTuple):
+    """A curve or note as it is written: its number, the line that names its layer, its own line."""
+
+    number: int
+    layer: str
+    text: str
+
+
+class _ReadShape(NamedTuple, Generic[Made]):
+    """A curve or a note as it was read; `lettering`: it is a stroke of a letter."""
+
+    number: int
+    shape: Made
+    layer: str
+    lettering: bool
+
+
 def curve_lines(entities: Iterable[Entity]) -> Iterator[str]:
     """Yield the lines of curves."""
-    return _lines((entity.id, _sheet(entity.layer, entity.lettering), _curve_text(entity.curve)) for entity in entities)
+    return _lines(
+        _NumberedLine(entity.id, _sheet(entity.layer, entity.lettering), _curve_text(entity.curve))
+        for entity in entities
+    )
 
 
 def note_lines(notes: Iterable[Note]) -> Iterator[str]:
     """Yield the lines of notes."""
-    return _lines((note.id, _sheet(note.layer), _note_text(note.shape)) for note in notes)
+    return _lines(_NumberedLine(note.id, _sheet(note.layer), _note_text(note.shape)) for note in notes)
 
 
-def read_curves(text: str, place: tuple[str, int]) -> tuple[Entity, ...]:
+def read_curves(block: TextBlock) -> tuple[Entity, ...]:
     """Return the curves of lines that `curve_lines` has written.
-
-    Args:
-        text: the lines.
-        place: the file's name, and the line in it where the text begins; for errors.
 
     Raises:
         InputError: the first line that is no curve.
     """
-    return tuple(Entity(*found) for found in _read(text, place, _CURVES))
+    return tuple(Entity(*found) for found in _read(block, _CURVES))
 
 
-def read_notes(text: str, place: tuple[str, int]) -> tuple[Note, ...]:
-    """Return the notes of lines that `note_lines` has written; arguments and errors as for `read_curves`."""
-    return tuple(Note(number, shape, layer) for number, shape, layer, _ in _read(text, place, _NOTES))
+def read_notes(block: TextBlock) -> tuple[Note, ...]:
+    """Return the notes of lines that `note_lines` has written; errors as for `read_curves`."""
+    return tuple(Note(each.number, each.shape, each.layer) for each in _read(block, _NOTES))
 
 
-def _lines(things: Iterable[tuple[int, str, str]]) -> Iterator[str]:
+def _lines(things: Iterable[_NumberedLine]) -> Iterator[str]:
     before, current = 0, None
     for number, sheet, text in things:
         if sheet != current:
@@ -126,13 +150,11 @@ def _note_text(shape: Shape) -> str:
             )
 
 
-def _read(
-    text: str, place: tuple[str, int], readers: Mapping[str, Callable[[list[str]], Made]]
-) -> Iterator[tuple[int, Made, str, bool]]:
-    """Yield number, shape and layer of every line, and whether it is a stroke of a letter."""
-    name, first = place
+def _read(block: TextBlock, readers: Mapping[str, Callable[[list[str]], Made]]) -> Iterator[_ReadShape[Made]]:
+    """Yield what every line says."""
+    name = block.file
     number, layer, lettering, used = 0, "0", False, set[int]()
-    for row, line in enumerate(text.split("\n"), first):
+    for row, line in enumerate(block.text.split("\n"), block.first_line):
         try:
             if line.startswith("#"):
                 number = int(line[1:]) - 1
@@ -147,7 +169,7 @@ def _read(
                 used.add(number)
                 if len(used) > MOST_THINGS:
                     raise InputError(f"{name}:{row}: the drawing has more than {MOST_THINGS} curves; part it.")
-                yield number, made, layer, lettering
+                yield _ReadShape(number, made, layer, lettering)
         except (KeyError, ValueError, IndexError, TypeError) as error:
             raise InputError(f"{name}:{row}: '{line[:60]}' cannot be read ({_why(error)}); {REMEDY}") from error
 

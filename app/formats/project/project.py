@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePath
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...core.errors import InputError
 from ...core.toml_tables import brief, parsed, shown, spelled
@@ -37,7 +37,7 @@ from ..job.tables import (
 )
 from ..job.toml import TABLES, UNITS, read_kept_job, with_line
 from ..job.write import empty_lists, job_lines, word_of
-from .curves import MOST_THINGS, curve_lines, note_lines, read_curves, read_notes
+from .curves import MOST_THINGS, TextBlock, curve_lines, note_lines, read_curves, read_notes
 from .extras import NOTHING_BESIDE, ProjectExtras, beside_lines, read_beside
 from .source import read_source, source_lines
 
@@ -207,8 +207,16 @@ def _table(tree: dict[str, Any], lines: JobText, path: str) -> dict[str, Any]:
     return values
 
 
-def _part(name: str, text: str, lines: JobText, tree: dict[str, Any]) -> tuple[Part, str, Point]:
-    """Return the drawing, the layer that is drawn on and the point given last."""
+class _DrawnPart(NamedTuple):
+    """The drawing, the layer that is drawn on, and the point that was given last."""
+
+    part: Part
+    layer: str
+    last: Point
+
+
+def _part(name: str, text: str, lines: JobText, tree: dict[str, Any]) -> _DrawnPart:
+    """Return the drawing."""
     table = JobTable(lines, "part", 0, dict(_table(tree, lines, "part")))
     table.take("name", read_text)
     table.take("units", lambda value: one_of(read_text(value), UNITS, "unit"))
@@ -217,8 +225,8 @@ def _part(name: str, text: str, lines: JobText, tree: dict[str, Any]) -> tuple[P
     table.take("last", lambda value: read_points([value])[0])
     table.done("name, units, used_id, layer, last")
     layers = tuple(_layers(tree, lines)) or Part().layers
-    entities = read_curves(*_block(name, text, lines, tree, "curves"))
-    notes = read_notes(*_block(name, text, lines, tree, "notes"))
+    entities = read_curves(_block(name, text, lines, tree, "curves"))
+    notes = read_notes(_block(name, text, lines, tree, "notes"))
     known, ids = {layer.name for layer in layers}, {entity.id for entity in entities}
     things: tuple[Entity | Note, ...] = (*entities, *notes)
     for thing in things:
@@ -236,7 +244,7 @@ def _part(name: str, text: str, lines: JobText, tree: dict[str, Any]) -> tuple[P
     )
     highest = max((thing.id for thing in things), default=0)
     part = replace(part, used_id=max(part.used_id, highest)) if part.used_id else part
-    return part, said.get("layer", layers[0].name), said.get("last", (0.0, 0.0))
+    return _DrawnPart(part, said.get("layer", layers[0].name), said.get("last", (0.0, 0.0)))
 
 
 def _layers(tree: dict[str, Any], lines: JobText) -> Iterator[Layer]:
@@ -259,13 +267,13 @@ def _layers(tree: dict[str, Any], lines: JobText) -> Iterator[Layer]:
         yield Layer(**table.taken)
 
 
-def _block(name: str, text: str, lines: JobText, tree: dict[str, Any], path: str) -> tuple[str, tuple[str, int]]:
+def _block(name: str, text: str, lines: JobText, tree: dict[str, Any], path: str) -> TextBlock:
     """Return the lines of curves or notes, and where in the file they begin."""
     table = JobTable(lines, path, 0, dict(_table(tree, lines, path)))
     table.take("lines", read_text)
     table.done("lines")
     before = text.find(f"[{path}]\nlines = '''\n")
-    return table.taken.get("lines", ""), (name, text.count("\n", 0, max(before, 0)) + 3)
+    return TextBlock(name, text.count("\n", 0, max(before, 0)) + 3, table.taken.get("lines", ""))
 
 
 def _value(file: str, name: str, value: Any) -> Value:

@@ -6,19 +6,19 @@ place.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ...core.errors import HitofudeError, InputError
-from ...core.toml_tables import spelled, tables_of, write_tables
+from ...core.file_bytes import FileBytes
+from ...core.toml_tables import tables_of
 from ...model.job import Job, OriginZ
 from ...model.part import Part
 from ...model.scene import Passes, Scene, SceneStock, Surface
 from ...model.scene_curves import SceneFiles
 from ..job.tables import JobText
-from ..job.toml import ORIGIN_XY, ORIGIN_Z, OUT_UNITS, job_tree, read_job_tables
-from ..job.write import tool_lines, word_of
+from ..job.toml import job_tree, read_job_tables
 from ..readers import read_drawing
 
 JOB_TABLES = ("tool", "heights", "origin", "output")
@@ -90,7 +90,7 @@ def read_scene(name: str, data: bytes) -> Scene:
     shared = {key: tree.pop(key) for key in JOB_TABLES if key in tree}
     own_height = "z" in shared.get("origin", {})
     job = read_job_tables(text, shared).job
-    tables = tables_of(_Tables, tree, (name, data), {})
+    tables = tables_of(_Tables, tree, FileBytes(name, data), {})
     if not shared.get("tool"):
         job = replace(job, tools=() if "tool" in shared else Scene().tools)
     return _scene(text, tables, job, job.origin_z if own_height else None)
@@ -145,22 +145,3 @@ def _scaled(value: Any, factor: float) -> Any:
     if isinstance(value, list):
         return [_scaled(item, factor) for item in value]
     return value * factor if type(value) in (int, float) else value
-
-
-def write_scene(scene: Scene) -> bytes:
-    """Return a scene as the TOML text that `read_scene` makes it of, in mm."""
-    lines = [f"name = {spelled(scene.name)}", 'units = "mm"', *([] if scene.tools else ["tool = []"])]
-    lines += _table("heights", {"safe_z": scene.safe_z, "retract_z": scene.retract_z})
-    height = {} if scene.origin_z is None else {"z": word_of(ORIGIN_Z, scene.origin_z)}
-    lines += _table("origin", {"xy": word_of(ORIGIN_XY, scene.origin_xy), **height})
-    lines += _table(
-        "output", {"post": scene.post, "units": word_of(OUT_UNITS, scene.out_units), "exact_path": scene.exact_path}
-    )
-    for tool in scene.tools:
-        lines += tool_lines(tool)
-    rest = write_tables(replace(_Tables(), stock=scene.stock, surface=scene.surfaces, passes=scene.passes))
-    return ("\n".join(lines) + "\n" + rest.partition("\n")[2]).encode()
-
-
-def _table(name: str, values: Mapping[str, Any]) -> list[str]:
-    return ["", f"[{name}]", *(f"{key} = {spelled(value)}" for key, value in values.items())]

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from ...geometry.affine import ellipse
 from ...model.curves import Arc, Curve, Line, Point, Spline
@@ -68,21 +68,30 @@ def read_path(text: str, most: int) -> SvgPath:
     return pen.path
 
 
-def _values(text: str, at: int, count: int) -> tuple[list[float] | None, int]:
-    """Return the numbers of one command and where they end; None when some are missing."""
+class _Arguments(NamedTuple):
+    """The numbers of one command, None when some are missing, and where they end."""
+
+    values: list[float] | None
+    end: int
+
+
+def _values(text: str, at: int, count: int) -> _Arguments:
+    """Return the numbers of one command."""
     if count < 0:
-        return None, at
+        return _Arguments(None, at)
     if count in _NUMBERS:
         all_found = _NUMBERS[count].match(text, at)
-        return (None, at) if all_found is None else ([*map(float, all_found.groups())], all_found.end())
+        if all_found is None:
+            return _Arguments(None, at)
+        return _Arguments([*map(float, all_found.groups())], all_found.end())
     values: list[float] = []
     for k in range(count):
         found = (_FLAG if count == 7 and k in (3, 4) else _NUMBER).match(text, at)
         if found is None:
-            return None, at
+            return _Arguments(None, at)
         values.append(float(found[1]))
         at = found.end()
-    return values, at
+    return _Arguments(values, at)
 
 
 def _wrong_flag(text: str, at: int) -> str:
@@ -100,6 +109,13 @@ def _wrong_flag(text: str, at: int) -> str:
     return ""
 
 
+class _Handle(NamedTuple):
+    """The last handle of a curve that was drawn: of which kind, C or Q ("" = none), and where."""
+
+    kind: str
+    at: Point
+
+
 class _PathPen:
     """Where the pen stands and what it has drawn."""
 
@@ -107,7 +123,7 @@ class _PathPen:
         self.path = SvgPath()
         self._run: list[Curve] = []
         self._here = self._first = (0.0, 0.0)
-        self._handle: tuple[str, Point] = ("", (0.0, 0.0))
+        self._handle = _Handle("", (0.0, 0.0))
         self.drawn = 0
         self.points = 0  # of the Béziers of one degree that were drawn last
 
@@ -120,7 +136,7 @@ class _PathPen:
         given = values[5:] if kind == "A" else values
         places = [(given[k] + dx, given[k + 1] + dy) for k in range(0, len(given), 2)]
         handle = self._handle
-        self._handle = ("", self._here)
+        self._handle = _Handle("", self._here)
         self._DO[kind](self, places, values, handle)
 
     def lift(self) -> None:
@@ -152,13 +168,13 @@ class _PathPen:
             before = self._run[-1] if self._run else None
             self.points = (self.points if isinstance(before, Spline) and before.degree == degree else 1) + degree
             self._add(Spline(degree, (self._here, *places), BEZIER_KNOTS[degree]))
-        self._handle = ("C" if degree == 3 else "Q", places[-2])
+        self._handle = _Handle("C" if degree == 3 else "Q", places[-2])
         self._here = places[-1]
 
-    def _smooth(self, places: list[Point], values: list[float], handle: tuple[str, Point]) -> None:
+    def _smooth(self, places: list[Point], values: list[float], handle: _Handle) -> None:
         """The first handle mirrors the last one of the curve before, if that was of the same degree."""
         kind = "C" if len(places) == 2 else "Q"
-        (x, y), (hx, hy) = self._here, handle[1] if handle[0] == kind else self._here
+        (x, y), (hx, hy) = self._here, handle.at if handle.kind == kind else self._here
         self._bezier([(2 * x - hx, 2 * y - hy), *places], values, handle)
 
     def _arc(self, places: list[Point], values: list[float], _: object) -> None:
@@ -167,7 +183,7 @@ class _PathPen:
             self._add(arc_between(self._here, end, values[:5]))
         self._here = end
 
-    _DO: ClassVar[dict[str, Callable[[_PathPen, list[Point], list[float], tuple[str, Point]], None]]] = {
+    _DO: ClassVar[dict[str, Callable[[_PathPen, list[Point], list[float], _Handle], None]]] = {
         "M": _move,
         "L": _line,
         "Z": _close,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import starmap
 from pathlib import PurePath
 
 from ...core.errors import InputError
@@ -13,7 +14,7 @@ from ...model.finding import Finding, FindingKind
 from ...model.part import Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
-from ..drawing import Drawing
+from ..drawing import Drawing, LeftOutKind
 from ..drawing_account import (
     MOVE,
     UsableCurves,
@@ -29,7 +30,15 @@ from ..drawing_account import (
     usable_curves,
     without_length,
 )
-from ..reading_question import FileContents, ReadingQuestion, Size, UndecidedError, far_question, pixels_question
+from ..reading_question import (
+    AssumedDensity,
+    FileContents,
+    ReadingQuestion,
+    Size,
+    UndecidedError,
+    far_question,
+    pixels_question,
+)
 from .generator import CSS_PER_INCH, KNOWN_PER_INCH, PixelDensity, density_of
 from .numbers import MM, UnreadableError, ViewBox, WrittenLength, fitted, length, numbers, view_box
 from .walk import SvgContent, SvgWalker
@@ -127,7 +136,9 @@ def read_svg(
     question = strays_or_none(found, reading, placed)
     if question is None and not (page.named or units or how.pixels_per_inch):
         question = _about_pixels(root, density, size_of(part), page.to, reading)
-    return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), page.named, contents, question)
+    return Drawing(
+        part, tuple(findings), tuple(starmap(LeftOutKind, sorted(left_out.items()))), page.named, contents, question
+    )
 
 
 @dataclass(frozen=True)
@@ -169,7 +180,7 @@ def _about_pixels(
         made = _page(root, other.units, PixelDensity(per_inch).pixel if per_inch else density.pixel).to
         return wide * made.xx / to.xx, high * made.yy / to.yy
 
-    return pixels_question((density.per_inch, density.editor), KNOWN_PER_INCH, size_in, reading)
+    return pixels_question(AssumedDensity(density.per_inch, density.editor), KNOWN_PER_INCH, size_in, reading)
 
 
 def _anchors(content: SvgContent, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:

@@ -14,7 +14,7 @@ from ...core.errors import InputError
 from ...geometry.affine import IDENTITY, Affine, transformed
 from ...model.curves import Circle, Curve, Ellipse, Line, Point, Spline
 from ...model.part import Layer
-from ..drawing_account import MOST_CURVES
+from ..drawing_account import MOST_CURVES, LayeredCurve
 from ..dxf.splines import MOST_POINTS
 from .generator import INKSCAPE, SODIPODI
 from .joined import beziers_joined, joined
@@ -60,7 +60,7 @@ class SvgContent:
     """What an SVG draws.
 
     Attributes:
-        curves: (curve, layer), mm, y upwards.
+        curves: mm, y upwards.
         left_out: elements that are no curves or draw none, by type.
         nothing: places of shapes without length.
         faults: shapes whose data cannot be read to the end.
@@ -68,7 +68,7 @@ class SvgContent:
         layers: by name, in order.
     """
 
-    curves: list[tuple[Curve, str]] = field(default_factory=list)
+    curves: list[LayeredCurve] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
     nothing: list[Point | None] = field(default_factory=list)
     faults: list[SvgFault] = field(default_factory=list)
@@ -268,7 +268,7 @@ class SvgWalker:
         note = content.layers.setdefault(layer, LayerNote())
         note.inks |= {style.ink or BLACK} if style.stroke != "none" else set()
         content.clipped += style.clipped
-        content.curves += [(curve, layer) for curve in curves]
+        content.curves += [LayeredCurve(curve, layer) for curve in curves]
         if len(content.curves) > MOST_CURVES:
             self._refuse(node, _TOO_MUCH)
 

@@ -14,7 +14,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...core.errors import HitofudeError, InputError, printable
 from ...core.toml_tables import QUOTED, brief
@@ -22,7 +22,7 @@ from ...model.fields import Unit, declared_of
 from ...model.tool import FeedRow, HolderPoint, Tool
 from ...model.tool_kind import ToolKind, tool_kinds
 from .holders import outline_of
-from .library import ToolLibrary, check_numbers, shortest_degrees
+from .library import ReadTools, ToolLibrary, check_numbers, shortest_degrees
 
 LENGTH = {"mm": 1.0, "in": 25.4, "inch": 25.4, "": 1.0}
 RATE = {"mm_min": 1.0, "in_min": 25.4, "ipm": 25.4, "": 1.0}
@@ -76,8 +76,8 @@ class _Column:
     material: str = ""
 
 
-def read_tool_csv(name: str, data: bytes) -> tuple[ToolLibrary, tuple[str, ...]]:
-    """Return the tools of a spreadsheet, and a sentence for each column that is passed over.
+def read_tool_csv(name: str, data: bytes) -> ReadTools:
+    """Return the tools of a spreadsheet; columns that it does not know are left out.
 
     Args:
         name: of the file, for sentences.
@@ -92,13 +92,13 @@ def read_tool_csv(name: str, data: bytes) -> tuple[ToolLibrary, tuple[str, ...]]
         raise InputError(
             f"{name}: the file is empty; its first row must name the columns, such as number, diameter_mm, kind."
         )
-    header = [cell.strip() for cell in rows[0][1]]
+    header = [cell.strip() for cell in rows[0].cells]
     columns = [_column(cell) for cell in header]
     found = [column.field for column in columns if column and not column.material]
     for field in ("number", "diameter"):
         if found.count(field) != 1:
             raise InputError(
-                f"{name}:{rows[0][0]}: there must be one column named {field}{'_mm' * (field == 'diameter')}, "
+                f"{name}:{rows[0].line}: there must be one column named {field}{'_mm' * (field == 'diameter')}, "
                 f"and there {'is none' if field not in found else 'are several'}."
             )
     spreadsheet = _Spreadsheet(name, header, columns, _decimal_comma(columns, rows))
@@ -109,7 +109,7 @@ def read_tool_csv(name: str, data: bytes) -> tuple[ToolLibrary, tuple[str, ...]]
         for cell, column in zip(header, columns, strict=True)
         if column is None and cell
     )
-    return ToolLibrary("", tools), passed
+    return ReadTools(ToolLibrary("", tools), passed)
 
 
 def _text(data: bytes) -> str:
@@ -121,14 +121,21 @@ def _text(data: bytes) -> str:
         return data.decode("latin-1")
 
 
-def _rows(name: str, text: str) -> list[tuple[int, list[str]]]:
-    """Return the rows that hold anything, each with its 1-based line."""
+class _SheetRow(NamedTuple):
+    """Cells of a row, and its 1-based line."""
+
+    line: int
+    cells: list[str]
+
+
+def _rows(name: str, text: str) -> list[_SheetRow]:
+    """Return the rows that hold anything."""
     first = next((line for line in text.splitlines() if line.strip()), "")
     outside = re.sub(r'"[^"]*"', "", first)
     mark = max(",;\t", key=outside.count)
     reader = csv.reader(io.StringIO(text.replace("\x00", ""), newline=""), delimiter=mark)
     try:
-        return [(reader.line_num, cells) for cells in reader if any(cell.strip() for cell in cells)]
+        return [_SheetRow(reader.line_num, cells) for cells in reader if any(cell.strip() for cell in cells)]
     except csv.Error as error:
         raise InputError(
             f"{name}:{reader.line_num}: this is no row of a spreadsheet ({error}); save it as CSV again."
@@ -148,7 +155,7 @@ def _column(header: str) -> _Column | None:
     return None
 
 
-def _decimal_comma(columns: list[_Column | None], rows: list[tuple[int, list[str]]]) -> bool:
+def _decimal_comma(columns: list[_Column | None], rows: list[_SheetRow]) -> bool:
     """Tell whether numbers have decimal commas: one that can be nothing else shows it for the whole file."""
     cells = (
         cell

@@ -12,7 +12,7 @@ from ...core.errors import InputError
 from ...model.part import Units
 from ...model.tool_table import TableRow, row_of
 from .csv import read_tool_csv, write_tool_csv
-from .library import ToolLibrary, read_library, write_library
+from .library import ReadTools, ToolLibrary, read_library, write_library
 from .tbl import read_tool_table, write_tool_table
 
 
@@ -29,7 +29,7 @@ class ToolFormat:
     """
 
     suffix: str
-    read: Callable[[str, bytes, Units], tuple[ToolLibrary, tuple[str, ...]]]
+    read: Callable[[str, bytes, Units], ReadTools]
     write: Callable[[ToolLibrary, Units], bytes]
     rows: Callable[[str, bytes, Units], tuple[TableRow, ...]] | None = None
 
@@ -47,7 +47,7 @@ def register(format_: ToolFormat) -> None:
         raise ValueError(f"two kinds of tool files have the suffix {format_.suffix}")
 
 
-def read_tools(name: str, data: bytes, units: Units = Units.MM) -> tuple[ToolLibrary, tuple[str, ...]]:
+def read_tools(name: str, data: bytes, units: Units = Units.MM) -> ReadTools:
     """Return the tools of a file, and a sentence for each thing in it that is left out.
 
     Args:
@@ -95,22 +95,22 @@ def _format(name: str) -> ToolFormat:
     return _FORMATS[suffix]
 
 
-def _read_csv(name: str, data: bytes, units: Units) -> tuple[ToolLibrary, tuple[str, ...]]:
+def _read_csv(name: str, data: bytes, units: Units) -> ReadTools:
     library, passed = read_tool_csv(name, data)
-    return ToolLibrary(PurePath(name).stem, library.tools), passed
+    return ReadTools(ToolLibrary(PurePath(name).stem, library.tools), passed)
 
 
-def _read_table(name: str, data: bytes, units: Units) -> tuple[ToolLibrary, tuple[str, ...]]:
+def _read_table(name: str, data: bytes, units: Units) -> ReadTools:
     tools, left_out = read_tool_table(name, data, units).tools(name)
     if not tools:
         raise InputError(left_out[0])
-    return ToolLibrary(PurePath(name).stem, tools), left_out
+    return ReadTools(ToolLibrary(PurePath(name).stem, tools), left_out)
 
 
 register(
     ToolFormat(
         ".toml",
-        lambda name, data, units: (read_library(name, data), ()),
+        lambda name, data, units: ReadTools(read_library(name, data)),
         lambda library, units: write_library(library),
     )
 )

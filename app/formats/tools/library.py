@@ -10,9 +10,10 @@ from __future__ import annotations
 import math
 from dataclasses import MISSING, dataclass, make_dataclass
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import Any, NamedTuple, get_type_hints
 
 from ...core.errors import HitofudeError, InputError
+from ...core.file_bytes import FileBytes
 from ...core.resources import resource
 from ...core.settings import config_folder
 from ...core.toml_tables import read_tree, tables_of, write_tables
@@ -54,6 +55,13 @@ class ToolLibrary:
     name: str = ""
     tools: tuple[Tool, ...] = ()
     remark: str = ""
+
+
+class ReadTools(NamedTuple):
+    """Tools of a file, and a sentence for each thing in it that is left out."""
+
+    library: ToolLibrary
+    left_out: tuple[str, ...] = ()
 
 
 def _tool(entry: Any) -> Tool:
@@ -127,7 +135,7 @@ def read_library(name: str, data: bytes) -> ToolLibrary:
     """
     tree = read_tree(name, data)
     _draw_holders(name, tree)
-    read: Any = tables_of(_File, tree, (name, data), RANGES)
+    read: Any = tables_of(_File, tree, FileBytes(name, data), RANGES)
     tools = tuple(map(_tool, read.tool))
     check_numbers(name, tools)
     return ToolLibrary(read.name, tools, read.remark)

@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.motion import Floats, Motions
-from ...model.motion_path import ArcPaths, arc_paths, spline_points
+from ...model.motion_path import ArcPaths, arc_paths, fine_spline_points
 
 MOST_PIECES = 16_384
-"""Chords that one arc becomes at most."""
+"""Chords that one arc or spline becomes at most."""
 MOST_SAMPLES = 4000
 """Places along a path that are looked at, beside its own points, for the one farthest away."""
-SPLINE_CHORDS = 1024
 STRAY = 1e-3
 """How much nearer, in parts of the way to it, a place must be to be taken before one at about the same length: where a
 path runs over itself both are as near.
@@ -55,9 +54,9 @@ class PolylinePaths:
 
         Args:
             motions: of a program.
-            chord: largest distance of a piece from its arc, mm; the finest arcs become 16,384 pieces.
+            chord: largest distance of a piece from its arc or spline, mm; the finest become 16,384 pieces.
         """
-        self._motions, self._arcs = motions, arc_paths(motions)
+        self._motions, self._arcs, self._chord = motions, arc_paths(motions), chord
         self._count = _pieces(self._arcs, chord)
 
     def polyline(self, first: int, stop: int) -> Polyline:
@@ -84,7 +83,7 @@ class PolylinePaths:
             yield some.rows.astype(np.int64), some.points(np.arange(1, count) / count)
         for row, spline in self._motions.splines.items():
             if first <= row < stop:
-                yield np.array([row]), spline_points(spline, SPLINE_CHORDS + 1)[None, 1:-1]
+                yield np.array([row]), fine_spline_points(spline, self._chord, MOST_PIECES)[None, 1:-1]
 
 
 def _chosen(arcs: ArcPaths, which: NDArray[np.bool_] | slice) -> ArcPaths:

@@ -44,6 +44,13 @@ class Word(NamedTuple):
     whole: bool
 
 
+class ParameterSetting(NamedTuple):
+    """A parameter that a line sets, and to what."""
+
+    key: Setting
+    value: Value
+
+
 @dataclass(frozen=True, slots=True)
 class ParsedLine:
     """A line that was understood.
@@ -56,7 +63,7 @@ class ParsedLine:
 
     code: str
     deleted: bool
-    settings: tuple[tuple[Setting, Value], ...]
+    settings: tuple[ParameterSetting, ...]
     words: tuple[Word, ...]
 
 
@@ -91,7 +98,7 @@ def _parsed(code: str, nesting: int, free: bool, polar: bool, begin: int) -> Par
     deleted = slash is not None
     if slash is not None:
         values.at = slash.end()
-    settings: list[tuple[Setting, Value]] = []
+    settings: list[ParameterSetting] = []
     words: list[Word] = []
     while values.at < len(code):
         numbered = _NUMBERED.match(code, values.at)
@@ -105,7 +112,7 @@ def _parsed(code: str, nesting: int, free: bool, polar: bool, begin: int) -> Par
             if code[values.at : values.at + 1] != "=":
                 raise BlockFault("expected = behind the parameter that is set.", column=-1 - values.at)
             values.at += 1
-            settings.append((key, values.expression() if free else values.value()))
+            settings.append(ParameterSetting(key, values.expression() if free else values.value()))
         elif "a" <= letter <= "z" or (polar and letter in POLAR):
             words.append(Word(letter, values.value(), at, values.at, False))
         else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 from ...model.motion import MotionKind, Nurbs
 from ...model.part import Units
@@ -32,6 +33,34 @@ _OF_THE_PROGRAM = (5220, 5400)
 CONTROL_NAMES = {"_vmajor": 2.9, "_vminor": 0.0}
 
 
+class AxisWord(NamedTuple):
+    """What a block says of an axis, 0 to 2, mm."""
+
+    axis: int
+    value: float
+
+
+class ArcShape(NamedTuple):
+    """The centre of an arc, and how often it goes round, >= 1."""
+
+    centre: Place
+    turns: int
+
+
+class WordInLine(NamedTuple):
+    """A word's letter, "" where it is of no word, and its line."""
+
+    letter: str
+    line: int
+
+
+class _NumberedState(NamedTuple):
+    """A state, and its number among all."""
+
+    state: ModalState | None
+    number: int
+
+
 class Control:
     """A control that runs a program.
 
@@ -53,7 +82,7 @@ class Control:
             it to be, after G40.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
         requested: parameters that the machine tells, or that nobody has set, and the line that read each first.
-        columns, splines, events, homeward, warnings: what comes out; a warning is a text, its letter and its line.
+        columns, splines, events, homeward, warnings: what comes out; a warning is a text, and of which word.
     """
 
     def __init__(self, options: ReadOptions) -> None:
@@ -80,11 +109,11 @@ class Control:
         self.splines: dict[int, Nurbs] = {}
         self.events: list[Event] = []
         self.homeward: list[int] = []
-        self.warnings: dict[str, tuple[str, int]] = {}
+        self.warnings: dict[str, WordInLine] = {}
         self.parameters = Parameters(self.own_parameter, local_numbers=33 if self.rules.fanuc_flow else 30)
         self.requested: dict[Key, int] = {}
         self._states: dict[ModalState, int] = {}
-        self._last: tuple[ModalState | None, int] = (None, 0)
+        self._last = _NumberedState(None, 0)
 
     @property
     def unit(self) -> float:
@@ -130,9 +159,9 @@ class Control:
 
     def number_of(self, state: ModalState) -> int:
         """Return the index of a state."""
-        if state is not self._last[0]:
-            self._last = state, self._states.setdefault(state, len(self._states))
-        return self._last[1]
+        if state is not self._last.state:
+            self._last = _NumberedState(state, self._states.setdefault(state, len(self._states)))
+        return self._last.number
 
     def length(self, block: Block, letter: str) -> float | None:
         """Return a length word in mm, None without the word."""
@@ -141,12 +170,12 @@ class Control:
             return None
         return value * (self.unit * self.least if letter in block.whole else self.unit)
 
-    def axis_words(self, block: Block) -> Iterator[tuple[int, float]]:
-        """Yield the axis words of a block: axis, mm."""
+    def axis_words(self, block: Block) -> Iterator[AxisWord]:
+        """Yield the axis words of a block."""
         for axis, letter in enumerate(AXES):
             value = self.length(block, letter)
             if value is not None:
-                yield axis, value
+                yield AxisWord(axis, value)
 
     def target(self, block: Block) -> Place:
         """Return where the axis words lead, table coordinates."""
@@ -203,14 +232,14 @@ class Control:
             return ""
         return "".join(letter for letter, row in zip("XYZ", self.known, strict=False) if not 0 <= row < begun)
 
-    def move(self, kind: MotionKind, end: Place, feed: float = 0.0, arc: tuple[Place, int] | None = None) -> None:
+    def move(self, kind: MotionKind, end: Place, feed: float = 0.0, arc: ArcShape | None = None) -> None:
         """Add a motion from where the point is.
 
         Args:
             kind: how.
             end: where to, table coordinates.
             feed: mm/min.
-            arc: centre and turns of an arc.
+            arc: of an arc.
 
         Raises:
             Fault: the program has made more motions than the reader takes.
@@ -270,7 +299,7 @@ class Control:
     def warn(self, text: str, letter: str = "") -> None:
         """Note something that the reader does not follow, once for each text."""
         if len(self.warnings) < MOST_WARNINGS:
-            self.warnings.setdefault(text, (letter, self.line))
+            self.warnings.setdefault(text, WordInLine(letter, self.line))
 
     def event(self, kind: EventKind, value: float = 0.0) -> None:
         """Note something that is no motion.

@@ -15,13 +15,15 @@ from . import lane_fields as at
 from .control import MOST_EVENTS, Control
 from .cycles import Cycle
 from .dialect import Dialect
-from .lane import LONGEST
 from .offsets import ZERO
 from .places import Cursor
 from .program import Event, EventKind, FeedMode, ModalState
 
 PORTION = 4096
 """Lines that the lane does at most before its records are taken."""
+LONGEST = 1000
+"""Bytes of a line that the lane reads; the core is for longer ones."""
+
 _CYCLE_ROOM = 64
 """Motions beyond one a line for which there is always room."""
 _KINDS = {

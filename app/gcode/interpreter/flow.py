@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from .block_fault import BlockFault
 from .control import Control
@@ -60,6 +61,27 @@ class CallFrame:
     ends: dict[int, Cursor] = field(default_factory=dict)
 
 
+class Subroutine(NamedTuple):
+    """A subroutine's label, and its first line."""
+
+    label: str
+    begin: Cursor
+
+
+class _ReadValue(NamedTuple):
+    """A value, and where in its line it ends."""
+
+    value: Value
+    end: int
+
+
+class _ReadStatement(NamedTuple):
+    """A statement, and where in its line it ends."""
+
+    statement: Statement
+    end: int
+
+
 class Flow:
     """Follows jumps.
 
@@ -76,10 +98,10 @@ class Flow:
         self.frames = [CallFrame()]
         self._labels = Labels()
         self._seen: dict[int, tuple[object, ...]] = {}
-        self._statements: dict[int, tuple[Statement, int]] = {}
+        self._statements: dict[int, _ReadStatement] = {}
         self._conditions: dict[str, Value] = {}
         self._may_end: set[int] = set()
-        self._first_values: dict[int, tuple[Value, int]] = {}
+        self._first_values: dict[int, _ReadValue] = {}
 
     @property
     def nested(self) -> bool:
@@ -101,7 +123,7 @@ class Flow:
             return value
         value = values.value()
         if len(self._first_values) < MOST_KEPT:
-            self._first_values[self.here.offset] = value, values.at
+            self._first_values[self.here.offset] = _ReadValue(value, values.at)
         return value
 
     def check_end(self, begin: Cursor, condition: Cursor) -> None:
@@ -143,15 +165,15 @@ class Flow:
             self._seen[to.offset] = now
         self.next = to
 
-    def call(self, place: tuple[str, Cursor], arguments: dict[Key, float] | None, count: int) -> None:
+    def call(self, called: Subroutine, arguments: dict[Key, float] | None, count: int) -> None:
         """Begin a subroutine.
 
         Args:
-            place: its label and its first line.
+            called: where it begins.
             arguments: its own parameters; None = it shares the caller's.
             count: how often, >= 1.
         """
-        label, begin = place
+        label, begin = called
         deepest = min(self._control.options.limits.calls, self._control.rules.calls)
         if len(self.frames) > deepest:
             raise BlockFault(f"subroutines call one another more than {deepest} deep.")
@@ -203,7 +225,7 @@ class Flow:
                 return
             values.at, statement = keyword.end(), Statement(self.here, label, keyword[0])
             if is_written and len(self._statements) < MOST_KEPT:
-                self._statements[self.here.offset] = statement, values.at
+                self._statements[self.here.offset] = _ReadStatement(statement, values.at)
         _ACTS[statement.keyword](self, statement, values)
 
     def _label(self, values: ValueReader) -> str:
@@ -276,7 +298,7 @@ class Flow:
         arguments: dict[Key, float] = {
             number: (given[number - 1] if number <= len(given) else 0.0) for number in range(1, 31)
         }
-        self.call((statement.label, self.places.after(found.at)), arguments, 1)
+        self.call(Subroutine(statement.label, self.places.after(found.at)), arguments, 1)
         self.frames[-1].called = True
 
     def _if(self, statement: Statement, values: ValueReader) -> None:

@@ -9,8 +9,7 @@ from .block_fault import BlockFault
 from .codes import ModalGroup
 from .control import Control
 from .expression import ValueReader, evaluated, whole
-from .flow import Flow
-from .places import Cursor
+from .flow import Flow, Subroutine
 
 _WORDS = re.compile(r"/?(?:n[0-9]+)?(goto|if|while|end)(?![a-z])|/?(?:n[0-9]+)?(end|if|while)")
 _DO = re.compile(r"do([0-9])$")
@@ -141,17 +140,17 @@ def _called(control: Control, block: Block, code: str) -> tuple[int, int]:
     return number, count
 
 
-def _goal(flow: Flow, control: Control, code: str, number: int) -> tuple[str, Cursor]:
+def _goal(flow: Flow, control: Control, code: str, number: int) -> Subroutine:
     if code == "M97":
         to = flow.places.number(number, -1)
         if to is None:
             raise BlockFault(f"there is no block N{number} to call.", letter="p")
-        return f"N{number}", to
+        return Subroutine(f"N{number}", to)
     return subroutine(flow, number, plain=control.rules.ngc_flow)
 
 
-def subroutine(flow: Flow, number: int, plain: bool = False) -> tuple[str, Cursor]:
-    """Return label and first line of a program to call.
+def subroutine(flow: Flow, number: int, plain: bool = False) -> Subroutine:
+    """Return a program to call.
 
     Args:
         plain: one that begins with sub is not for M98.
@@ -167,4 +166,4 @@ def subroutine(flow: Flow, number: int, plain: bool = False) -> tuple[str, Curso
         )
     if plain and found.keyword == "sub":
         raise BlockFault(f"O{number} begins with sub, so O{number} call must call it, not M98.", letter="p")
-    return str(number), flow.places.after(found.at)
+    return Subroutine(str(number), flow.places.after(found.at))

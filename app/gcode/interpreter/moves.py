@@ -13,7 +13,7 @@ from .arc_kernels import centre_by_radius, radii
 from .block import Block
 from .block_fault import BlockFault
 from .codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, ModalGroup
-from .control import Control
+from .control import ArcShape, AxisWord, Control
 from .curves import drop_curve, move_along_curve
 from .dialect import Dialect
 from .expression import whole
@@ -166,7 +166,7 @@ def _arc(control: Control, block: Block) -> None:
     sweep = _sweep((start[u] - centre[u], start[v] - centre[v]), (end[u] - centre[u], end[v] - centre[v]), code == "G3")
     along = (sweep + math.tau * (turns - 1)) * math.hypot(start[u] - centre[u], start[v] - centre[v])
     feed = control.feed_along(math.hypot(along, end[w] - start[w]))
-    control.move(MotionKind.ARC_CCW if code == "G3" else MotionKind.ARC_CW, end, feed, (centre, turns))
+    control.move(MotionKind.ARC_CCW if code == "G3" else MotionKind.ARC_CW, end, feed, ArcShape(centre, turns))
 
 
 def _sweep(first: tuple[float, float], last: tuple[float, float], ccw: bool) -> float:
@@ -201,7 +201,7 @@ def _centre_by_r(control: Control, block: Block, end: Place) -> Place:
         raise BlockFault(
             f"the radius {abs(radius):g} mm is too small to reach the end, which is {2 * half:.6g} mm away.", letter="r"
         )
-    return _placed((u, a), (v, b), (w, start[w]))
+    return _placed(AxisWord(u, a), AxisWord(v, b), AxisWord(w, start[w]))
 
 
 def _centre_by_ijk(control: Control, block: Block) -> Place:
@@ -214,13 +214,17 @@ def _centre_by_ijk(control: Control, block: Block) -> Place:
                 raise BlockFault(f"with absolute centres (G90.1) an arc needs {'IJK'[axis]} too.", letter="g")
         if control.offsets.rotation == 0.0:
             shift = control.modal.shift
-            return _placed((u, (words[0] or 0.0) + shift[u]), (v, (words[1] or 0.0) + shift[v]), (w, start[w]))
-        program = _placed((u, words[0] or 0.0), (v, words[1] or 0.0), (w, 0.0))
+            return _placed(
+                AxisWord(u, (words[0] or 0.0) + shift[u]),
+                AxisWord(v, (words[1] or 0.0) + shift[v]),
+                AxisWord(w, start[w]),
+            )
+        program = _placed(AxisWord(u, words[0] or 0.0), AxisWord(v, words[1] or 0.0), AxisWord(w, 0.0))
         return replaced(control.offsets.to_table(program), w, start[w])
-    offset = _placed((u, words[0] or 0.0), (v, words[1] or 0.0), (w, 0.0))
+    offset = _placed(AxisWord(u, words[0] or 0.0), AxisWord(v, words[1] or 0.0), AxisWord(w, 0.0))
     if control.offsets.rotation != 0.0:
         offset = _turned_only(control, offset)
-    return _placed((u, start[u] + offset[u]), (v, start[v] + offset[v]), (w, start[w]))
+    return _placed(AxisWord(u, start[u] + offset[u]), AxisWord(v, start[v] + offset[v]), AxisWord(w, start[w]))
 
 
 def _turned_only(control: Control, vector: Place) -> Place:
@@ -229,7 +233,7 @@ def _turned_only(control: Control, vector: Place) -> Place:
     return (vector[0] * c - vector[1] * s, vector[0] * s + vector[1] * c, vector[2])
 
 
-def _placed(*coordinates: tuple[int, float]) -> Place:
+def _placed(*coordinates: AxisWord) -> Place:
     place = [0.0, 0.0, 0.0]
     for axis, value in coordinates:
         place[axis] = value

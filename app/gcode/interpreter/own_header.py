@@ -22,7 +22,7 @@ from .. import operation_notes
 from ..note_texts import unspelled
 from .notes_stock import StockBoxNote
 from .notes_words import Comments
-from .program import HeaderNote, OperationNote, StockNote, ToolNote
+from .program import HeaderNote, KeepOutNote, OperationNote, PlungeRateNote, StockNote, ToolNote
 
 MARK, MARK_ON = b"hitofude:", b"hitofude+"
 """What the comments of the header begin with, and those that go on with the one before."""
@@ -30,8 +30,26 @@ MARK, MARK_ON = b"hitofude:", b"hitofude+"
 _MOST = 20_000
 """Comments of a header that are looked at: each tab and each dog-bone has one."""
 
-Values = tuple[int, list[str]]
-"""1-based line of a comment, and its values."""
+
+class NotedValues(NamedTuple):
+    """A comment's values, and its 1-based line."""
+
+    line: int
+    values: list[str]
+
+
+class _KeyedValues(NamedTuple):
+    """A comment: its key in lower case, and what it says."""
+
+    key: str
+    said: NotedValues
+
+
+class _CommentText(NamedTuple):
+    """What a comment says behind its mark, with those that go on with it; the line of the first."""
+
+    line: int
+    text: str
 
 
 class ProgramNotes(NamedTuple):
@@ -44,7 +62,7 @@ class ProgramNotes(NamedTuple):
 
 def own_notes(comments: Comments) -> ProgramNotes:
     """Return what a program with our own header tells; values that are not as they are written are passed over."""
-    noted: dict[str, list[Values]] = {}
+    noted: dict[str, list[NotedValues]] = {}
     for key, values in _told(comments):
         noted.setdefault(key, []).append(values)
     origin = next((triple for _, values in noted.get("origin_mm", []) if (triple := _triple(values)) is not None), None)
@@ -57,7 +75,7 @@ def own_notes(comments: Comments) -> ProgramNotes:
         _first(noted.get("path_tolerance_mm", [])),
         _first(noted.get("allowance_mm", [])),
         _copies(noted.get("copies", [])),
-        (
+        KeepOutNote(
             tuple(_name(values) for _, values in noted.get("keep_out", [])),
             _first(noted.get("keep_out_height_mm", [])) or 0.0,
         ),
@@ -65,7 +83,7 @@ def own_notes(comments: Comments) -> ProgramNotes:
         tuple(DogBone(*numbers) for numbers in _fives(noted.get("dog_bone", []))),
         _reading(noted),
         tuple(
-            (int(numbers[0]), numbers[1])
+            PlungeRateNote(int(numbers[0]), numbers[1])
             for _, values in noted.get("plunge_mm_min", [])
             if len(numbers := _floats(values)) == 2
         ),
@@ -77,7 +95,7 @@ def own_notes(comments: Comments) -> ProgramNotes:
     )
 
 
-def _reading(noted: dict[str, list[Values]]) -> DrawingOptions:
+def _reading(noted: dict[str, list[NotedValues]]) -> DrawingOptions:
     """Return how the drawing was read."""
     without_layers, without_types, layouts = (
         tuple(_name(values) for _, values in noted.get(key, [])) for key in ("skip_layer", "skip_type", "layout")
@@ -94,23 +112,23 @@ def _reading(noted: dict[str, list[Values]]) -> DrawingOptions:
     )
 
 
-def _told(comments: Comments) -> Iterator[tuple[str, Values]]:
+def _told(comments: Comments) -> Iterator[_KeyedValues]:
     """Yield every key in lower case, with its line and its values, comments that go on with another put behind it."""
-    whole: list[tuple[int, str]] = []
+    whole: list[_CommentText] = []
     line, last = 1, 0
     for at, comment in sorted(comments.texts((MARK, MARK_ON), _MOST)):
         mark, text = comment.strip()[: len(MARK)].lower().encode("ascii", "replace"), comment.strip()[len(MARK) :]
         if mark == MARK_ON and whole:
-            whole[-1] = (whole[-1][0], whole[-1][1] + text)
+            whole[-1] = whole[-1]._replace(text=whole[-1].text + text)
         elif mark == MARK:
             line, last = line + comments.data.count(b"\n", last, at), at
-            whole.append((line, text))
+            whole.append(_CommentText(line, text))
     for line, text in whole:
         name, _, values = text.partition("=")
-        yield name.strip().lower(), (line, values.split(","))
+        yield _KeyedValues(name.strip().lower(), NotedValues(line, values.split(",")))
 
 
-def _tools(noted: list[Values]) -> Iterator[ToolNote]:
+def _tools(noted: list[NotedValues]) -> Iterator[ToolNote]:
     """Yield tools: number, kind, diameter, and of some corner radius, tip diameter and tip angle in degrees."""
     for line, values in noted:
         numbers = _floats([*values[:1], *values[2:]])
@@ -121,7 +139,7 @@ def _tools(noted: list[Values]) -> Iterator[ToolNote]:
             )
 
 
-def _stock(noted: list[Values], origin: tuple[float, float, float]) -> StockNote | None:
+def _stock(noted: list[NotedValues], origin: tuple[float, float, float]) -> StockNote | None:
     """Return the stock less the work origin, which is in the coordinates of the part too."""
     for line, values in noted:
         corners = _floats(values)
@@ -131,7 +149,7 @@ def _stock(noted: list[Values], origin: tuple[float, float, float]) -> StockNote
     return None
 
 
-def _operations(noted: dict[str, list[Values]]) -> Iterator[OperationNote]:
+def _operations(noted: dict[str, list[NotedValues]]) -> Iterator[OperationNote]:
     """Yield operations, as they are written now or were by earlier versions."""
     for number, (_, values) in enumerate(noted.get("operation", []), 1):
         kind = OPERATION_KINDS.get(values[0].strip().lower())
@@ -148,7 +166,7 @@ def _operations(noted: dict[str, list[Values]]) -> Iterator[OperationNote]:
 class _EarlierNotes:
     """What comments beside that of the N-th operation told of it in programs of earlier versions."""
 
-    def __init__(self, noted: dict[str, list[Values]], number: int) -> None:
+    def __init__(self, noted: dict[str, list[NotedValues]], number: int) -> None:
         self._told, self._number = noted, number
 
     def numbers(self, key: str, count: int) -> list[float]:
@@ -181,7 +199,7 @@ def _earlier(kind: type[Operation], values: list[str], beside: _EarlierNotes) ->
     return {key: value for key, value in noted.items() if key in parameters_of(kind)}
 
 
-def _copies(noted: list[Values]) -> Copies | None:
+def _copies(noted: list[NotedValues]) -> Copies | None:
     """Return the copies of the part; None where nothing is told that can be."""
     for _, values in noted:
         numbers = _floats(values)
@@ -191,12 +209,12 @@ def _copies(noted: list[Values]) -> Copies | None:
     return None
 
 
-def _fives(noted: list[Values]) -> Iterator[list[float]]:
+def _fives(noted: list[NotedValues]) -> Iterator[list[float]]:
     """Yield values that are five numbers."""
     return (numbers for _, values in noted if len(numbers := _floats(values)) == 5)
 
 
-def _units(noted: list[Values]) -> Units | None:
+def _units(noted: list[NotedValues]) -> Units | None:
     names = [values[0].strip().upper() for _, values in noted]
     return next((Units[name] for name in names if name in Units.__members__), None)
 
@@ -206,7 +224,7 @@ def _triple(values: list[str]) -> tuple[float, float, float] | None:
     return (numbers[0], numbers[1], numbers[2]) if len(numbers) == 3 else None
 
 
-def _first(noted: list[Values]) -> float | None:
+def _first(noted: list[NotedValues]) -> float | None:
     return next((numbers[0] for _, values in noted if len(numbers := _floats(values)) == 1), None)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +21,12 @@ PLAIN = 5000
 MOST = 200_000
 """So many parameters may be set; a real program sets some hundred."""
 
-_Kept = tuple[dict[str, float], Floats]
+
+class _CallersParameters(NamedTuple):
+    """What is kept of a caller while a subroutine runs: its own parameters by name, and those by number."""
+
+    named: dict[str, float]
+    numbered: Floats
 
 
 class Parameters:
@@ -43,7 +49,7 @@ class Parameters:
         self.plain: Floats = np.full(PLAIN + 1, math.nan)
         self._everywhere: dict[Key, float] = {}
         self._here: dict[str, float] = {}
-        self._callers: list[_Kept] = []
+        self._callers: list[_CallersParameters] = []
         self.changes = 0
 
     def get(self, key: Key) -> float:
@@ -108,7 +114,7 @@ class Parameters:
         Args:
             arguments: their values, by numbers that belong to the subroutine.
         """
-        self._callers.append((self._here, self.plain[self._local].copy()))
+        self._callers.append(_CallersParameters(self._here, self.plain[self._local].copy()))
         self._here = {}
         self.plain[self._local] = math.nan
         for key, value in arguments.items():

@@ -6,6 +6,7 @@ import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -65,6 +66,21 @@ class Statement:
     keyword: str
 
 
+class _LoopBound(NamedTuple):
+    """A line with DO n or END n: whether it is an end, and n."""
+
+    at: Cursor
+    ends: bool
+    number: int
+
+
+class _MatchInLine(NamedTuple):
+    """A match, and the number of its line."""
+
+    match: re.Match[bytes]
+    line: int
+
+
 class JumpTargets:
     """Finds places of a text; each index is made when it is first asked."""
 
@@ -73,7 +89,7 @@ class JumpTargets:
         self._text, self._end = text, len(text.data)
         self._by_label: dict[str, list[Statement]] | None = None
         self._numbers: dict[int, list[Cursor]] | None = None
-        self._loops: list[tuple[Cursor, bool, int]] | None = None
+        self._loops: list[_LoopBound] | None = None
         self._subroutines: list[Statement] | None = None
         self._long: list[Cursor] | None = None
 
@@ -153,10 +169,10 @@ class JumpTargets:
         """Return the line with END n that belongs to the WHILE ... DO n at an offset."""
         if self._loops is None:
             self._loops = [
-                (Cursor(found.start(), line), found[1] is not None, int(found[2]))
+                _LoopBound(Cursor(found.start(), line), found[1] is not None, int(found[2]))
                 for found, line in self._found(_DO_END)
             ]
-        first = bisect_right(self._loops, behind, key=lambda loop: loop[0].offset)
+        first = bisect_right(self._loops, behind, key=lambda loop: loop.at.offset)
         return next(
             (
                 at
@@ -175,8 +191,8 @@ class JumpTargets:
                 self._by_label.setdefault(name, []).append(Statement(Cursor(found.start(), line), name, keyword))
         return self._by_label.get(label, [])
 
-    def _found(self, pattern: re.Pattern[bytes]) -> Iterator[tuple[re.Match[bytes], int]]:
-        """Yield every match with the number of its line.
+    def _found(self, pattern: re.Pattern[bytes]) -> Iterator[_MatchInLine]:
+        """Yield every match.
 
         Raises:
             Fault: there are more than any program has.
@@ -187,7 +203,7 @@ class JumpTargets:
                 raise BlockFault(f"the program has more than {MOST_PLACES} places to go on at; the reader stops here.")
             line += data.count(b"\n", counted, match.start())
             counted = match.start()
-            yield match, line
+            yield _MatchInLine(match, line)
 
 
 def label_of(text: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...core.errors import printable
 from ...model.fields import built
@@ -182,6 +182,23 @@ class OperationNote:
         return built(self.kind, {"stepdown": noted.get("depth", 2.0), **noted})
 
 
+class KeepOutNote(NamedTuple):
+    """Layers of clamps, and how high these are, mm."""
+
+    layers: tuple[str, ...] = ()
+    height: float = 0.0
+
+
+NO_KEEP_OUT = KeepOutNote()
+
+
+class PlungeRateNote(NamedTuple):
+    """A T number, and how fast it may be fed straight down, mm/min."""
+
+    tool: int
+    rate: float
+
+
 @dataclass(frozen=True, slots=True)
 class HeaderNote:
     """What the header of our own tells beside tools and stock (`app.gcode.writer.header_notes`); None or nothing where
@@ -197,9 +214,9 @@ class HeaderNote:
         path_tolerance: by how much the written path may be too near to the walls, mm.
         allowance: so thick a skin may paths made from pixels leave along the walls, mm.
         copies: of the part.
-        keep_out: layers of clamps, and how high these are, mm.
+        keep_out: where clamps are.
         tabs, dog_bones: where metal was left standing, and where walls were cut into, part coordinates.
-        plunge_rates: T numbers, and how fast each may be fed straight down, mm/min.
+        plunge_rates: how fast tools may be fed straight down.
         under: thickness of the waste below the stock that may be cut into, mm. above: what of the stock stands above Z
             0 of the drawing, mm.
     """
@@ -212,11 +229,11 @@ class HeaderNote:
     path_tolerance: float | None = None
     allowance: float | None = None
     copies: Copies | None = None
-    keep_out: tuple[tuple[str, ...], float] = ((), 0.0)
+    keep_out: KeepOutNote = NO_KEEP_OUT
     tabs: tuple[Tab, ...] = ()
     dog_bones: tuple[DogBone, ...] = ()
     reading: DrawingOptions = AS_DRAWN
-    plunge_rates: tuple[tuple[int, float], ...] = ()
+    plunge_rates: tuple[PlungeRateNote, ...] = ()
     under: float = 0.0
     above: float = 0.0
 

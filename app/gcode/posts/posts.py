@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.errors import InputError
+from ...core.file_bytes import FileBytes
 from ...core.resources import resource
 from ...core.settings import config_folder
 from ...core.toml_tables import read_tree, tables_of
@@ -76,7 +77,7 @@ def read_post(path: Path) -> Post:
             extends a post that there is not, or itself.
     """
     data = _bytes(path)
-    post: Post = tables_of(Post, _tree(path, ()), (path.name, data), RANGES)
+    post: Post = tables_of(Post, _tree(path, ()), FileBytes(path.name, data), RANGES)
     _check_signs(replace(post, title=""), f"{path.name}: ")
     _check_words(post, path.name)
     _check_nurbs(post, path.name)

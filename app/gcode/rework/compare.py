@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 from itertools import chain, pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +31,35 @@ CHORD = 1 / 20
 """Chords that stand for arcs keep to them within this part of the tolerance."""
 
 Rows = NDArray[np.int64]
-Pauses = tuple[tuple[EventKind, float], ...]
+
+
+class Pause(NamedTuple):
+    """A dwell, or a stop; seconds of a dwell, else 0."""
+
+    kind: EventKind
+    seconds: float
+
+
+class _PausesOnWay(NamedTuple):
+    """Dwells and stops before some motions, and where the tool stands at each; None = nowhere."""
+
+    places: list[Floats | None]
+    events: tuple[Pause, ...]
+
+
+class _MotionStretch(NamedTuple):
+    """Motions that move, all rapids or none, `stop` excluded."""
+
+    rapid: bool
+    first: int
+    stop: int
+
+
+class _ComparedGap(NamedTuple):
+    """What a stretch that could not be aligned is, and pairs of motions that run along the same path in it."""
+
+    difference: ProgramDifference
+    pairs: list[Rows]
 
 
 class DifferenceKind(Enum):
@@ -155,14 +184,17 @@ class _ComparedProgram:
     program: NcProgram
     paths: PolylinePaths
     length: Floats
-    events: dict[int, Pauses]
+    events: dict[int, tuple[Pause, ...]]
 
     @staticmethod
     def of(program: NcProgram, chord: float) -> _ComparedProgram:
-        events: dict[int, Pauses] = {}
+        events: dict[int, tuple[Pause, ...]] = {}
         for event in program.events:
             if event.kind not in (EventKind.TOOL_CHANGE, EventKind.END):
-                events[event.before] = (*events.get(event.before, ()), (event.kind, round(event.value, TIME_DIGITS)))
+                events[event.before] = (
+                    *events.get(event.before, ()),
+                    Pause(event.kind, round(event.value, TIME_DIGITS)),
+                )
         return _ComparedProgram(program, PolylinePaths(program.motions, chord), lengths(program.motions), events)
 
     def span(self, first: int, stop: int) -> ProgramSpan:
@@ -173,21 +205,20 @@ class _ComparedProgram:
         before = int(line[first - 1]) if first else 1
         return ProgramSpan(first, stop, before, before)
 
-    def stretches(self, first: int, stop: int) -> list[tuple[bool, int, int]]:
-        """Return the stretches of rapids (True) and of other motions that move between two motions."""
+    def stretches(self, first: int, stop: int) -> list[_MotionStretch]:
+        """Return the stretches of rapids and of other motions that move between two motions."""
         rows = first + np.flatnonzero(self.length[first:stop] > 0)
         if not len(rows):
             return []
         rapid = self.program.motions.kind[rows] == MotionKind.RAPID
         edges = [0, *(np.flatnonzero(rapid[1:] != rapid[:-1]) + 1).tolist(), len(rows)]
-        return [(bool(rapid[i]), int(rows[i]), int(rows[j - 1]) + 1) for i, j in pairwise(edges)]
+        return [_MotionStretch(bool(rapid[i]), int(rows[i]), int(rows[j - 1]) + 1) for i, j in pairwise(edges)]
 
-    def pauses(self, first: int, last: int) -> tuple[list[Floats | None], Pauses]:
-        """Return what happens before motions, last included: where, and what."""
+    def pauses(self, first: int, last: int) -> _PausesOnWay:
+        """Return what happens before motions, last included."""
         rows = sorted(row for row in self.events if first <= row <= last)
-        return [self.place(row) for row in rows for _ in self.events[row]], tuple(
-            event for row in rows for event in self.events[row]
-        )
+        events = tuple(event for row in rows for event in self.events[row])
+        return _PausesOnWay([self.place(row) for row in rows for _ in self.events[row]], events)
 
     def place(self, row: int) -> Floats | None:
         """Return (3,) where the tool stands before a motion; None where the program has no motion."""
@@ -228,45 +259,44 @@ class _Comparison:
             tuple(sorted(items, key=lambda item: (item.a.first, item.b.first))), runs, self._tolerance
         )
 
-    def _gap(self, before: tuple[int, int], after: tuple[int, int]) -> tuple[ProgramDifference, list[Rows]]:
-        """Return what a stretch that could not be aligned is, and pairs of motions that run along the same path in
-        it.
-        """
+    def _gap(self, before: tuple[int, int], after: tuple[int, int]) -> _ComparedGap:
+        """Return what a stretch that could not be aligned is."""
         spans = self._a.span(before[0], after[0]), self._b.span(before[1], after[1])
         parts_a, parts_b = self._a.stretches(before[0], after[0]), self._b.stretches(before[1], after[1])
         if not parts_a or not parts_b:
-            return self._one_sided(spans, bool(parts_a), bool(parts_b)), []
-        if [rapid for rapid, *_ in parts_a] != [rapid for rapid, *_ in parts_b]:
+            return _ComparedGap(self._one_sided(spans, bool(parts_a), bool(parts_b)), [])
+        if [each.rapid for each in parts_a] != [each.rapid for each in parts_b]:
             parts_a, parts_b = self._telling(self._a, parts_a), self._telling(self._b, parts_b)
-            if [rapid for rapid, *_ in parts_a] != [rapid for rapid, *_ in parts_b] or self._leash(
+            if [each.rapid for each in parts_a] != [each.rapid for each in parts_b] or self._leash(
                 spans
             ) > self._tolerance:
-                return self._apart(spans, whole=True), []
+                return _ComparedGap(self._apart(spans, whole=True), [])
         lines = [
-            (self._a.paths.polyline(*p[1:]), self._b.paths.polyline(*q[1:]))
+            (self._a.paths.polyline(p.first, p.stop), self._b.paths.polyline(q.first, q.stop))
             for p, q in zip(parts_a, parts_b, strict=True)
         ]
         longest = max((leash(*each) for each in lines), default=self._leash(spans))
         if longest > self._tolerance:
-            return self._apart(spans, whole=False), []
+            return _ComparedGap(self._apart(spans, whole=False), [])
         counts = f"{spans[0].stop - spans[0].first} and {spans[1].stop - spans[1].first} motions"
         item = ProgramDifference(DifferenceKind.SAME_PATH, *spans, longest, None, f"the same path in {counts}")
-        return item, [_side_by_side(*each) for each in lines]
+        return _ComparedGap(item, [_side_by_side(*each) for each in lines])
 
     def _leash(self, spans: tuple[ProgramSpan, ProgramSpan]) -> float:
         return leash(
             *(side.paths.polyline(span.first, span.stop) for side, span in zip((self._a, self._b), spans, strict=True))
         )
 
-    def _telling(self, side: _ComparedProgram, parts: list[tuple[bool, int, int]]) -> list[tuple[bool, int, int]]:
+    def _telling(self, side: _ComparedProgram, parts: list[_MotionStretch]) -> list[_MotionStretch]:
         """Return stretches without those that are all within the tolerance of where they begin; what follows one
         another is one.
         """
-        found: list[tuple[bool, int, int]] = []
-        for rapid, first, stop in parts:
-            if float(np.linalg.norm(np.ptp(side.paths.polyline(first, stop).points, axis=0))) > self._tolerance:
-                joins = found and found[-1][0] == rapid
-                found[-1:] = [(rapid, found[-1][1], stop)] if joins else [*found[-1:], (rapid, first, stop)]
+        found: list[_MotionStretch] = []
+        for part in parts:
+            points = side.paths.polyline(part.first, part.stop).points
+            if float(np.linalg.norm(np.ptp(points, axis=0))) > self._tolerance:
+                joins = found and found[-1].rapid == part.rapid
+                found[-1:] = [found[-1]._replace(stop=part.stop)] if joins else [*found[-1:], part]
         return found
 
     def _one_sided(self, spans: tuple[ProgramSpan, ProgramSpan], in_a: bool, in_b: bool) -> ProgramDifference:
@@ -392,8 +422,8 @@ def _side_by_side(a: Polyline, b: Polyline) -> Rows:
     return pairs[:, np.concatenate([[True], fresh])] if pairs.shape[1] else pairs
 
 
-def _pause(events: Pauses) -> str:
-    return ", ".join(f"{kind.value} {value:g} s" if value else kind.value for kind, value in events) or "none"
+def _pause(events: tuple[Pause, ...]) -> str:
+    return ", ".join(f"{kind.value} {s:g} s" if s else kind.value for kind, s in events) or "none"
 
 
 def _feed(value: float) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ...core.errors import InputError
 from ...core.progress import Progress
@@ -88,7 +88,7 @@ def control_state_at(data: bytes, line: int, options: ReadOptions, progress: Pro
     elsewhere = InterpreterRun(data, replace(options, start=added(options.start, ELSEWHERE)), progress.part(0.5, 1.0))
     elsewhere.control.offsets.common, elsewhere.control.homes = OTHER_ZERO, dict(OTHER_HOMES)
     elsewhere.control.offsets_changed()
-    other, _ = _read_to(data, line, elsewhere)
+    other = _read_to(data, line, elsewhere).control
     _check_zeros(control, other, line)
     axes = [_axis(control, other, axis) if motions else AxisKnowledge.FREE for axis in range(3)]
     if None in axes or (motions and axes[2] is AxisKnowledge.FREE):
@@ -151,8 +151,15 @@ def _differ(a: Place, b: Place) -> bool:
     return any(abs(value) > SAME for value in taken(a, b))
 
 
-def _read_to(data: bytes, line: int, run: InterpreterRun) -> tuple[Control, int]:
-    """Return the control as it stands when a reading comes to a line, and how many motions it has done.
+class _ControlAtLine(NamedTuple):
+    """A control as it stands at a line, and how many motions it has done."""
+
+    control: Control
+    motions: int
+
+
+def _read_to(data: bytes, line: int, run: InterpreterRun) -> _ControlAtLine:
+    """Return the control as it stands when a reading comes to a line.
 
     Raises:
         InputError: it never does, or nothing can begin there.
@@ -174,7 +181,7 @@ def _read_to(data: bytes, line: int, run: InterpreterRun) -> tuple[Control, int]
             "begins."
         )
     _check_begin(control, data, line)
-    return control, len(program.motions)
+    return _ControlAtLine(control, len(program.motions))
 
 
 def _check_begin(control: Control, data: bytes, line: int) -> None:

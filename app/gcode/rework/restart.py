@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
 
@@ -78,7 +79,7 @@ def restart(data: bytes, line: int, options: RestartOptions, progress: Progress 
     blocks = lead_in(state, _approach(whole, state, options))
     end = "\r\n" if b"\r\n" in data else "\n"
     made = end.join([*head, *blocks, ""]).encode(text.encoding, "replace") + tail
-    _check(made, (whole, line), state, options, progress.part(0.6, 1.0))
+    _check(made, _RestartedProgram(whole, line), state, options, progress.part(0.6, 1.0))
     return made
 
 
@@ -102,7 +103,7 @@ def _tail(data: bytes, text: ProgramBuffer, line: int) -> bytes:
 def _check_structure(text: ProgramBuffer, line: int) -> None:
     """Refuse a line within a block of O words: what belongs to its beginning would be missing."""
     open_words: list[tuple[str, str]] = []
-    for number, (label, keyword) in _o_words(text, line):
+    for number, label, keyword in _o_words(text, line):
         partner = (label, INNER.get(keyword, ""))
         if keyword == "while" and (label, "do") in open_words:
             open_words.remove((label, "do"))
@@ -117,12 +118,20 @@ def _check_structure(text: ProgramBuffer, line: int) -> None:
             )
 
 
-def _o_words(text: ProgramBuffer, first: int) -> list[tuple[int, tuple[str, str]]]:
-    """Return line, label and keyword of each O word from a line on."""
+class _OWordLine(NamedTuple):
+    """A line with an O word: its number, the label, the keyword."""
+
+    number: int
+    label: str
+    keyword: str
+
+
+def _o_words(text: ProgramBuffer, first: int) -> list[_OWordLine]:
+    """Return each O word from a line on."""
     begin = _offset(text.data, first)
     rest = text.data[begin:].decode(text.encoding).lower().split("\n")
     found = [(number, O_WORD.match("".join(each.split()))) for number, each in enumerate(rest, first) if "o" in each]
-    return [(number, (label_of(match[1]), match[2])) for number, match in found if match is not None]
+    return [_OWordLine(number, label_of(match[1]), match[2]) for number, match in found if match is not None]
 
 
 def _leader(text: ProgramBuffer, line: int, control: Control) -> list[str]:
@@ -147,7 +156,7 @@ def _subroutines(text: ProgramBuffer, line: int) -> list[str]:
     """Return the subroutines that are defined before a line, as they are written."""
     lines = text.data.decode(text.encoding).split("\n")
     found, begun = [], 0
-    for number, (_, keyword) in _o_words(text, 1):
+    for number, _, keyword in _o_words(text, 1):
         if keyword == "sub" and number < line:
             begun = number
         elif keyword == "endsub" and begun:
@@ -179,8 +188,15 @@ def _approach(whole: NcProgram, state: ControlState, options: RestartOptions) ->
     return Approach(clearance, options.approach, feed, options.spin_up)
 
 
+class _RestartedProgram(NamedTuple):
+    """A program, and the line that it is begun at again."""
+
+    program: NcProgram
+    line: int
+
+
 def _check(
-    made: bytes, original: tuple[NcProgram, int], state: ControlState, options: RestartOptions, progress: Progress
+    made: bytes, original: _RestartedProgram, state: ControlState, options: RestartOptions, progress: Progress
 ) -> None:
     """Read the restart program, and refuse to give it out if it does not go on with the old one's motions."""
     whole, line = original

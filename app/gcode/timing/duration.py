@@ -49,6 +49,7 @@ class Duration:
         tool: (n + 1,) T number in the spindle, for each of these.
         rapid: (n,) whether a motion is a rapid.
         feedless: how many motions the program gives no feed for; they are timed at the machine's largest.
+        changes: how many tools are taken. changing: seconds of `waiting` for these; the rest are dwells.
     """
 
     moving: Floats
@@ -56,6 +57,8 @@ class Duration:
     tool: NDArray[np.int32]
     rapid: NDArray[np.bool_]
     feedless: int = 0
+    changes: int = 0
+    changing: float = 0.0
 
     @property
     def total(self) -> float:
@@ -94,7 +97,7 @@ def duration(program: NcProgram, machine: Machine) -> Duration:
     from .duration_kernels import corners, curves, run
 
     motions = program.motions
-    waiting, tool = _waits(program, machine)
+    waits = _waits(program, machine)
     feedless = (motions.kind != MotionKind.RAPID) & ~(motions.feed > 0)
     arcs = arc_paths(motions)
     length = lengths(motions, arcs)
@@ -113,21 +116,37 @@ def duration(program: NcProgram, machine: Machine) -> Duration:
         curves(ways, own, limits, entry)
         run(own, entry, seconds)
         moving[rows] = seconds
-    return Duration(moving, waiting, tool, motions.kind == MotionKind.RAPID, int(np.sum(feedless)))
+    return Duration(
+        moving,
+        waits.waiting,
+        waits.tool,
+        motions.kind == MotionKind.RAPID,
+        int(np.sum(feedless)),
+        waits.changes,
+        waits.changes * machine.tool_change,
+    )
 
 
-def _waits(program: NcProgram, machine: Machine) -> tuple[Floats, NDArray[np.int32]]:
-    """Return the seconds before each motion, and the tool that they count to."""
+@dataclass(frozen=True, eq=False)
+class _Waits:
+    """Waiting before each motion, s, and the tool that it counts to; how many tools are taken."""
+
+    waiting: Floats
+    tool: NDArray[np.int32]
+    changes: int
+
+
+def _waits(program: NcProgram, machine: Machine) -> _Waits:
     count = len(program.motions)
-    waiting, held = np.zeros(count + 1), 0
+    waiting, held, changes = np.zeros(count + 1), 0, 0
     of_state = np.array([state.tool for state in program.states], np.int32)
     for event in program.events:
         if event.kind is EventKind.DWELL:
             waiting[event.before] += event.value
         elif event.kind is EventKind.TOOL_CHANGE and int(event.value) != held:
             waiting[event.before] += machine.tool_change
-            held = int(event.value)
-    return waiting, np.append(of_state[program.motions.state], held).astype(np.int32)
+            held, changes = int(event.value), changes + 1
+    return _Waits(waiting, np.append(of_state[program.motions.state], held).astype(np.int32), changes)
 
 
 def _rapids(machine: Machine) -> Floats:

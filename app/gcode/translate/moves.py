@@ -20,6 +20,7 @@ from ..writer.arcs import ArcRules, ReferenceArc, written_pieces
 from ..writer.curve_blocks import BlockFormat, curve_blocks
 from ..writer.grid import Position, counts, numeral
 from .near_arcs import near_arcs
+from .taps import tapped_hole
 from .translatable import TAPPING
 from .translated_text import TranslatedText
 
@@ -252,32 +253,32 @@ class MotionWriter:
         self._row(step, row, "".join(letter for letter, moves in zip("XYZ", moved.tolist(), strict=True) if moves))
 
     def _tap(self, step: BlockStep) -> None:
-        """Write a tapped hole as the control's own cycle, out to R; the ways before and behind it are moves.
+        """Write a tapped hole as the control's own cycle, at feed out to R; the ways before and behind it are moves.
 
         Raises:
-            InputError: the way out at feed goes on beyond R.
+            InputError: the way out at feed goes where the tool has not come down.
         """
         output, motions = self._output, self._motions
         output.leave_cycle()
-        lines = [row for row in range(*step.rows) if motions.kind[row] == MotionKind.LINE]
-        alike = len(lines) == 2 and motions.start[lines[0], 2] == motions.end[lines[1], 2]
-        if not alike:
+        hole = tapped_hole(motions, step)
+        if hole is None:
             raise output.source.refuse(
                 step, "g", step.motion, f"out of a tapped hole {output.post.title} goes at feed to R alone; use G99"
             )
-        for row in range(step.rows[0], lines[0]):
+        for row in range(step.rows[0], hole.into):
             self._moved(step, row)
-        state = self._program.states[motions.state[lines[0]]]
-        output.spin(state.spindle)
-        self._feed = float(motions.feed[lines[0]])
-        (x, y, top), (_, _, bottom) = (self._place(lines[0], end[lines[0]]) for end in (motions.start, motions.end))
+        output.spin(self._program.states[motions.state[hole.into]].spindle)
+        self._feed = float(motions.feed[hole.into])
+        (x, y, top), (_, _, bottom) = (self._place(hole.into, end[hole.into]) for end in (motions.start, motions.end))
         values = (("X", x, "X"), ("Y", y, "Y"), ("Z", bottom, "Z"), ("R", top, "Z"))
         body = [letter + self._numeral(count, self._digits(like)) for letter, count, like in values]
         output.emit(" ".join(["G99", step.motion, *body, output.feed_word(step, self._feed)]).strip())
         output.emit("G80")
         output.modal = replace(output.modal, spindle=step.states[1].spindle)
         output.motion = ""
-        for row in range(lines[1] + 1, step.rows[1]):
+        if hole.beyond:
+            self._straight(step, MotionKind.RAPID, ((x, y, top), self._place(hole.out, motions.end[hole.out])), "Z")
+        for row in range(hole.out + 1, step.rows[1]):
             self._moved(step, row)
 
     def _wait(self, step: BlockStep, row: int) -> None:

@@ -8,12 +8,12 @@ import numpy as np
 
 from ...fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from ...model.motion import Motions, Nurbs
-from ...model.motion_path import spline_points
+from ...model.motion_path import fine_spline_points
 
 _NEAR, _SAG = 0.6, 0.05
 """Of the last decimal: how far lines and arcs may be from the points of a spline, and its chords from it."""
-_FIRST, _MOST = 64, 1 << 17
-"""Points that are begun with, and never more."""
+_MOST = 1 << 18
+"""Chords of a spline, never more."""
 
 
 def near_arcs(spline: Nurbs, step: float, largest: float) -> Motions:
@@ -23,16 +23,6 @@ def near_arcs(spline: Nurbs, step: float, largest: float) -> Motions:
         step: the last decimal, mm; what is made is proven when it is read back.
         largest: radius of an arc of the control, mm; what is flatter is a line.
     """
-    count = _FIRST
-    points = spline_points(spline, 2 * count + 1)
-    while _sag(points) > _SAG * step and count < _MOST:
-        count *= 2
-        points = spline_points(spline, 2 * count + 1)
+    points = fine_spline_points(spline, _SAG * step, _MOST)
     far = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])
     return fit_arcs(points[far], ArcOptions(_NEAR * step, math.pi / 6, largest)).motions
-
-
-def _sag(points: np.ndarray) -> float:
-    """Return how far every second point is from the chord of its neighbours, at most, mm."""
-    middle = (points[:-2:2] + points[2::2]) / 2
-    return float(np.linalg.norm(points[1:-1:2] - middle, axis=1).max()) / 4

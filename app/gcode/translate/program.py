@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Container
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -22,10 +23,12 @@ from ..interpreter.options import PATIENT, ReadOptions
 from ..interpreter.program import NcProgram
 from ..interpreter.reader import read_program, read_steps
 from ..interpreter.steps import BlockStep
-from ..interpreter.text import ProgramBuffer, code_of
+from ..interpreter.text import ProgramBuffer
 from ..posts.post import Post
 from ..rework.compare import DifferenceKind, ProgramDifference, compare
 from .moves import MotionWriter
+from .subprograms import NUMBER, Subprogram, code, told, uncalled
+from .taps import LeftAtR, left_at_r
 from .translatable import NO_SWITCH, SPLINES, TranslationSource, check_step
 from .translated_text import TranslatedText
 
@@ -36,7 +39,6 @@ of it.
 _LINES_A_STEP = 1000
 _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 _COMMENT = re.compile(r"\(([^()]*)\)|;(.*)$")
-_NUMBER = re.compile(r"(?:/|n[0-9.]+)*[o:]([0-9]+)$")
 _O_WORD = re.compile(r"(?:/|n[0-9.]+)*o")
 _COMPENSATION = frozenset({"G41", "G42", "G41.1", "G42.1"})
 _STALE = re.compile(
@@ -93,15 +95,16 @@ def translated(
     made = _written(source, program, steps, (optional, progress.part(0.3, 0.5)))
     own = ReadOptions(post.dialect, block_delete=written.block_delete, limits=read.limits)
     after = read_program(made, own, progress.part(0.5, 0.6))
-    done = _proven(source, (program, after), made, (own, progress.part(0.6, 0.8 if optional else 1.0)))
+    left = left_at_r(program, steps)
+    done = _proven(source, (left, after), made, (own, progress.part(0.6, 0.8 if optional else 1.0)))
     if not optional:
         return done
-    left_out = read_program(data, replace(read, block_delete=True), progress.part(0.8, 0.85))
+    left_out, steps = read_steps(data, replace(read, block_delete=True), progress.part(0.8, 0.85))
     if left_out.error is not None:
         raise InputError(f"{left_out.error.message(name)} That is so where the blocks with a slash are left out.")
     own = replace(own, block_delete=True)
     after = read_program(made, own, progress.part(0.85, 0.9))
-    other = _proven(source, (left_out, after), made, (own, progress.part(0.9, 1.0)))
+    other = _proven(source, (left_at_r(left_out, steps), after), made, (own, progress.part(0.9, 1.0)))
     return other if read.block_delete else done
 
 
@@ -113,7 +116,7 @@ def _optional(source: TranslationSource) -> frozenset[int]:
     """
     found: set[int] = set()
     for line, text in enumerate(source.lines, 1):
-        slash = SLASH.match(_code(text)) if "/" in text else None
+        slash = SLASH.match(code(text)) if "/" in text else None
         if slash is None:
             continue
         if source.post.dialect in NO_SWITCH:
@@ -139,9 +142,10 @@ def _written(
     units = program.states[0].units
     output = TranslatedText(source, units if units is Units.INCH else Units.MM, _number(source))
     output.comment(f"Hitofude for {source.post.title}, out of a program for {DIALECT_RULES[source.dialect].title}")
-    for remark in _remarks(jumps, steps):
+    never = uncalled(source, steps)
+    for remark in _remarks(jumps, steps, (never, left_at_r(program, steps).holes)):
         output.comment(remark)
-    writer = _Translator(source, output, MotionWriter(output, program), jumps)
+    writer = _Translator(source, output, MotionWriter(output, program), _passed(source, jumps, never))
     for k, step in enumerate(steps):
         if k % _LINES_A_STEP == 0:
             progress.step(k / len(steps), f"Writing for {source.post.title}")
@@ -159,8 +163,11 @@ def _written(
 class _Translator:
     """Writes block by block, and the comments of the lines that it comes to first."""
 
-    def __init__(self, source: TranslationSource, output: TranslatedText, mover: MotionWriter, jumps: bool) -> None:
-        self._source, self._output, self._mover, self._jumps = source, output, mover, jumps
+    def __init__(
+        self, source: TranslationSource, output: TranslatedText, mover: MotionWriter, passed: Container[int]
+    ) -> None:
+        """Begin; `passed`: lines that need not be done."""
+        self._source, self._output, self._mover, self._passed = source, output, mover, passed
         self._next = 1
 
     def pass_to(self, line: int) -> None:
@@ -187,7 +194,9 @@ class _Translator:
     def _pass(self, line: int, ends: bool) -> None:
         for k in range(self._next, line):
             self._comment(k)
-            _check_rest(self._source, k, ends, self._jumps)
+
+            if k not in self._passed:
+                _check_rest(self._source, k, ends)
         self._next = max(self._next, line)
 
     def _comment(self, line: int) -> None:
@@ -205,15 +214,25 @@ def _jumps(source: TranslationSource, steps: tuple[BlockStep, ...]) -> bool:
 
 
 def _is_jump(source: TranslationSource, line: int) -> bool:
-    code = _code(source.lines[line - 1])
+    text = code(source.lines[line - 1])
     rules = DIALECT_RULES[source.dialect]
-    return bool(code) and (
-        (rules.ngc_flow and _O_WORD.match(code) is not None) or (rules.fanuc_flow and is_macro(code))
+    return bool(text) and (
+        (rules.ngc_flow and _O_WORD.match(text) is not None) or (rules.fanuc_flow and is_macro(text))
     )
 
 
-def _remarks(jumps: bool, steps: tuple[BlockStep, ...]) -> list[str]:
-    """Return what the head has to say of how the program was written anew."""
+def _passed(source: TranslationSource, jumps: bool, never: tuple[Subprogram, ...]) -> Container[int]:
+    """Return the lines that need not be done: of a program that jumps any, else those of subprograms that nothing
+    calls.
+    """
+    return range(len(source.lines) + 1) if jumps else frozenset(line for each in never for line in each.lines)
+
+
+def _remarks(jumps: bool, steps: tuple[BlockStep, ...], others: tuple[tuple[Subprogram, ...], int]) -> list[str]:
+    """Return what the head has to say of how the program was written anew; `others`: the subprograms that nothing
+    calls, and how many tapped holes are left otherwise.
+    """
+    never, tapped = others
     computed = any(
         step.parsed.settings or any(not isinstance(word.value, float) for word in step.parsed.words) for step in steps
     )
@@ -228,20 +247,18 @@ def _remarks(jumps: bool, steps: tuple[BlockStep, ...]) -> list[str]:
             if compensated
             else []
         ),
+        *(["Out of tapped holes the tool goes at feed to R and at rapid rate from there"] if tapped else []),
+        *told(never),
     ]
 
 
 def _number(source: TranslationSource) -> int:
     """Return the program's number: the first program's own, else the post's."""
     for line in source.lines[:20]:
-        found = _NUMBER.match(_code(line))
+        found = NUMBER.match(code(line))
         if found and 0 < int(found[1]) < 10_000 and DIALECT_RULES[source.dialect].fanuc_flow:
             return int(found[1])
     return source.post.program.number
-
-
-def _code(line: str) -> str:
-    return code_of(line, nested=True) if "(" not in line or ")" in line else line.lower()
 
 
 def _comments(line: str) -> list[str]:
@@ -250,25 +267,22 @@ def _comments(line: str) -> list[str]:
     return [text for text in found if text and not _STALE.match(text)]
 
 
-def _check_rest(source: TranslationSource, line: int, ends: bool, jumps: bool) -> None:
-    """Refuse a line that was not done as a block, but where it is empty, the tape's mark, the program's number or
-    passed over by a jump.
+def _check_rest(source: TranslationSource, line: int, ends: bool) -> None:
+    """Refuse a line that was not done as a block, but where it is empty, the tape's mark or the program's number.
 
     Args:
         source: the program. line: 1-based.
         ends: whether the line stands behind the last one that was done.
-        jumps: whether the program does.
     """
-    code = _code(source.lines[line - 1])
+    text = code(source.lines[line - 1])
     title = source.post.title
     if (
-        not code
-        or code.startswith("%")
-        or (_NUMBER.match(code) and not ends and DIALECT_RULES[source.dialect].fanuc_flow)
+        not text
+        or text.startswith("%")
+        or (NUMBER.match(text) and not ends and DIALECT_RULES[source.dialect].fanuc_flow)
     ):
         return
-    if not jumps:
-        raise source.refusal(line, f"what stands behind the end is not read, so it cannot be written for {title}")
+    raise source.refusal(line, f"what stands behind the end is not read, so it cannot be written for {title}")
 
 
 def _stop(output: TranslatedText, step: BlockStep) -> None:
@@ -280,14 +294,15 @@ def _stop(output: TranslatedText, step: BlockStep) -> None:
 
 
 def _proven(
-    source: TranslationSource, programs: tuple[NcProgram, NcProgram], made: bytes, how: tuple[ReadOptions, Progress]
+    source: TranslationSource, programs: tuple[LeftAtR, NcProgram], made: bytes, how: tuple[ReadOptions, Progress]
 ) -> TranslatedProgram:
     """Return the new program if both controls do the same; `how` it is read by the other one, and the progress.
 
     Raises:
         InputError: they do not, or it cannot be read.
     """
-    before, after = programs
+    left, after = programs
+    before = left.program
     read, progress = how
     title = source.post.title
     if after.error is not None:
@@ -309,7 +324,7 @@ def _proven(
         )
     rows = np.full(len(after.motions), -1, np.int64)
     for run in found.runs:
-        rows[others[run.b : run.b + run.count]] = kept[run.a : run.a + run.count]
+        rows[others[run.b : run.b + run.count]] = left.rows[kept[run.a : run.a + run.count]]
     return TranslatedProgram(made, after, off, rows)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from itertools import islice
+from itertools import islice, pairwise
 
 import numpy as np
 
@@ -143,7 +143,7 @@ def waits_of(moves: WorkMoves, rules: CycleRules, holes: Mapping[int, CycleHole]
     inside = {k for first, hole in holes.items() for k in range(first, hole.stop)}
     lines = np.flatnonzero((moves.kind == MoveKind.LINE) & (moves.purpose == Purpose.DRILL)).tolist()
     found = {}
-    for k, following in zip(lines, [*lines[1:], len(moves)], strict=True):
+    for k, following in pairwise([*lines, len(moves)]):
         deeper = following < len(moves) and moves.lists.end[following][:2] == moves.lists.end[k][:2]
         wait = rules.wait(moves.lists.operation[k])
         if wait and k not in inside and not deeper and k + 1 < len(moves):

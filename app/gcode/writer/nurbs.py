@@ -29,6 +29,8 @@ WEIGHT_DIGITS = 9
 MOST_KNOTS = 99999
 _UNITS = tuple(2.0**-k for k in range(13))
 """Knots that are multiples of one of them are written as they are."""
+_CRUMB = 12.0
+"""Steps of the last decimal: the direction of a piece as short as that is nothing but rounding."""
 _UNEVEN = 0.4
 """Where a piece is cut whose turn is none at one of LinuxCNC's steps: not in the middle, where the turn may be none
 again.
@@ -70,7 +72,13 @@ def nurbs_blocks(curve: Nurbs, post: Post, units: Units) -> tuple[str, ...] | No
 def _pieces(curve: Nurbs, post: Post, units: Units) -> list[str]:
     """Return cubic pieces of four control points; the first is where the tool stands, with its weight alone."""
     blocks: list[str] = []
-    for piece in [part for whole in _cubics(_bezier(curve)) for part in _that_turn(whole, post, units)]:
+    pieces = [part for whole in _cubics(_bezier(curve)) for part in _that_turn(whole, post, units)]
+    at = _places(pieces[0], post, units)[0]
+    for number, piece in enumerate(pieces, 1):
+        end = _places(piece, post, units)[-1]
+        if abs(end - at) <= _CRUMB * _step(post, units) and number < len(pieces):
+            continue  # the next piece begins where the tool stands, a little farther back along the curve
+        at = end
         weights = piece[:, 3] / piece[:, 3].max()
         spelled = _spelled(piece[:, :3] / piece[:, 3:], post, units)
         if not np.any(np.diff(_places(piece, post, units))):

@@ -125,23 +125,8 @@ def write_files(program: Program, job: Job, post: Post, progress: Progress = NO_
     """Return the program as the files that the control needs: one, or one a tool where it changes no tools.
 
     Files come in the order of cutting, a new one at every change of tool. Each is complete by itself, begins and ends
-    at safe Z, and has the same work origin; together they hold every move once.
-
-    Args and errors: as `write_program`.
-    """
-    _check(program, job, post)
-    count = len(program.moves)
-    spans = list(_by_file(program.moves, post))
-    files: list[NcFile] = []
-    for number, first, stop, suffix in spans:
-        share = progress.part(first / count, stop / count)
-        nc = _written(replace(program, moves=program.moves.part(first, stop)), job, post, (number, len(spans)), share)
-        files.append(NcFile(suffix, nc, first))
-    return tuple(files)
-
-
-def write_program(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> NcText:
-    """Return the program as NC text; the same program, job and post always give the same bytes.
+    at safe Z, and has the same work origin; together they hold every move once. The same program, job and post always
+    give the same bytes.
 
     Positions are rounded once, to the nearest last decimal; the written path stays within `writing_tolerance` of the
     moves. Before each tool the spindle stops at safe Z; each begins at safe Z before it moves in X or Y.
@@ -154,16 +139,18 @@ def write_program(program: Program, job: Job, post: Post, progress: Progress = N
 
     Raises:
         ParameterError: the moves are none that a machine should make, a tool is not in the job, out units are neither
-            mm nor inch, the control cannot promise an exact path, it changes no tools and the program needs several, or
-            there is no region to place the stock round.
+            mm nor inch, the control cannot promise an exact path, or there is no region to place the stock round.
         Cancelled: the job was asked to stop.
     """
-    files = write_files(program, job, post, progress)
-    if len(files) > 1:
-        raise ParameterError(
-            f"{post.title} changes no tools, so this program is {len(files)} files, not one; export it to a folder."
-        )
-    return files[0].nc
+    _check(program, job, post)
+    count = len(program.moves)
+    spans = list(_by_file(program.moves, post))
+    files: list[NcFile] = []
+    for number, first, stop, suffix in spans:
+        share = progress.part(first / count, stop / count)
+        nc = _written(replace(program, moves=program.moves.part(first, stop)), job, post, (number, len(spans)), share)
+        files.append(NcFile(suffix, nc, first))
+    return tuple(files)
 
 
 def _check(program: Program, job: Job, post: Post) -> None:

@@ -20,15 +20,6 @@ _MOST_HALVINGS = 60
 """Enough for weights that differ by a factor of 1e9 and more."""
 
 
-def nurbs_points(curve: Nurbs, parameters: Floats) -> Floats:
-    """Return points (n, 3), mm, for parameters (n,) between the first and the last knot."""
-    from scipy.interpolate import BSpline
-
-    homogeneous = BSpline(curve.knots, _homogeneous(curve), curve.degree)(parameters)
-    points: Floats = homogeneous[:, :3] / homogeneous[:, 3:]
-    return points
-
-
 def flattened(curve: Nurbs, tolerance: float) -> Floats:
     """Return points on a curve; see `flattened_all`."""
     return flattened_all([curve], tolerance)[0]

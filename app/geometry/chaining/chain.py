@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ...core import tolerances
 from ...model.finding import Finding
@@ -15,7 +16,7 @@ from .near_duplicates import reach_of
 from .open_contours import open_findings
 from .overlap import Overlap, covered, repeated, shared_stretches, twin_contours
 from .pieces import ChainPiece, pieces_from
-from .trace import Step, paths
+from .trace import PiecePath, paths
 from .trim import trimmed
 
 
@@ -49,15 +50,16 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
         Overlaps that are longer than the tolerance are left as they are and reported, but for arcs of one circle whose
         loose ends lie on one another: these are cut to meet.
     """
-    pieces, findings = pieces_from(entities)
-    nodes = nodes_of(pieces, join_tolerance)
-    pieces, nodes, overlaps = _thinned(pieces, nodes, join_tolerance)
-    pieces, nodes, gaps = join_ends(pieces, nodes)
+    drawn = pieces_from(entities)
+    nodes = nodes_of(drawn.pieces, join_tolerance)
+    thinned = _thinned(drawn.pieces, nodes, join_tolerance)
+    pieces, nodes, gaps = join_ends(thinned.pieces, thinned.nodes)
     found, branches = paths(pieces, nodes)
-    contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found], join_tolerance)
+    contours, doubles = _once([_contour(pieces, path) for path in found], join_tolerance)
     odd = [branch.place for branch in branches if branch.odd]
-    findings += [
-        *overlap_findings(overlaps, contours, join_tolerance),
+    findings = [
+        *drawn.findings,
+        *overlap_findings(thinned.overlaps, contours, join_tolerance),
         *repeat_findings(doubles),
         *gap_findings(gaps),
         *junction_findings(branches),
@@ -67,10 +69,30 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
     return ChainingResult(tuple(contours), tuple(findings))
 
 
-def _thinned(
-    pieces: list[ChainPiece], nodes: Nodes, join_tolerance: float
-) -> tuple[list[ChainPiece], Nodes, list[SharedPiece]]:
-    """Return what is left without curves that only repeat others, and all overlaps that were found on the way."""
+class _PiecesWithNodes(NamedTuple):
+    """Pieces, and (n, 2) the points where they begin and end."""
+
+    pieces: list[ChainPiece]
+    nodes: Nodes
+
+
+class _ThinnedPieces(NamedTuple):
+    """Pieces without those that only repeat others, their nodes, and all overlaps that were found on the way."""
+
+    pieces: list[ChainPiece]
+    nodes: Nodes
+    overlaps: list[SharedPiece]
+
+
+class _SingleContours(NamedTuple):
+    """Contours, and pairs of one that was kept and one that repeated it."""
+
+    contours: list[Contour]
+    doubles: list[tuple[Contour, Contour]]
+
+
+def _thinned(pieces: list[ChainPiece], nodes: Nodes, join_tolerance: float) -> _ThinnedPieces:
+    """Return what is left without curves that only repeat others."""
     reach = min(tolerances.CURVE, max(join_tolerance, tolerances.WELD))
     repeats = repeated(pieces, nodes, reach_of(join_tolerance))
     shared = [SharedPiece(pieces[o.first], pieces[o.second], o) for o in repeats]
@@ -82,27 +104,28 @@ def _thinned(
     drawn = pieces
     pieces, nodes, overlaps = trimmed(pieces, nodes, overlaps)
     shared += [SharedPiece(drawn[o.first], drawn[o.second], o) for o in overlaps]
-    return *_without(pieces, nodes, overlaps), shared
+    return _ThinnedPieces(*_without(pieces, nodes, overlaps), shared)
 
 
-def _without(pieces: list[ChainPiece], nodes: Nodes, overlaps: Sequence[Overlap]) -> tuple[list[ChainPiece], Nodes]:
+def _without(pieces: list[ChainPiece], nodes: Nodes, overlaps: Sequence[Overlap]) -> _PiecesWithNodes:
     gone = {overlap.second for overlap in overlaps if overlap.removed}
     kept = [k for k in range(len(pieces)) if k not in gone]
-    return [pieces[k] for k in kept], nodes[kept] if len(nodes) else nodes
+    return _PiecesWithNodes([pieces[k] for k in kept], nodes[kept] if len(nodes) else nodes)
 
 
-def _contour(pieces: Sequence[ChainPiece], steps: Sequence[Step], closed: bool) -> Contour:
-    members = [pieces[k] if forward else pieces[k].reversed() for k, forward in steps]
+def _contour(pieces: Sequence[ChainPiece], path: PiecePath) -> Contour:
+    members = [pieces[k] if forward else pieces[k].reversed() for k, forward in path.steps]
     return Contour(
         tuple(p for piece in members for p in piece.primitives),
-        closed,
-        pieces[min(steps)[0]].layer,
+        path.closed,
+        pieces[min(path.steps).piece].layer,
         tuple(piece.entity for piece in members),
         max(piece.deviation for piece in members),
     )
 
 
-def _once(contours: list[Contour], join_tolerance: float) -> tuple[list[Contour], list[tuple[Contour, Contour]]]:
-    """Return the contours without closed ones that repeat another, and the (kept, removed) pairs."""
+def _once(contours: list[Contour], join_tolerance: float) -> _SingleContours:
+    """Return the contours without closed ones that repeat another."""
     twins = twin_contours(contours, max(reach_of(join_tolerance), tolerances.CURVE))
-    return [c for k, c in enumerate(contours) if k not in twins], [(contours[j], contours[k]) for k, j in twins.items()]
+    kept = [c for k, c in enumerate(contours) if k not in twins]
+    return _SingleContours(kept, [(contours[j], contours[k]) for k, j in twins.items()])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,26 +103,34 @@ def _table(contours: Sequence[Contour]) -> _Table:
     return _Table(np.concatenate(rows), number, before, after)
 
 
-def contacts(rows: Rows, i: Indices, j: Indices) -> tuple[Floats, Indices, Indices]:
-    """Return the points (m, 2) where rows i and j meet, with their rows; a pair may meet twice.
+class Contacts(NamedTuple):
+    """Points (m, 2) where rows meet, and the numbers of both rows."""
+
+    points: Floats
+    first: Indices
+    second: Indices
+
+
+def contacts(rows: Rows, i: Indices, j: Indices) -> Contacts:
+    """Return where rows i and j meet; a pair may meet twice.
 
     A point counts where it lies within WELD of both rows, ends included. Curves that miss one another by less touch at
     one point. Rows that run along one another, and so meet nowhere in particular, have none: their ends say it.
     """
     line_i, line_j = rows[i, TURN] == 0, rows[j, TURN] == 0
-    found: list[tuple[Floats, Indices, Indices]] = []
+    found: list[Contacts] = []
     both = line_i & line_j
-    found.append((_lines_meet(rows[i[both]], rows[j[both]]), i[both], j[both]))
+    found.append(Contacts(_lines_meet(rows[i[both]], rows[j[both]]), i[both], j[both]))
     for mask, a, b in ((line_i & ~line_j, i, j), (line_j & ~line_i, j, i)):
-        found += [(points, a[mask], b[mask]) for points in _line_meets_arc(rows[a[mask]], rows[b[mask]])]
+        found += [Contacts(points, a[mask], b[mask]) for points in _line_meets_arc(rows[a[mask]], rows[b[mask]])]
     arcs = ~line_i & ~line_j
-    found += [(points, i[arcs], j[arcs]) for points in _arcs_meet(rows[i[arcs]], rows[j[arcs]])]
-    points = np.concatenate([p for p, _, _ in found])
-    a, b = np.concatenate([a for _, a, _ in found]), np.concatenate([b for _, _, b in found])
+    found += [Contacts(points, i[arcs], j[arcs]) for points in _arcs_meet(rows[i[arcs]], rows[j[arcs]])]
+    points = np.concatenate([each.points for each in found])
+    a, b = np.concatenate([each.first for each in found]), np.concatenate([each.second for each in found])
     good = np.isfinite(points).all(axis=1)
     points, a, b = points[good], a[good], b[good]
     good = (distances(rows[a], points) <= tolerances.WELD) & (distances(rows[b], points) <= tolerances.WELD)
-    return points[good], a[good], b[good]
+    return Contacts(points[good], a[good], b[good])
 
 
 def _lines_meet(a: Rows, b: Rows) -> Floats:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ...core import tolerances
 from ...model.curves import Circle, Line, Point, Primitive
@@ -141,7 +142,14 @@ def repeat_findings(doubles: Sequence[tuple[Contour, Contour]]) -> list[Finding]
     return limited(found, "contours that are drawn twice")
 
 
-def gap_findings(gaps: Sequence[tuple[float, Point]]) -> list[Finding]:
+class ClosedGap(NamedTuple):
+    """A gap that was closed: its width, mm, and where."""
+
+    width: float
+    place: Point
+
+
+def gap_findings(gaps: Sequence[ClosedGap]) -> list[Finding]:
     """Return one remark on all gaps that were closed."""
     if not gaps:
         return []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ...model.curves import Arc, Line, Point
 from ..near_points import all_within, groups, pairs_within
+from .findings import ClosedGap
 from .near_duplicates import merge_near_duplicates, reach_of
 from .overlap import repeated
 from .pieces import ChainPiece, length_of, with_ends
@@ -33,7 +35,12 @@ def nodes_of(pieces: Sequence[ChainPiece], join_tolerance: float) -> Nodes:
     if join_tolerance > tolerances.WELD and len(pieces):
         single = np.ones(len(pieces), dtype=bool)
         single[[overlap.second for overlap in repeated(pieces, nodes.reshape(-1, 2), reach)]] = False
-        _join_loose(pieces, ends, np.where(np.repeat(single, 2), nodes, -1), (nodes, join_tolerance + tolerances.WELD))
+        _join_loose(
+            pieces,
+            ends,
+            _JoinedEnds(np.where(np.repeat(single, 2), nodes, -1), nodes),
+            join_tolerance + tolerances.WELD,
+        )
     return nodes.reshape(-1, 2)
 
 
@@ -44,17 +51,16 @@ def _welded(ends: NDArray[np.float64]) -> Nodes:
     return groups(len(points), pairs_within(points, tolerances.WELD))[nodes.ravel()]
 
 
-def _join_loose(
-    pieces: Sequence[ChainPiece], ends: NDArray[np.float64], single: Nodes, joined: tuple[Nodes, float]
-) -> None:
-    """Give points that belong together the same number, in place.
+class _JoinedEnds(NamedTuple):
+    """Numbers of the points of ends: -1 for circles and for curves that repeat another; and of all, which change."""
 
-    Args:
-        pieces, ends: what is joined.
-        single: number of each end's point, -1 for circles and for curves that repeat another.
-        joined: the numbers of all ends, which change, and the distance within which to join, mm.
-    """
-    nodes, reach = joined
+    single: Nodes
+    every: Nodes
+
+
+def _join_loose(pieces: Sequence[ChainPiece], ends: NDArray[np.float64], joined: _JoinedEnds, reach: float) -> None:
+    """Give points that belong together within `reach` mm the same number, in place."""
+    single, nodes = joined
     loose = _loose(single)
     if len(loose) == 0:
         return
@@ -100,34 +106,49 @@ def _may_meet(pieces: Sequence[ChainPiece], a: int, b: int, gap: float) -> bool:
     )
 
 
-def join_ends(pieces: Sequence[ChainPiece], nodes: Nodes) -> tuple[list[ChainPiece], Nodes, list[tuple[float, Point]]]:
-    """Return the pieces with ends that meet exactly, their nodes, and (size, place) of every gap wider than 1 um.
+class JoinedPieces(NamedTuple):
+    """Pieces with ends that meet exactly, their nodes, and every gap wider than 1 um that was closed."""
+
+    pieces: list[ChainPiece]
+    nodes: Nodes
+    gaps: list[ClosedGap]
+
+
+class _PieceEnd(NamedTuple):
+    """Where a piece ends, and whether with an arc."""
+
+    place: Point
+    is_arc: bool
+
+
+def join_ends(pieces: Sequence[ChainPiece], nodes: Nodes) -> JoinedPieces:
+    """Return the pieces with ends that meet exactly.
 
     Pieces that shrink to nothing are left out. Lines give way to arcs: the point where ends meet is the mean of the
     arcs' ends there, or of all ends when there are only lines.
     """
-    ends: dict[int, list[tuple[Point, bool]]] = {}
+    ends: dict[int, list[_PieceEnd]] = {}
     for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True):
         if a >= 0:
-            ends.setdefault(a, []).append((piece.start, isinstance(piece.primitives[0], Arc)))
-            ends.setdefault(b, []).append((piece.end, isinstance(piece.primitives[-1], Arc)))
+            ends.setdefault(a, []).append(_PieceEnd(piece.start, isinstance(piece.primitives[0], Arc)))
+            ends.setdefault(b, []).append(_PieceEnd(piece.end, isinstance(piece.primitives[-1], Arc)))
     target: dict[int, Point] = {}
-    gaps: list[tuple[float, Point]] = []
+    gaps: list[ClosedGap] = []
     for node, members in ends.items():
         points = {point for point, _ in members}
         if len(points) == 1:
-            target[node] = members[0][0]
+            target[node] = members[0].place
             continue
         target[node] = _mean([point for point, is_arc in members if is_arc] or [point for point, _ in members])
         gap = max(math.dist(p, q) for p in points for q in points)
         if gap > tolerances.CURVE:
-            gaps.append((gap, target[node]))
+            gaps.append(ClosedGap(gap, target[node]))
     moved = [
         piece if a < 0 else with_ends(piece, target[a], target[b])
         for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True)
     ]
     kept = [k for k, piece in enumerate(moved) if piece.primitives]
-    return [moved[k] for k in kept], nodes[kept] if len(nodes) else nodes, gaps
+    return JoinedPieces([moved[k] for k in kept], nodes[kept] if len(nodes) else nodes, gaps)
 
 
 def _mean(points: list[Point]) -> Point:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -76,8 +77,22 @@ def length_of(primitive: Primitive) -> float:
     return abs(primitive.sweep) * primitive.radius
 
 
-def pieces_from(entities: Sequence[Entity]) -> tuple[list[ChainPiece], list[Finding]]:
-    """Return a piece for every entity that has a length, and findings on those that have none."""
+class PiecesOfEntities(NamedTuple):
+    """A piece for every entity that has a length, and findings on those that have none."""
+
+    pieces: list[ChainPiece]
+    findings: list[Finding]
+
+
+class _PrimitivesNear(NamedTuple):
+    """Primitives, and how far they are from what they stand for, mm."""
+
+    primitives: Sequence[Primitive]
+    deviation: float
+
+
+def pieces_from(entities: Sequence[Entity]) -> PiecesOfEntities:
+    """Return the pieces of entities."""
     pieces: list[ChainPiece] = []
     findings: list[Finding] = []
     for entity in entities:
@@ -89,7 +104,7 @@ def pieces_from(entities: Sequence[Entity]) -> tuple[list[ChainPiece], list[Find
             )
             continue
         if primitives:
-            pieces.append(ChainPiece(primitives, entity.id, entity.layer, deviation))
+            pieces.append(ChainPiece(tuple(primitives), entity.id, entity.layer, deviation))
         else:
             x, y = entity.curve.start
             findings.append(
@@ -103,15 +118,16 @@ def pieces_from(entities: Sequence[Entity]) -> tuple[list[ChainPiece], list[Find
                     0.0,
                 )
             )
-    return pieces, findings
+    return PiecesOfEntities(pieces, findings)
 
 
 def within_reach(curve: Curve) -> bool:
     """Return whether all coordinates are numbers and none on the curve is beyond FARTHEST."""
+    if isinstance(curve, Line):  # of which there may be very many
+        (x0, y0), (x1, y1) = curve.start, curve.end
+        return abs(x0) <= FARTHEST and abs(y0) <= FARTHEST and abs(x1) <= FARTHEST and abs(y1) <= FARTHEST
     if isinstance(curve, Spline):
         return bool(np.all(np.abs(np.array(curve.control_points)) <= FARTHEST))
-    if isinstance(curve, Line):
-        return all(abs(v) <= FARTHEST for v in (*curve.start, *curve.end))
     if isinstance(curve, Arc):
         return _arc_within_reach(curve)
     size = curve.radius if isinstance(curve, Circle) else math.hypot(*curve.major)
@@ -134,7 +150,7 @@ def straightened(curve: Curve) -> Curve:
     return Line(curve.start, curve.end) if abs(curve.sweep) < 1.0 and rise < _FLAT else curve
 
 
-def _primitives(entity: Entity) -> tuple[tuple[Primitive, ...], float]:
+def _primitives(entity: Entity) -> _PrimitivesNear:
     curve = straightened(entity.curve)
     if isinstance(curve, Arc) and curve.start == curve.end and not curve.ccw:  # its sweep is a full turn
         curve = Circle(curve.centre, curve.radius, curve.ccw)
@@ -142,10 +158,10 @@ def _primitives(entity: Entity) -> tuple[tuple[Primitive, ...], float]:
         raise GeometryError("it has a coordinate that is not a number or beyond 1 km; delete it or draw it again.")
     if isinstance(curve, Ellipse | Spline):
         made = lines_and_arcs(curve)
-        return made.primitives, made.deviation
+        return _PrimitivesNear(made.primitives, made.deviation)
     if length_of(curve) < tolerances.WELD:
-        return (), 0.0
-    return (curve,), _FLAT if isinstance(curve, Line) and curve is not entity.curve else 0.0
+        return _PrimitivesNear((), 0.0)
+    return _PrimitivesNear((curve,), _FLAT if isinstance(curve, Line) and curve is not entity.curve else 0.0)
 
 
 def with_ends(piece: ChainPiece, start: Point, end: Point) -> ChainPiece:
@@ -177,27 +193,27 @@ def _closed_on_itself(piece: ChainPiece) -> ChainPiece:
     return replace(piece, primitives=(Circle(arc.centre, arc.radius, arc.ccw),), deviation=piece.deviation + gap)
 
 
-def _moved(primitive: Primitive, start: Point, end: Point) -> tuple[list[Primitive], float]:
-    """Return primitives from start to end in place of one, and how far they leave it, mm."""
+def _moved(primitive: Primitive, start: Point, end: Point) -> _PrimitivesNear:
+    """Return primitives from start to end in place of one."""
     gaps = math.dist(primitive.start, start), math.dist(primitive.end, end)
     gap = max(gaps)
     if gap == 0.0:
-        return [primitive], 0.0
+        return _PrimitivesNear([primitive], 0.0)
     if isinstance(primitive, Line):
-        return ([Line(start, end)] if start != end else []), gap
+        return _PrimitivesNear([Line(start, end)] if start != end else [], gap)
     if isinstance(primitive, Arc) and start != end:
         arc, off = min(
             ((made, off_circle(made, primitive)) for made in _refitted(primitive, start, end)),
             key=lambda choice: choice[1],
         )
         if off <= max(_AMPLIFIED * gap, _ROUNDING):
-            return [arc], max(off, gap)
+            return _PrimitivesNear([arc], max(off, gap))
     bridges: list[Primitive] = [primitive]
     if gaps[0] > 0:
         bridges.insert(0, Line(start, primitive.start))
     if gaps[1] > 0:
         bridges.append(Line(primitive.end, end))
-    return bridges, gap
+    return _PrimitivesNear(bridges, gap)
 
 
 def _refitted(arc: Arc, start: Point, end: Point) -> list[Arc]:

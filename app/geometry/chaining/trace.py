@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +14,27 @@ from ...model.curves import Circle, Line, Point, Primitive
 from .pieces import ChainPiece
 
 Nodes = NDArray[np.int64]
-Step = tuple[int, bool]
-"""A piece and whether it is travelled forward."""
+
+
+class Step(NamedTuple):
+    """A piece by its number, and whether it is travelled forward."""
+
+    piece: int
+    forward: bool
+
+
+class PiecePath(NamedTuple):
+    """Pieces one after the other, and whether they close."""
+
+    steps: list[Step]
+    closed: bool
+
+
+class TracedPaths(NamedTuple):
+    """Every path, by its first piece, and every point where more than two ends meet."""
+
+    paths: list[PiecePath]
+    branches: list[Junction]
 
 
 @dataclass(frozen=True)
@@ -35,8 +55,8 @@ class Junction:
         return len(self.entity_ids) % 2 == 1
 
 
-def paths(pieces: Sequence[ChainPiece], nodes: Nodes) -> tuple[list[tuple[list[Step], bool]], list[Junction]]:
-    """Return ((steps, closed) for every chain, by its first piece) and every branch.
+def paths(pieces: Sequence[ChainPiece], nodes: Nodes) -> TracedPaths:
+    """Return how the pieces go on in one another.
 
     End 2 k is the start of piece k and end 2 k + 1 its end.
     """
@@ -51,9 +71,9 @@ def paths(pieces: Sequence[ChainPiece], nodes: Nodes) -> tuple[list[tuple[list[S
         couples = [(ends[0], ends[1])] if len(ends) == 2 else _couples(ends, pieces, spurs)
         for a, b in couples:
             partner[a], partner[b] = b, a
-    found = [([(k, True)], True) for k, piece in enumerate(pieces) if piece.is_circle]
+    found = [PiecePath([Step(k, True)], True) for k, piece in enumerate(pieces) if piece.is_circle]
     found += _walks(len(pieces), partner, {k for k, piece in enumerate(pieces) if piece.is_circle})
-    return sorted(found, key=lambda path: min(path[0])), [_branch(pieces, ends) for ends in crowded]
+    return TracedPaths(sorted(found, key=lambda path: min(path.steps)), [_branch(pieces, ends) for ends in crowded])
 
 
 def _branch(pieces: Sequence[ChainPiece], ends: Sequence[int]) -> Junction:
@@ -61,7 +81,7 @@ def _branch(pieces: Sequence[ChainPiece], ends: Sequence[int]) -> Junction:
     return Junction(first.start if ends[0] % 2 == 0 else first.end, tuple(pieces[end // 2].entity for end in ends))
 
 
-def _walks(count: int, partner: dict[int, int], done: set[int]) -> list[tuple[list[Step], bool]]:
+def _walks(count: int, partner: dict[int, int], done: set[int]) -> list[PiecePath]:
     """Follow partners: first from ends that have none, then round the loops that are left."""
     found = []
     seen = set(done)
@@ -73,18 +93,28 @@ def _walks(count: int, partner: dict[int, int], done: set[int]) -> list[tuple[li
         end = first
         while end // 2 not in seen:
             seen.add(end // 2)
-            steps.append((end // 2, end % 2 == 0))
+            steps.append(Step(end // 2, end % 2 == 0))
             if (end ^ 1) not in partner:
                 break
             end = partner[end ^ 1]
         closed = first in partner
-        found.append((steps if closed else _forward(steps), closed))
+        found.append(PiecePath(steps if closed else _forward(steps), closed))
     return found
 
 
 def _forward(steps: list[Step]) -> list[Step]:
     """Return an open path in the direction of the piece that was drawn first."""
-    return steps if min(steps)[1] else [(k, not forward) for k, forward in reversed(steps)]
+    return steps if min(steps).forward else [Step(k, not forward) for k, forward in reversed(steps)]
+
+
+class _CoupleCost(NamedTuple):
+    """What speaks against two ends going on in one another, the weightiest first; and the ends."""
+
+    spurs: int
+    apart: int
+    turn: float
+    a: int
+    b: int
 
 
 def _couples(ends: list[int], pieces: Sequence[ChainPiece], spurs: set[int]) -> list[tuple[int, int]]:
@@ -95,11 +125,11 @@ def _couples(ends: list[int], pieces: Sequence[ChainPiece], spurs: set[int]) -> 
     """
     directions = {end: _away(pieces[end // 2], end % 2 == 0) for end in ends}
 
-    def cost(a: int, b: int) -> tuple[int, int, float, int, int]:
+    def cost(a: int, b: int) -> _CoupleCost:
         (ax, ay), (bx, by) = directions[a], directions[b]
         turn = math.pi - abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by))
         apart = int(len(ends) % 2 == 1 or a % 2 == 0 or b != a + 1)
-        return (a // 2 in spurs) + (b // 2 in spurs), apart, round(turn, 9), a, b
+        return _CoupleCost((a // 2 in spurs) + (b // 2 in spurs), apart, round(turn, 9), a, b)
 
     couples = []
     free = set(ends)

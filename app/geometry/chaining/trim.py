@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +18,15 @@ from .pieces import ChainPiece, equally_far, off_circle
 Nodes = NDArray[np.int64]
 
 
-def trimmed(
-    pieces: Sequence[ChainPiece], nodes: Nodes, overlaps: Sequence[Overlap]
-) -> tuple[list[ChainPiece], Nodes, list[Overlap]]:
+class TrimmedPieces(NamedTuple):
+    """Pieces, their nodes, and the overlaps between them."""
+
+    pieces: list[ChainPiece]
+    nodes: Nodes
+    overlaps: list[Overlap]
+
+
+def trimmed(pieces: Sequence[ChainPiece], nodes: Nodes, overlaps: Sequence[Overlap]) -> TrimmedPieces:
     """Return pieces and nodes with arcs that overlap at loose ends cut to meet there, and the overlaps with that noted.
 
     The shape stays as it was drawn, so that no tolerance is asked: each of both ends lies on the other arc, within
@@ -34,7 +41,7 @@ def trimmed(
             for pair in ((overlap.first, overlap.second), (overlap.second, overlap.first)):
                 done |= _cut(made, joined, pair, kept)
         noted.append(replace(overlap, trimmed=done))
-    return made, joined, noted
+    return TrimmedPieces(made, joined, noted)
 
 
 def _cut(pieces: list[ChainPiece], nodes: Nodes, pair: tuple[int, int], kept: NDArray[np.bool_]) -> bool:

@@ -17,6 +17,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -125,6 +126,14 @@ def offset_levels(
     return *result, *(OffsetLevel(distance, ()) for distance in levels[len(result) :])
 
 
+class RowTree(NamedTuple):
+    """A tree of boxes over runs of rows, as the kernels read it: the order of the rows, boxes of runs, and of nodes."""
+
+    order: Indices
+    runs: Rows
+    nodes: Rows
+
+
 class _Engine:
     """Keeps what is still free of each element from one level to the next."""
 
@@ -136,7 +145,7 @@ class _Engine:
         self._primitives = primitives
         self._rows = rows
         self._field = DistanceField.of(rows)
-        self._tree: tuple[Indices, Rows, Rows] = offset_tree_kernels.build_runs(rows, self._field.boxes)
+        self._tree = RowTree(*offset_tree_kernels.build_runs(rows, self._field.boxes))
         self._slack = 2e-13 * max(float(np.abs(rows[:, :4]).max()), 100.0)
         self._angles = np.empty((2 * len(rows), 2))
         offset_kernels.element_angles(rows, primitives.previous, self._angles)
@@ -145,7 +154,7 @@ class _Engine:
         self._active[:, 0], self._active[:, 2] = elements, 1.0
         self._levels = [0.0]
         self._live = np.zeros(len(rows))
-        self._blockers: tuple[Indices, Rows, Rows] = self._tree
+        self._blockers = self._tree
 
     @property
     def exhausted(self) -> bool:
@@ -181,25 +190,22 @@ class _Engine:
         else:
             pieces, rings = self._trim(distance, progress), self._polylines(distance)
         self._active = pieces
-        if len(self._blockers[0]) > _FEW:
+        if len(self._blockers.order) > _FEW:
             self._levels.append(distance)
             self._live[pieces[:, 0].astype(np.int64) % len(self._rows)] = distance
         return tuple(ring for ring in rings if keep_ridges or not _on_a_ridge(ring))
 
-    def _still_blocking(self, distance: float) -> tuple[Indices, Rows, Rows]:
+    def _still_blocking(self, distance: float) -> RowTree:
         """Return a tree of the rows that can be nearest to any point of this level.
 
         A point left of a level `last` by distance - last at most is nearer to no row than 2 last - distance, and the
         row that is nearest was then still live at every level up to that.
         """
-        if len(self._blockers[0]) <= _FEW:
+        if len(self._blockers.order) <= _FEW:
             return self._blockers
         safe = max(2 * self._levels[-1] - distance - 1e-6, 0.0)
         known = self._levels[bisect.bisect_right(self._levels, safe) - 1]
-        left: tuple[Indices, Rows, Rows] = offset_trim_kernels.blockers(
-            self._rows, self._field.boxes, *self._blockers, self._live, known
-        )
-        return left
+        return RowTree(*offset_trim_kernels.blockers(self._rows, self._field.boxes, *self._blockers, self._live, known))
 
     def _trim(self, distance: float, progress: Progress) -> Rows:
         """Return the pieces (m, 3) of elements to which nothing is nearer than the distance; many are cut on two

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,7 +60,7 @@ def without_crossings(contours: Sequence[Contour]) -> OverlayResult:
     """
     pieces = pieces_of(*_together([contour_rows(contour) for contour in contours]))
     meet = _meeting(pieces, len(contours))
-    made = [(k, contours[k]) for k in np.flatnonzero(~meet).tolist()]
+    made = [_MadeOf(k, contours[k]) for k in np.flatnonzero(~meet).tolist()]
     pieces = settled(_part(pieces, meet[pieces.contour]))
     if not len(pieces.rows):  # what meets is smaller than what is merged
         return OverlayResult(_in_order(made))
@@ -71,7 +72,7 @@ def without_crossings(contours: Sequence[Contour]) -> OverlayResult:
     for numbers, loops in zip(net.members, net.loops(odd, counts), strict=True):
         members = [contours[k] for k in numbers]
         parts = net.contours(loops, members)
-        made += [(numbers[0], part) for part in parts]
+        made += [_MadeOf(numbers[0], part) for part in parts]
         findings += differing(even_odd(members), even_odd(parts).area, members)
     return OverlayResult(_in_order(made), tuple(findings))
 
@@ -100,14 +101,14 @@ def without_outlines(contours: Sequence[Contour], outlines: Sequence[Contour]) -
     odd = np.bincount(around, holder < count, len(net.members)) % 2 == 1
     held = np.bincount(around, holder >= count, len(net.members)).astype(np.int64)
     loops = net.loops(steps.odd, counted(net.faces, steps, odd, held))
-    made: list[tuple[int, Contour]] = []
+    made: list[_MadeOf] = []
     for number, members in enumerate(net.members):
         mine = [every[k] for k in members if k < count]
         if len(mine) == len(members) and held[number] == 0:
-            made += zip(members, mine, strict=True)
+            made += map(_MadeOf, members, mine)
         else:
             named = mine or [replace(every[members[0]], layer=contours[0].layer)]
-            made += [(members[0], part) for part in net.contours(loops[number], named)]
+            made += [_MadeOf(members[0], part) for part in net.contours(loops[number], named)]
     parts = _in_order(made)
     return OverlayResult(parts, tuple(differing(even_odd(contours, outlines), even_odd(parts).area, contours)))
 
@@ -137,9 +138,16 @@ def differing(drawn: EvenOddMeasure, made: float, contours: Sequence[Contour], s
     return [Finding(FindingKind.AREA, text, x, y, entity_ids=ids, amount=abs(missing))]
 
 
-def _in_order(made: Sequence[tuple[int, Contour]]) -> tuple[Contour, ...]:
+class _MadeOf(NamedTuple):
+    """A contour, and the number of the one that it was made of."""
+
+    number: int
+    contour: Contour
+
+
+def _in_order(made: Sequence[_MadeOf]) -> tuple[Contour, ...]:
     """Return contours in the order of what they were made of."""
-    return tuple(contour for _, contour in sorted(made, key=lambda pair: pair[0]))
+    return tuple(contour for _, contour in sorted(made, key=lambda each: each.number))
 
 
 def _steps(net: PlanarGraph, count: int) -> CountSteps:
@@ -150,9 +158,17 @@ def _steps(net: PlanarGraph, count: int) -> CountSteps:
     return CountSteps(odd, np.bincount(net.edges.of, ahead, len(net.edges.rows)).astype(np.int64))
 
 
-def _together(rows: Sequence[Rows]) -> tuple[Rows, Indices]:
-    """Return all rows and the number of the contour of each."""
-    return np.concatenate([np.zeros((0, 8)), *rows]), np.repeat(np.arange(len(rows)), [len(each) for each in rows])
+class _NumberedRows(NamedTuple):
+    """Rows (n, 8), and the number of the contour of each."""
+
+    rows: Rows
+    contour: Indices
+
+
+def _together(rows: Sequence[Rows]) -> _NumberedRows:
+    """Return the rows of all contours, one after the other."""
+    number = np.repeat(np.arange(len(rows)), [len(each) for each in rows])
+    return _NumberedRows(np.concatenate([np.zeros((0, 8)), *rows]), number)
 
 
 def _part(pieces: RowPieces, chosen: Flags) -> RowPieces:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,14 +94,22 @@ def _areas(edges: PlanarEdges, left: Indices, net: Indices) -> NDArray[np.float6
     return areas.astype(np.float64)
 
 
+class _WayAcross(NamedTuple):
+    """A way across an edge: to which face, whether the contours' count flips, and by how much the outlines' rises."""
+
+    face: int
+    flips: bool
+    more: int
+
+
 def counted(faces: Faces, steps: CountSteps, odd: Flags, held: Indices) -> FaceCounts:
     """Return the counts of all faces from those of the outer ones, odd (c,) and held (c,)."""
     total = len(faces.net_of)
     right, left = faces.left[1::2], faces.left[::2]
-    ways: list[list[tuple[int, bool, int]]] = [[] for _ in range(total)]
+    ways: list[list[_WayAcross]] = [[] for _ in range(total)]
     for a, b, flips, more in zip(right.tolist(), left.tolist(), steps.odd.tolist(), steps.held.tolist(), strict=True):
-        ways[a].append((b, flips, more))
-        ways[b].append((a, flips, -more))
+        ways[a].append(_WayAcross(b, flips, more))
+        ways[b].append(_WayAcross(a, flips, -more))
     parity, number, known = [False] * total, [0] * total, [False] * total
     for face, begins, holds in zip(faces.outer.tolist(), odd.tolist(), held.tolist(), strict=True):
         parity[face], number[face], known[face] = begins, holds, True

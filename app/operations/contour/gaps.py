@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from ...geometry.distance import DistanceField
-from ...geometry.near_points import nearest
+from ...geometry.near_points import all_within
 from ...geometry.offset.offset import OffsetLevel
 from ...geometry.outlines import Outlines
 from ...geometry.primitives import TURN, Indices, Rows, lengths, path_length, points_at, sweeps
@@ -104,8 +105,33 @@ def feet(rows: Rows, fraction: float, distance: float) -> Floats:
     return touched
 
 
-def _covered(level: OffsetLevel, area: MachiningArea) -> tuple[Indices, Floats, Floats]:
-    """Return (wall row, from, to) of what each row of a level's rings covers of the walls, sorted by both."""
+class _WallSpans(NamedTuple):
+    """Parts of rows of walls, sorted by both: the row, and from where to where, in [0, 1] along it."""
+
+    row: Indices
+    low: Floats
+    high: Floats
+
+
+class _WallPart(NamedTuple):
+    """A part of a row of a wall, from where to where, in [0, 1] along it."""
+
+    row: int
+    low: float
+    high: float
+
+
+class _RingJoints(NamedTuple):
+    """Joints at the ends of rows: where the cutter touches before and behind, the place, the left turn, radians."""
+
+    before: Floats
+    behind: Floats
+    place: Floats
+    turn: Floats
+
+
+def _covered(level: OffsetLevel, area: MachiningArea) -> _WallSpans:
+    """Return what each row of a level's rings covers of the walls."""
     rings, distance = np.concatenate([ring.rows for ring in level.rings]), level.distance
     region = np.repeat([ring.region for ring in level.rings], [len(ring.rows) for ring in level.rings])
     walls = area.distances.rows
@@ -113,7 +139,7 @@ def _covered(level: OffsetLevel, area: MachiningArea) -> tuple[Indices, Floats, 
     a, b = (fractions_at(walls[row], feet(rings, part, distance)) for part in (0.0, 1.0))
     low, high = np.minimum(a, b), np.maximum(a, b)
     order = np.lexsort((low, row))
-    return row[order], low[order], high[order]
+    return _WallSpans(row[order], low[order], high[order])
 
 
 def _touched(points: Floats, region: Indices, area: MachiningArea) -> Indices:
@@ -131,9 +157,7 @@ def _touched(points: Floats, region: Indices, area: MachiningArea) -> Indices:
     return row
 
 
-def _uncovered(
-    spans: tuple[Indices, Floats, Floats], area: MachiningArea, known: set[int]
-) -> dict[int, list[tuple[float, float]]]:
+def _uncovered(spans: _WallSpans, area: MachiningArea, known: set[int]) -> dict[int, list[tuple[float, float]]]:
     """Return for each row of the walls of some regions the parts of it that no span covers."""
     row, low, high = spans
     size = lengths(area.distances.rows)
@@ -152,8 +176,8 @@ def _uncovered(
     return found
 
 
-def _chains(free: dict[int, list[tuple[float, float]]], area: MachiningArea) -> list[list[tuple[int, float, float]]]:
-    """Return runs of (row, from, to) that go on from row to row of the walls."""
+def _chains(free: dict[int, list[tuple[float, float]]], area: MachiningArea) -> list[list[_WallPart]]:
+    """Return runs that go on from row to row of the walls."""
     following = np.empty(len(area.primitives.previous), np.int64)
     following[area.primitives.previous] = np.arange(len(following))
 
@@ -166,14 +190,14 @@ def _chains(free: dict[int, list[tuple[float, float]]], area: MachiningArea) -> 
     chains = []
     used: set[int] = set()  # rows whose first part has its place in a chain
 
-    def chain_from(row: int, part: int) -> list[tuple[int, float, float]]:
-        chain = [(row, *free[row][part])]
+    def chain_from(row: int, part: int) -> list[_WallPart]:
+        chain = [_WallPart(row, *free[row][part])]
         while part == len(free[row]) - 1 and ends(row):
             row, part = int(following[row]), 0
             if not begins(row) or row in used:
                 break
             used.add(row)
-            chain.append((row, *free[row][0]))
+            chain.append(_WallPart(row, *free[row][0]))
         return chain
 
     for row, parts in free.items():
@@ -189,7 +213,7 @@ def _chains(free: dict[int, list[tuple[float, float]]], area: MachiningArea) -> 
     return chains
 
 
-def _made(chains: Sequence[Sequence[tuple[int, float, float]]], area: MachiningArea) -> list[WallGap]:
+def _made(chains: Sequence[Sequence[_WallPart]], area: MachiningArea) -> list[WallGap]:
     """Return the gap that each run of parts of walls is, of those that are long enough."""
     parts = np.array([part for chain in chains for part in chain])
     first = np.append(0, np.cumsum([len(chain) for chain in chains]))
@@ -223,25 +247,29 @@ def _with_corners(found: Sequence[WallGap], level: OffsetLevel) -> list[WallGap]
         return list(found)
     before, behind, joints, turn = before[jump], behind[jump], joints[jump], turn[jump]
     ends = np.array([[*gap.rows[0, :2], *gap.rows[-1, 2:4]] for gap in found])
-    off, which = (each[:, 0] for each in nearest(np.hstack([before, behind]), ends, 1))
+    corners = np.hstack([before, behind])
+    place, corner_at = all_within(corners, ends, _SAME)
+    off = np.hypot.reduce(corners[corner_at] - ends[place], axis=1)
+    order = np.lexsort((off, place))[::-1]
+    nearest = dict(zip(place[order].tolist(), corner_at[order].tolist(), strict=True))  # of several the last one stays
     result = []
-    for gap, far, k in zip(found, off.tolist(), which.tolist(), strict=True):
-        if far > _SAME:
+    for number, gap in enumerate(found):
+        if number not in nearest:
             result.append(gap)
             continue
+        k = nearest[number]
         corner = float(joints[k, 0]), float(joints[k, 1])
         excess = float(gap.left.sum()) - float(turn[k])
         result.append(replace(gap, corner=corner, excess=excess, turn=float(turn[k])))
     return result
 
 
-def _joints(rings: Outlines, distance: float) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return (foot before, foot behind, place, left turn in radians) of each joint of some rings, at the end of each
-    row.
-    """
+def _joints(rings: Outlines, distance: float) -> _RingJoints:
+    """Return the joints of some rings."""
     rows = rings.rows
     after = rows[rings.following]
-    return feet(rows, 1.0, distance), feet(after, 0.0, distance), rows[:, 2:4], np.maximum(_turns(rows, after), 0.0)
+    turn = np.maximum(_turns(rows, after), 0.0)
+    return _RingJoints(feet(rows, 1.0, distance), feet(after, 0.0, distance), rows[:, 2:4], turn)
 
 
 def _turns(before: Rows, behind: Rows) -> Floats:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -59,18 +60,23 @@ def strokes_of(
         strokes.append(
             Stroke(run.path.rows, np.full(len(run.path.rows), Purpose.CONTOUR, np.uint8), run.path.region)
             if point[k]
-            else _stroke(run, (found.rows[mine], middle[mine]), spans[k], extras)
+            else _stroke(run, _CutRows(found.rows[mine], middle[mine]), spans[k], extras)
         )
     return tuple(strokes)
 
 
-def _stroke(
-    run: PathWithLeads, cut: tuple[Rows, Floats], spans: Sequence[tuple[float, float]], extras: StrokeExtras
-) -> Stroke:
+class _CutRows(NamedTuple):
+    """Rows of a path, and how far along it the middle of each is, mm."""
+
+    rows: Rows
+    middle: Floats
+
+
+def _stroke(run: PathWithLeads, cut: _CutRows, spans: Sequence[tuple[float, float]], extras: StrokeExtras) -> Stroke:
     """Return the stroke of a path.
 
     Args:
-        cut: its rows from beginning to end, and how far along the middle of each is, mm.
+        cut: from beginning to end.
         spans: (from, to) of its tabs, mm.
     """
     rows, where, relief = inserted(*cut, extras.corner_reliefs)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from ...core import tolerances
 from ...core.errors import ParameterError
@@ -14,7 +15,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, offset_levels
 from ...geometry.primitives import path_length
 from ...model.job import Job
-from ...model.operation import CutParameters, PocketOperation, Side
+from ...model.operation import CutParameters, Operation, PocketOperation, Side
 from ...model.tool import Tool
 from ...toolpath.build import Stroke
 from ...toolpath.linking.link import LinkOptions, link
@@ -100,6 +101,27 @@ class PocketStrokes:
     linked: float = 0.0
     stepover: float = 0.0
 
+    def may_be_beaten(self, rings: float, more: float) -> bool:
+        """Tell whether strokes with rings of a length, mm, and at least so much more, mm, may be better."""
+        least = _share(rings, more) > MOST_LINKED, rings + more
+        return least < (self.linked > MOST_LINKED, self.length)
+
+
+def _share(rings: float, more: float) -> float:
+    """Return the share of a path, mm, that is no ring."""
+    return more / (rings + more) if more else 0.0
+
+
+def between_rings(levels: Sequence[OffsetLevel], halves: Sequence[OffsetLevel]) -> float:
+    """Return how long bridges are at least, mm: each ring hangs on one outside it, no nearer than its level is.
+
+    Args:
+        levels: rings, outermost first. halves: closed runs inside each.
+    """
+    steps = [(inner, inner.distance - outer.distance) for outer, inner in pairwise(levels)]
+    steps += [(half, half.distance - level.distance) for level, half in zip(levels, halves, strict=False)]
+    return sum(len(level.rings) * step for level, step in steps)
+
 
 def candidates(radius: float, rows: int) -> tuple[float, ...]:
     """Return the stepovers that are looked at for the shortest path, mm; one alone where a drawing has very many
@@ -131,11 +153,16 @@ def shortest(
         if not levels:
             return best
         rings = sum(ring.length for level in levels for ring in level.rings)
-        if best.strokes and ((best.linked <= MOST_LINKED and rings >= best.length) or stepovers[k] > too_far):
+        if best.strokes and (stepovers[k] > too_far or not best.may_be_beaten(rings, between_rings(levels, ()))):
             continue
         filling = (
             fill(levels, [found[distance] for distance in halves], area.distances, target.radius) if halves else NOTHING
         )
+        if best.strokes and halves:  # else ways between rings save pieces of them
+            more = filling.length + between_rings(levels, filling.halves)
+            if not best.may_be_beaten(rings, more):
+                too_far = min(too_far, stepovers[k]) if _share(rings, more) > _FAR_TOO_LINKED else too_far
+                continue
         strokes = link(levels, area.distances, target.link_options, filling, 0.0 if halves else stepovers[k])
         length = sum(path_length(stroke.rows) for stroke in strokes)
         made = PocketStrokes(levels, filling, strokes, length, 1 - rings / length, stepovers[k])
@@ -146,7 +173,7 @@ def shortest(
     return best
 
 
-def wall_distance(job: Job, operation: PocketOperation) -> float:
+def wall_distance(job: Job, operation: Operation) -> float:
     """Return how far A' lies inside the walls, mm: the contour tool's radius and the stock it leaves (step 120).
 
     Without a contour operation that goes inside the walls of the same curves, as deep, the pocket goes up to the walls
@@ -155,7 +182,7 @@ def wall_distance(job: Job, operation: PocketOperation) -> float:
     return max((job.tool(cut.tool).radius + cut.stock_to_leave for cut in _followers(job, operation)), default=0.0)
 
 
-def _followers(job: Job, operation: PocketOperation) -> list[CutParameters]:
+def _followers(job: Job, operation: Operation) -> list[CutParameters]:
     """Return the contour operations inside the walls of the same curves, as deep."""
     cuts = (
         each.cut for each in job.operations if each.FOLLOWS_WALLS and each.cut.enabled and each.wall_side is Side.INSIDE
@@ -175,7 +202,7 @@ def _left_to_contours(disc: float, job: Job, operation: PocketOperation) -> bool
     )
 
 
-def stepover_of(operation: PocketOperation, tool: Tool) -> float:
+def stepover_of(operation: Operation, tool: Tool) -> float:
     """Return the distance between rings, mm: as asked, or the largest at which rings cover everything by themselves.
 
     A stepover s <= R leaves no point farther than R from some ring. Overlap of the 1986 text = 2 R - s.
@@ -183,14 +210,14 @@ def stepover_of(operation: PocketOperation, tool: Tool) -> float:
     Raises:
         ParameterError: the stepover is larger than the tool.
     """
-    if operation.stepover is None:
+    if operation.ring_stepover is None:
         return tool.radius
-    if operation.stepover > tool.diameter:
+    if operation.ring_stepover > tool.diameter:
         raise ParameterError(
-            f"Stepover is {operation.stepover:g} mm, more than the diameter of T{tool.number} ({tool.diameter:g} mm); "
-            "use that or less."
+            f"Stepover is {operation.ring_stepover:g} mm, more than the diameter of T{tool.number} "
+            f"({tool.diameter:g} mm); use that or less."
         )
-    return operation.stepover
+    return operation.ring_stepover
 
 
 def pocket_distances(outermost: float, stepover: float, field: DistanceField) -> tuple[float, ...]:

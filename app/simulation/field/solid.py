@@ -88,8 +88,6 @@ def read_solid(name: str, data: bytes) -> SolidStock:
         InputError: it is no STL file, holds nothing, its surface is not closed, or has no inside.
     """
     triangles = stl_triangles(name, data)
-    if not len(triangles) or not np.isfinite(triangles).all():
-        raise InputError(f"{name}: the STL file holds no triangles; export the solid again.")
     wound = orient_outwards(triangles)
     if wound.fault:
         place = "" if wound.place is None else " at ({:.3f}, {:.3f}, {:.3f})".format(*wound.place)

@@ -9,14 +9,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.pool import pool
+from ...core.pool import in_bands, pool
 from ...model.motion import Floats
 from ..box_tree import box_tree
 
-_BAND = 4096
+_BAND = 256
 """Segments that are measured by one piece of work: the same ones whatever the machine, as where a search begins can
 tell in the last digits.
 """
+
+_WORTH_TWO_CORES = 500
+"""Upright lines from which a second core is worth its start."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,8 +70,8 @@ class TriangleTree:
         """
         from .ray_kernels import tops
 
-        out = np.empty(len(points))
-        tops(self.boxes, self.triangles, np.ascontiguousarray(points), out)
+        points, out = np.ascontiguousarray(points), np.empty(len(points))
+        in_bands(lambda band: tops(self.boxes, self.triangles, points[band], out[band]), len(points), _WORTH_TWO_CORES)
         return out
 
     def met(self, points: Floats) -> tuple[NDArray[np.int64], Floats, Floats]:
@@ -79,8 +82,18 @@ class TriangleTree:
 
         places, counts = np.ascontiguousarray(points), np.empty(len(points), np.int64)
         none = np.zeros((0, 2))
-        met(self.boxes, self.triangles, places, counts, none)
-        found = np.empty((int(counts.sum()), 2))
-        if len(found):
-            met(self.boxes, self.triangles, places, counts, found)
+        in_bands(
+            lambda band: met(self.boxes, self.triangles, places[band], counts[band], none),
+            len(points),
+            _WORTH_TWO_CORES,
+        )
+        first = np.concatenate([[0], np.cumsum(counts)])
+        found = np.empty((int(first[-1]), 2))
+
+        def find(band: slice) -> None:
+            mine = found[first[band.start] : first[band.stop]]
+            if len(mine):
+                met(self.boxes, self.triangles, places[band], counts[band], mine)
+
+        in_bands(find, len(points), _WORTH_TWO_CORES)
         return np.repeat(np.arange(len(points)), counts), found[:, 0].copy(), found[:, 1].copy()

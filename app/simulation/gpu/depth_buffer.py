@@ -13,8 +13,9 @@ gives any of its own heights. Depths have 24 bits over the heights that matter, 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +23,10 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ..cutter import Cutter
 from ..field.workpiece import Grid, Heights, Workpiece, ensure_memory
-from ..sweeps.chains import Chains, chains_of
+from ..sweeps.chains import CutterChains, chains_of
 from ..sweeps.course import Course
 from .graphics import compiled
+from .polyhedron import least_facet
 from .wedges import ROOM, Tessellation, chord_of, facets_in
 
 if TYPE_CHECKING:
@@ -52,6 +54,21 @@ def usual(grid: Grid) -> Tessellation:
     A facet of a sphere bends both ways; with sides of d it would lie up to d² / 4r inside, so it lies within d² / 8r.
     """
     return Tessellation(FACET_PITCHES / math.sqrt(2.0) * grid.pitch, overlap=OVERLAP_PITCHES * grid.pitch)
+
+
+def tessellation(grid: Grid, cutters: Iterable[Cutter], facet: float | None = None) -> Tessellation:
+    """Return the facets with which a grid is cut by some cutters: the usual ones, or those that are asked for.
+
+    A deep zoom asks for facets that are smaller than a cutter can be divided in; there they are as small as can be,
+    larger than the cells, and lie inside the cutter by less than rounding.
+
+    Args:
+        facet: size of the facets, mm; None: as usual for the grid.
+    """
+    how = usual(grid)
+    if facet is not None:
+        return replace(how, facet=facet)
+    return replace(how, facet=max([how.facet, *(least_facet(cutter.radius) for cutter in cutters)]))
 
 
 def published(grid: Grid) -> Tessellation:
@@ -105,7 +122,7 @@ class DepthBuffer:
         """
         grid = workpiece.grid
         ensure_memory(grid, 8)
-        how = self._how or usual(grid)
+        how = self._how or tessellation(grid, cutters.values())
         sweeps = chains_of(course, cutters, chord_of(course, cutters, how.facet))
         left = workpiece.heights.copy()
         tiles = list(
@@ -119,9 +136,7 @@ class DepthBuffer:
         progress.step(1.0, "Cut")
         return left
 
-    def _trimmed(
-        self, piece: Workpiece, sweeps: list[tuple[Cutter, Chains]], how: Tessellation, progress: Progress
-    ) -> Heights:
+    def _trimmed(self, piece: Workpiece, sweeps: list[CutterChains], how: Tessellation, progress: Progress) -> Heights:
         """Return what is left of a work piece that can be drawn at once."""
         grid, high = piece.grid, float(piece.heights.max())
         low = max(piece.floor, min((chains.lowest for _, chains in sweeps), default=high))
@@ -154,24 +169,34 @@ class DepthBuffer:
             ctx.disable_direct(_DEPTH_CLAMP)
 
 
-def _facets(
-    grid: Grid, low: float, sweeps: list[tuple[Cutter, Chains]], how: Tessellation
-) -> Iterator[tuple[NDArray[np.float32], float]]:
-    """Yield facets (n, 4, 3) over a grid, mm from its lower left corner and a height, and the share of the moves that
-    is done.
-    """
+class _DrawnFacets(NamedTuple):
+    """Facets (n, 4, 3), mm, and the share of the moves that is done."""
+
+    quads: NDArray[np.float32]
+    share: float
+
+
+def _facets(grid: Grid, low: float, sweeps: list[CutterChains], how: Tessellation) -> Iterator[_DrawnFacets]:
+    """Yield facets over a grid, from its lower left corner and a height."""
     box = (0.0, 0.0, grid.cols * grid.pitch, grid.rows * grid.pitch)
     done, total = 0, max(sum(len(chains) for _, chains in sweeps), 1)
     for cutter, chains in sweeps:
         for part, share in facets_in(cutter, chains.moved((-grid.x0, -grid.y0, -low)), how, box):
-            yield part.quads, (done + share * len(chains)) / total
+            yield _DrawnFacets(part.quads, (done + share * len(chains)) / total)
         done += len(chains)
 
 
-def _tiles(grid: Grid, most: int) -> Iterator[tuple[tuple[slice, slice], Grid]]:
-    """Yield where in a grid the parts of at most so many cells along a side are, and those parts."""
+class _GridTile(NamedTuple):
+    """A part of a grid: where in it, rows and columns, and the part."""
+
+    where: tuple[slice, slice]
+    part: Grid
+
+
+def _tiles(grid: Grid, most: int) -> Iterator[_GridTile]:
+    """Yield the parts of a grid of at most so many cells along a side."""
     for row in range(0, grid.rows, most):
         for col in range(0, grid.cols, most):
             rows, cols = min(most, grid.rows - row), min(most, grid.cols - col)
             corner = grid.x0 + col * grid.pitch, grid.y0 + row * grid.pitch
-            yield (slice(row, row + rows), slice(col, col + cols)), Grid(*corner, grid.pitch, rows, cols)
+            yield _GridTile((slice(row, row + rows), slice(col, col + cols)), Grid(*corner, grid.pitch, rows, cols))

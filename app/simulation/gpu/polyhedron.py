@@ -46,6 +46,11 @@ def circle_corners(radius: float, facet: float) -> int:
     return count
 
 
+def least_facet(radius: float) -> float:
+    """Return the smallest size of facets that a circle of a radius, mm, can be divided in, mm."""
+    return 2 * math.pi * radius / MOST * (1 + 1e-9)
+
+
 def circle_table(count: int, shift: float = 0.0) -> Floats:
     """Return (count, 2) cosine and sine of the corners of a circle, turned by a share of the step between them."""
     angles = (np.arange(count) + shift) * (2 * math.pi / count)

@@ -29,6 +29,9 @@ ROOM = 1 << 18
 CHORD_SHARE = 0.25
 """Of the facets' error, how far chords may be from the curves that they stand for; to either side."""
 
+LEAST_CHORD = 1e-7
+"""mm; chords need not be nearer, where a deep zoom makes the facets' error next to nothing."""
+
 EVERYWHERE = (-math.inf, -math.inf, math.inf, math.inf)
 
 
@@ -154,10 +157,11 @@ def sweep_facets(points: Floats, radius: float, how: Tessellation) -> SweepFacet
 
 def chord_of(course: Course, cutters: Mapping[int, Cutter], facet: float) -> float:
     """Return how far chords may be from curves where facets have a size, mm."""
-    return CHORD_SHARE * min(
+    error = min(
         (facet_error(cutters[number], facet) for number in np.unique(course.tool).tolist() if number in cutters),
         default=facet,
     )
+    return max(CHORD_SHARE * error, LEAST_CHORD)
 
 
 def polygon_counts(course: Course, cutters: Mapping[int, Cutter], facet: float) -> PolygonCounts:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,8 +87,15 @@ def cutting(course: Course, cutters: Mapping[int, Cutter]) -> NDArray[np.bool_]:
     return cuts
 
 
-def chains_of(course: Course, cutters: Mapping[int, Cutter], chord: float) -> list[tuple[Cutter, Chains]]:
-    """Return the cutters of a course, and where their tips go.
+class CutterChains(NamedTuple):
+    """A cutter, and where its tip goes."""
+
+    cutter: Cutter
+    chains: Chains
+
+
+def chains_of(course: Course, cutters: Mapping[int, Cutter], chord: float) -> list[CutterChains]:
+    """Return where the tips of a course's cutters go.
 
     Args:
         course: what is cut along; rapids do not cut.
@@ -103,7 +111,7 @@ def chains_of(course: Course, cutters: Mapping[int, Cutter], chord: float) -> li
     tool, does = course.tool[pieces.motion], cuts[pieces.motion]
     numbers = np.unique(course.tool[cuts]).tolist()
     return [
-        (cutters[number], _chains(pieces, np.flatnonzero(does & (tool == number)), cutters[number].lift))
+        CutterChains(cutters[number], _chains(pieces, np.flatnonzero(does & (tool == number)), cutters[number].lift))
         for number in numbers
     ]
 

@@ -5,15 +5,27 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.pool import in_bands
 from ...model.motion import Floats, MotionKind
 from ..box_tree import box_tree
 from ..cutter import Cutter
 from .course import Course
 from .pieces import PieceSplitter, SweepPieces
+
+_WORTH_TWO_CORES = 500
+"""Points from which a second core is worth its start."""
+
+
+class LowestReach(NamedTuple):
+    """The lowest heights (m,) at points, infinite where nothing comes, and the motions' rows, -1 = none."""
+
+    heights: Floats
+    motion: NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +55,7 @@ class PathProbe:
         for course in courses:
             found.append(_cutting(course, numbers, done))
             done += len(course.motions)
-        pieces, owners = np.concatenate([rows for rows, _ in found]), np.concatenate([rows for _, rows in found])
+        pieces, owners = np.concatenate([each.rows for each in found]), np.concatenate([each.owners for each in found])
         shapes = np.array([_shape(cutters[number]) for number in numbers]).reshape(-1, 6)
         if not len(pieces):
             return PathProbe(np.zeros((0, 6)), pieces, owners, shapes)
@@ -51,29 +63,40 @@ class PathProbe:
         order, boxes = box_tree(low, high)
         return PathProbe(boxes, np.ascontiguousarray(pieces[order]), np.ascontiguousarray(owners[order]), shapes)
 
-    def lowest(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
-        """Return the lowest height (m,) that is reached at points (m, 2), infinite where nothing comes, and the
-        motion's row, -1 = none.
-        """
+    def lowest(self, points: Floats) -> LowestReach:
+        """Return the lowest heights that are reached at points (m, 2)."""
         from .probe_kernels import lowest
 
         heights, motions = np.full(len(points), np.inf), np.full(len(points), -1, np.int64)
         if len(self.pieces) and len(points):
-            lowest(self.boxes, self.pieces, self.owners, self.shapes, np.ascontiguousarray(points), heights, motions)
-        return heights, motions
+            points = np.ascontiguousarray(points)
+
+            def look(band: slice) -> None:
+                lowest(self.boxes, self.pieces, self.owners, self.shapes, points[band], heights[band], motions[band])
+
+            in_bands(look, len(points), _WORTH_TWO_CORES)
+        return LowestReach(heights, motions)
 
 
-def _cutting(course: Course, numbers: Sequence[int], done: int) -> tuple[Floats, NDArray[np.int64]]:
-    """Return the pieces (n, 9) of a course that cut, and their owners (n, 2); `done` motions were before it."""
+class _CuttingPieces(NamedTuple):
+    """Pieces of paths that cut, rows (n, 9), and the motion and the cutter of each, (n, 2)."""
+
+    rows: Floats
+    owners: NDArray[np.int64]
+
+
+def _cutting(course: Course, numbers: Sequence[int], done: int) -> _CuttingPieces:
+    """Return the pieces of a course that cut; `done` motions were before it."""
     motions = course.motions
     cuts = (motions.kind != MotionKind.RAPID) & np.isin(course.tool, np.array(numbers))
     cuts[list(course.left_out)] = False
     pieces = PieceSplitter(motions).pieces(0, len(motions)) if cuts.any() else None
     if pieces is None:
-        return np.zeros((0, 9)), np.zeros((0, 2), np.int64)
+        return _CuttingPieces(np.zeros((0, 9)), np.zeros((0, 2), np.int64))
     some = cuts[pieces.motion]
     rows = pieces.motion[some].astype(np.int64)
-    return _rows(pieces, some), np.column_stack([rows + done, np.searchsorted(numbers, course.tool[rows])])
+    owners = np.column_stack([rows + done, np.searchsorted(numbers, course.tool[rows])])
+    return _CuttingPieces(_rows(pieces, some), owners)
 
 
 def _rows(pieces: SweepPieces, some: NDArray[np.bool_]) -> Floats:

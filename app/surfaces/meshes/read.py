@@ -1,4 +1,6 @@
-"""Files of triangles: STL by a reader of our own, which tells a file that was cut off; OBJ and PLY by a library."""
+"""Files of triangles: STL by a reader of our own, which tells a file that was cut off, 3MF too; OBJ and PLY by a
+library.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from .three_mf import three_mf_triangles
 
 Floats = NDArray[np.float64]
 
@@ -24,17 +27,37 @@ _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 
 def read_mesh(name: str, data: bytes) -> Floats:
-    """Return the triangles (n, 3, 3) of a file, n > 0, in its own units.
+    """Return the triangles (n, 3, 3) of a file, n > 0, in its own units; of 3MF, which names them, mm.
 
     Args:
-        name: of the file, for errors; its suffix tells the format: .stl, .obj or .ply.
+        name: of the file, for errors; its suffix tells the format: .stl, .obj, .ply or .3mf.
         data: the file.
 
     Raises:
         InputError: it cannot be read, was cut off, or holds no triangle.
     """
     suffix = name.lower().rpartition(".")[2]
-    triangles = stl_triangles(name, data) if suffix == "stl" else _by_library(name, data, suffix)
+    if suffix == "stl":
+        return stl_triangles(name, data)
+    triangles = three_mf_triangles(name, data) if suffix == "3mf" else _by_library(name, data, suffix)
+    return _sound(name, triangles, suffix)
+
+
+def stl_triangles(name: str, data: bytes) -> Floats:
+    """Return the triangles (n, 3, 3) of an STL file, text or binary, n > 0, in its own units.
+
+    Raises:
+        InputError: it is none, was cut off, or holds no triangle.
+    """
+    return _sound(name, _stl(name, data), "stl")
+
+
+def _sound(name: str, triangles: Floats, suffix: str) -> Floats:
+    """Return triangles that a part may have.
+
+    Raises:
+        InputError: there is none, or a corner is no place of a part.
+    """
     if not len(triangles):
         raise InputError(f"{name}: there is no triangle in this {suffix.upper()} file; export it again.")
     if not (max(float(triangles.max()), -float(triangles.min())) < _SANE):
@@ -42,7 +65,7 @@ def read_mesh(name: str, data: bytes) -> Floats:
     return triangles
 
 
-def stl_triangles(name: str, data: bytes) -> Floats:
+def _stl(name: str, data: bytes) -> Floats:
     """Return the triangles (n, 3, 3) of an STL file, text or binary.
 
     Raises:

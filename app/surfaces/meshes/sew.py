@@ -139,6 +139,8 @@ def _on(begin: Floats, end: Floats, places: Floats, within: float) -> Floats:
     """Return the places (k, 3) that lie on an edge between its ends, in its order."""
     way = end - begin
     length = float(np.linalg.norm(way))
+    if not length > 2 * within:
+        return np.zeros((0, 3))
     along = (places - begin) @ way / length
     off = np.linalg.norm(places - begin - along[:, None] * (way / length), axis=1)
     some = (off <= within) & (along > within) & (along < length - within)

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -43,6 +44,14 @@ _TWICE = 2.0
 _ROOM = 4096
 _CHORDS = 2_000
 _NEAR = 1e-9
+_BESIDE, _STORED = 1e-7, 2.0**-23
+"""mm, and of the coordinates of meshes, by which a cutter's upright side may go into a wall: so one that a pass touches
+all along its way is passed by, as deep as it goes, and what files round makes it no obstacle. Far less than is proven.
+"""
+_ASIDE, _SWINGS = 0.75, 8
+"""Of the grid: how far places that are rounded to it are from the line at most; corners of a line from which it may
+swing up and down beside a wall because of that.
+"""
 _SHORT = 0.05
 """mm; shorter stretches beside the surfaces are none."""
 
@@ -88,6 +97,7 @@ class Follower:
 
     def __init__(self, facets: SurfaceFacets, tool: Tool, options: FollowOptions = FollowOptions()) -> None:
         from ..cutter_contact import contact_kernels
+        from .point_kernels import GRID
 
         self.facets, self.options = facets, options
         self.tolerance = min(max(_PART * options.tolerance, _LEAST), _MOST * options.tolerance)
@@ -97,6 +107,8 @@ class Follower:
         self._shape = shape_of(tool)
         if options.leave:
             contact_kernels.thicken(shape_of(tool), options.leave, self._shape)
+        stored = float(np.abs(facets.triangles[facets.patch < 0]).max(initial=0.0))
+        self._room = max(_BESIDE, _STORED * stored)
         least = max(1e-6, 2 * options.grid)
         self._rules = np.array(
             [
@@ -109,6 +121,9 @@ class Follower:
                 _FINE,
             ]
         )
+
+        self._exact = self._rules.copy()
+        self._exact[GRID] = 0.0
 
     def along(self, planes: CuttingPlanes, plane: int, part: Stretch) -> Floats:
         """Return the rows (n, COLUMNS) of points on a plane, facets by their numbers."""
@@ -161,25 +176,81 @@ class Follower:
         return found
 
     def _rows(self, line: Floats) -> Floats:
+        """Return the rows of points along a line.
+
+        A wall that is just touched all along is passed by. Where places are rounded off the line, as on all that do not
+        run along X or Y, it would be touched or not as they are rounded, and the cutter swing up and down all its
+        length: where it does, the line itself is followed, by a cutter that is so much wider.
+        """
+        from . import point_kernels as k
+
+        rows = self._followed(line, self._beside(-self._room), self._rules)
+        aside = _ASIDE * self.options.grid if np.abs(line[2:4]).min() > _NEAR else 0.0
+        if aside and (swings := np.count_nonzero(rows[:, k.NEW] == k.CORNER)) > _SWINGS:
+            wider = self._rounded(self._followed(line, self._beside(self._room + aside), self._exact))
+            rows = wider if np.count_nonzero(wider[:, k.NEW] == k.CORNER) < swings else rows
+        for column in (k.FACET, k.LEFT):
+            facet = rows[:, column].astype(np.int64)
+            rows[:, column] = np.where(facet >= 0, self._order[np.maximum(facet, 0)], -1)
+        rows[:, [k.Z, k.TRUE_Z]] += self._leave
+        return rows
+
+    def _beside(self, room: float) -> Floats:
+        """Return the cutter with so much room between its upright side and walls, mm; < 0: its side, not its lower
+        side, may go into them.
+        """
+        from ..cutter_contact.contact_kernels import BEND, CONE, DISC, RADIUS
+
+        shape = self._shape.copy()
+        if room > 0.0 or shape[CONE] == 0.0:
+            shape[RADIUS] += room
+        if room > 0.0:
+            shape[[DISC, BEND]] += room
+        return shape
+
+    def _rounded(self, rows: Floats) -> Floats:
+        """Return rows of points as they will be written: in X and Y to the nearest place of the grid, in Z upwards."""
+        from . import point_kernels as k
+
+        grid = self.options.grid
+        rows[:, [k.X, k.Y]] = np.round(rows[:, [k.X, k.Y]] / grid) * grid
+        rows[:, k.Z] = np.ceil(rows[:, k.Z] / grid - 1e-6) * grid
+        return rows
+
+    def _followed(self, line: Floats, shape: Floats, rules: Floats) -> Floats:
+        """Return the rows of points of a cutter along a line, as the kernel gives them.
+
+        Raises:
+            GeometryError: a chord cannot be proven.
+        """
         from . import follow_kernels
         from . import point_kernels as k
 
         room = _ROOM
         while True:
             out = np.empty((room, k.COLUMNS))
-            count = follow_kernels.follow(self._held, self._shape, line, self._rules, out)
+            count = follow_kernels.follow(self._held, shape, line, rules, out)
             if count >= 0:
-                break
+                found: Floats = out[:count].copy()
+                return found
             if count == follow_kernels.NO_PROOF or room > 1 << 24:
                 x, y = line[:2] + line[4] * line[2:4]
                 raise GeometryError(f"the pass from ({x:.3f}, {y:.3f}) could not be proven; make its tolerance larger.")
             room *= 4
-        rows: Floats = out[:count].copy()
-        for column in (k.FACET, k.LEFT):
-            facet = rows[:, column].astype(np.int64)
-            rows[:, column] = np.where(facet >= 0, self._order[np.maximum(facet, 0)], -1)
-        rows[:, [k.Z, k.TRUE_Z]] += self._leave
-        return rows
+
+
+class PlaneStretch(NamedTuple):
+    """A stretch of a cutting plane, by the plane's number."""
+
+    plane: int
+    part: Stretch
+
+
+class _FollowedStretches(NamedTuple):
+    """Stretches of planes, and the rows of points on each."""
+
+    stretches: list[PlaneStretch]
+    rows: list[Floats]
 
 
 def cutter_path(
@@ -206,7 +277,7 @@ def cutter_path(
     whole, across = extent_on(planes, facets.triangles[:, :, :2].reshape(-1, 2))
     beside = [overrun.far > 0 and not across[0] - _NEAR <= offset <= across[1] + _NEAR for offset in planes.offsets]
     jobs = [
-        (plane, part)
+        PlaneStretch(plane, part)
         for plane in range(len(beside))
         if not beside[plane]
         for part in stretches(planes, plane, whole, area)
@@ -216,7 +287,7 @@ def cutter_path(
         outer = whole[0] - overrun.far, whole[1] + overrun.far
         allowed = _allowed(planes, outer, overrun, area)
         more = [
-            (plane, part)
+            PlaneStretch(plane, part)
             for plane, beyond in enumerate(beside)
             for piece in ((outer,) if beyond else ((outer[0], whole[0]), (whole[1], outer[1])))
             for part in stretches(planes, plane, piece, allowed)
@@ -228,7 +299,7 @@ def cutter_path(
     kept, numbers = _used(planes, beside, [plane for (plane, _), each in zip(jobs, rows, strict=True) if len(each) > 1])
     chosen = [k for k, (plane, _) in enumerate(jobs) if plane in numbers]
     few = follower.thinned([rows[k] for k in chosen], planes.along, progress.part(0.8, 1.0))
-    return _compound(facets, kept, [numbers[jobs[k][0]] for k in chosen], few)
+    return _compound(facets, kept, [numbers[jobs[k].plane] for k in chosen], few)
 
 
 def _z() -> int:
@@ -252,7 +323,7 @@ def _allowed(
 
 
 def _followed(
-    follower: Follower, planes: CuttingPlanes, jobs: Sequence[tuple[int, Stretch]], progress: Progress
+    follower: Follower, planes: CuttingPlanes, jobs: Sequence[PlaneStretch], progress: Progress
 ) -> list[Floats]:
     """Return the rows of points of each stretch of a plane."""
     waiting = [pool().submit(follower.along, planes, plane, part) for plane, part in jobs]
@@ -274,14 +345,14 @@ def _followed(
 
 
 def _outside(
-    follower: Follower, planes: CuttingPlanes, jobs: Sequence[tuple[int, Stretch]], lowest: float, progress: Progress
-) -> tuple[list[tuple[int, Stretch]], list[Floats]]:
+    follower: Follower, planes: CuttingPlanes, jobs: Sequence[PlaneStretch], lowest: float, progress: Progress
+) -> _FollowedStretches:
     """Return stretches of planes as far as the tip is no lower than a height on them, and the rows of points there."""
     rows = _followed(follower, planes, jobs, progress)
-    short: list[tuple[int, Stretch]] = []
+    short: list[PlaneStretch] = []
     for (plane, _), each in zip(jobs, rows, strict=True):
-        short += [(plane, part) for part in _above(each, lowest, follower.tolerance)]
-    return short, _followed(follower, planes, short, NO_PROGRESS)
+        short += [PlaneStretch(plane, part) for part in _above(each, lowest, follower.tolerance)]
+    return _FollowedStretches(short, _followed(follower, planes, short, NO_PROGRESS))
 
 
 def _above(rows: Floats, lowest: float, tolerance: float) -> list[Stretch]:
@@ -310,24 +381,22 @@ def _above(rows: Floats, lowest: float, tolerance: float) -> list[Stretch]:
     return [part for part in found if part[1] - part[0] > _SHORT]
 
 
-def _in_a_row(
-    jobs: Sequence[tuple[int, Stretch]], rows: Sequence[Floats]
-) -> tuple[list[tuple[int, Stretch]], list[Floats]]:
+def _in_a_row(jobs: Sequence[PlaneStretch], rows: Sequence[Floats]) -> _FollowedStretches:
     """Return the stretches in the order of their planes and along them, those joined that meet at one point."""
     from . import point_kernels as k
 
-    found: list[tuple[int, Stretch]] = []
+    found: list[PlaneStretch] = []
     made: list[Floats] = []
     for n in sorted(range(len(jobs)), key=lambda n: jobs[n]):
         (plane, part), own = jobs[n], rows[n]
-        last = made[-1] if made and found[-1][0] == plane else own[:0]
+        last = made[-1] if made and found[-1].plane == plane else own[:0]
         if len(last) and len(own) and abs(last[-1, k.S] - own[0, k.S]) <= _NEAR and last[-1, k.Z] == own[0, k.Z]:
             own = own[1:]
             made[-1] = np.concatenate([last, own])
         else:
-            found.append((plane, part))
+            found.append(PlaneStretch(plane, part))
             made.append(own)
-    return found, made
+    return _FollowedStretches(found, made)
 
 
 def _used(
@@ -360,6 +429,15 @@ def _compound(
     return CompoundSurface(planes, tuple(runs), _boundaries(facets, planes, numbers, parts))
 
 
+class _Passage(NamedTuple):
+    """Where the path on a plane passes from a surface to another: rows of points on both, one without a jump."""
+
+    plane: int
+    here: Floats
+    there: Floats
+    jump: bool
+
+
 def _boundaries(
     facets: SurfaceFacets, planes: CuttingPlanes, numbers: Sequence[int], parts: Sequence[Floats]
 ) -> BoundaryPoints:
@@ -368,22 +446,22 @@ def _boundaries(
     """
     from . import point_kernels as k
 
-    found: list[tuple[int, Floats, Floats, bool]] = []
+    found: list[_Passage] = []
     for plane, rows in zip(numbers, parts, strict=True):
         met = rows[:, k.NEW] == k.BOUNDARY
         left, right = rows[:, k.LEFT].astype(np.int64), rows[:, k.FACET].astype(np.int64)
         for n in np.flatnonzero(met).tolist():
-            found.append((plane, rows[n], rows[n], False))
+            found.append(_Passage(plane, rows[n], rows[n], False))
         corners = np.flatnonzero(rows[:, k.NEW] == k.CORNER)
         for n in corners[(corners > 0) & (corners < len(rows) - 1)].tolist():
             if not met[n + 1] and facets.owner[right[n - 1]] != facets.owner[left[n + 1]]:
-                found.append((plane, rows[n - 1], rows[n + 1], True))
-    found.sort(key=lambda each: (each[0], each[1][k.MET]))
+                found.append(_Passage(plane, rows[n - 1], rows[n + 1], True))
+    found.sort(key=lambda each: (each.plane, each.here[k.MET]))
     if not found:
         return BoundaryPoints.none()
-    where = np.array([each[0] for each in found])
-    here, there = np.array([each[1] for each in found]), np.array([each[2] for each in found])
-    jump = np.array([each[3] for each in found])
+    where = np.array([each.plane for each in found])
+    here, there = np.array([each.here for each in found]), np.array([each.there for each in found])
+    jump = np.array([each.jump for each in found])
     one = np.where(jump, here[:, k.FACET], here[:, k.LEFT]).astype(np.int64)
     other = np.where(jump, there[:, k.LEFT], there[:, k.FACET]).astype(np.int64)
     at_one = np.where(jump[:, None], here[:, [k.U, k.V]], here[:, [k.LEFT_U, k.LEFT_V]])

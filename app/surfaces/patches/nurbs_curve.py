@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,11 +51,34 @@ def even_knots(count: int, degree: int) -> Floats:
     return np.concatenate([np.zeros(degree), np.linspace(0, 1, count - degree + 1), np.ones(degree)])
 
 
-def brought(points: Floats, knots: tuple[Floats, int], target: tuple[Floats, int]) -> Floats:
-    """Return control points in another space, of knots and degree, which holds that of the spline's own."""
+class SplineSpace(NamedTuple):
+    """The splines of some knots and a degree."""
+
+    knots: Floats
+    degree: int
+
+
+class ControlledSpline(NamedTuple):
+    """A spline by its control points (n, …), clamped knots and degree."""
+
+    points: Floats
+    knots: Floats
+    degree: int
+
+
+class CompatibleCurves(NamedTuple):
+    """Curves in one space: control points (k, 4) of each, knots from 0 to 1, degree."""
+
+    points: list[Floats]
+    knots: Floats
+    degree: int
+
+
+def brought(points: Floats, space: SplineSpace, target: SplineSpace) -> Floats:
+    """Return control points of a spline in another space, which holds its own."""
     from scipy.interpolate import make_interp_spline
 
-    (own, own_degree), (requested, degree) = knots, target
+    (own, own_degree), (requested, degree) = space, target
     if own_degree == degree and len(own) == len(requested) and np.array_equal(own, requested):
         return points
     peaks = np.array([requested[k + 1 : k + 1 + degree].mean() for k in range(len(requested) - degree - 1)])
@@ -69,7 +92,7 @@ def clamped(points: Floats, knots: Floats, degree: int) -> tuple[Floats, Floats]
     low, high = knots[degree], knots[-degree - 1]
     inner = knots[degree + 1 : -degree - 1]
     ends = np.concatenate([np.full(degree + 1, low), inner, np.full(degree + 1, high)])
-    return brought(points, (knots, degree), (ends, degree)), ends
+    return brought(points, SplineSpace(knots, degree), SplineSpace(ends, degree)), ends
 
 
 def parameters(points: Floats, exponent: float) -> Floats:
@@ -81,8 +104,8 @@ def parameters(points: Floats, exponent: float) -> Floats:
     return unit_knots(made)
 
 
-def through(points: Floats, at: Floats, degree: int, closed: bool = False) -> tuple[Floats, Floats, int]:
-    """Return control points, clamped knots and degree of the spline through points (n, …) at parameters (n,).
+def through(points: Floats, at: Floats, degree: int, closed: bool = False) -> ControlledSpline:
+    """Return the spline through points (n, …) at parameters (n,).
 
     Args:
         points: where it is closed, the last is the first.
@@ -93,15 +116,15 @@ def through(points: Floats, at: Floats, degree: int, closed: bool = False) -> tu
 
     degree = min(degree, len(points) - 1)
     if degree == 1:
-        return points, np.concatenate([[at[0]], at, [at[-1]]]), 1
+        return ControlledSpline(points, np.concatenate([[at[0]], at, [at[-1]]]), 1)
     if not closed:
         made = make_interp_spline(at, points, k=degree)
-        return made.c, made.t, degree
+        return ControlledSpline(made.c, made.t, degree)
     if degree % 2 == 0:
         degree += 1 if degree + 1 < len(points) else -1
     made = make_interp_spline(at, points, k=degree, bc_type="periodic")
     control, knots = clamped(made.c, made.t, degree)
-    return control, knots, degree
+    return ControlledSpline(control, knots, degree)
 
 
 def of_primitives(primitives: Sequence[Primitive]) -> Nurbs:
@@ -169,10 +192,8 @@ def arc_knots(count: int) -> Floats:
     return np.concatenate([[0.0], np.repeat(np.linspace(0, 1, (count + 1) // 2), 2), [1.0]])
 
 
-def compatible(curves: Sequence[Nurbs]) -> tuple[list[Floats], Floats, int]:
-    """Return control points (k, 4) of curves in one space, its knots from 0 to 1, and its degree; exact but for
-    rounding.
-    """
+def compatible(curves: Sequence[Nurbs]) -> CompatibleCurves:
+    """Return curves in one space, exact but for rounding."""
     degree = max(curve.degree for curve in curves)
     requested: list[list[float]] = []
     for curve in curves:
@@ -188,18 +209,23 @@ def compatible(curves: Sequence[Nurbs]) -> tuple[list[Floats], Floats, int]:
     made = []
     for curve in curves:
         own = _snapped(unit_knots(curve.knots), [knot for knot, _ in requested])
-        made.append(brought(homogeneous(curve), (own, curve.degree), (knots, degree)))
-    return made, knots, degree
+        made.append(brought(homogeneous(curve), SplineSpace(own, curve.degree), SplineSpace(knots, degree)))
+    return CompatibleCurves(made, knots, degree)
 
 
-def _multiplicities(knots: Floats) -> list[tuple[float, int]]:
-    values: list[tuple[float, int]] = []
+class _Knot(NamedTuple):
+    value: float
+    times: int
+
+
+def _multiplicities(knots: Floats) -> list[_Knot]:
+    found: list[_Knot] = []
     for knot in knots.tolist():
-        if values and knot - values[-1][0] <= _ALIKE:
-            values[-1] = (values[-1][0], values[-1][1] + 1)
+        if found and knot - found[-1].value <= _ALIKE:
+            found[-1] = found[-1]._replace(times=found[-1].times + 1)
         else:
-            values.append((knot, 1))
-    return values
+            found.append(_Knot(knot, 1))
+    return found
 
 
 def _snapped(knots: Floats, requested: list[float]) -> Floats:

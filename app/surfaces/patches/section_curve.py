@@ -14,7 +14,7 @@ from ...model.curves import Spline
 from ...model.motion import Nurbs
 from ...model.part import Contour, Part
 from ...model.scene_curves import CurveForm, SceneFiles, SectionCurve, Spacing
-from .nurbs_curve import brought, even_knots, of_homogeneous, of_primitives, parameters, through
+from .nurbs_curve import SplineSpace, brought, even_knots, of_homogeneous, of_primitives, parameters, through
 
 Floats = NDArray[np.float64]
 
@@ -79,8 +79,8 @@ def placed(points: Floats, section: SectionCurve) -> Floats:
 
 
 def _through(section: SectionCurve, at: Floats) -> Nurbs:
-    control, knots, degree = through(_places(section), at, section.degree, section.closed)
-    return Nurbs(control, np.ones(len(control)), knots, degree)
+    spline = through(_places(section), at, section.degree, section.closed)
+    return Nurbs(spline.points, np.ones(len(spline.points)), spline.knots, spline.degree)
 
 
 def _controlled(section: SectionCurve) -> Nurbs:
@@ -97,7 +97,7 @@ def _controlled(section: SectionCurve) -> Nurbs:
     knots = np.arange(-degree, count + degree + 1) / count
     inner = np.arange(1, count) / count
     ends = np.concatenate([np.zeros(degree + 1), inner, np.ones(degree + 1)])
-    made = brought(rows, (knots, degree), (ends, degree))
+    made = brought(rows, SplineSpace(knots, degree), SplineSpace(ends, degree))
     return of_homogeneous(made, ends, degree)
 
 

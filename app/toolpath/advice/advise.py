@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 import shapely
 from shapely import Geometry as Shape
 
+from ...core.durations import minutes_words
 from ...core.errors import ParameterError
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.primitives import TURN, R, pack, points_at, signed_area
@@ -158,7 +160,9 @@ def advise(
     where = centres(pack(regions), sorted(requested), progress.part(0.3, 0.6))
     shapes = [shapely.union_all(region_shapes([region], _CHORD)) for region in regions]
     bare = [_region(walls, found, k, number) for k, number in enumerate(numbers)]
-    advised = _with_reaches(bare, shapes, (usable, where), progress.part(0.6, 0.9))
+    advised = _with_reaches(
+        bare, shapes, [_ToolCentres(tool, where[tool.radius - FITS]) for tool in usable], progress.part(0.6, 0.9)
+    )
     taken: dict[int, CuttingTimes] = {}
     for done, tool in enumerate(clearing):
         progress.step(0.9 + 0.1 * done / len(clearing), f"Time with T{tool.number}")
@@ -168,18 +172,24 @@ def advise(
     return Advice(advised, choices, pocket, contour, taken[pocket.number], _why((pocket, contour), advised, choices))
 
 
+class _ToolCentres(NamedTuple):
+    """A tool, and where its centre can be."""
+
+    tool: Tool
+    centres: CentreArea
+
+
 def _with_reaches(
     regions: Sequence[RegionAdvice],
     shapes: Sequence[Shape],
-    tools: tuple[Sequence[Tool], Mapping[float, CentreArea]],
+    centres_of: Sequence[_ToolCentres],
     progress: Progress,
 ) -> tuple[RegionAdvice, ...]:
-    """Return the regions with what each tool reaches of them; where its centre can be comes with the tools."""
+    """Return the regions with what each tool reaches of them."""
     found: list[list[RegionReach]] = [[] for _ in regions]
-    for done, tool in enumerate(tools[0]):
-        at = tools[1][tool.radius - FITS]
+    for done, (tool, at) in enumerate(centres_of):
         for k, (region, shape) in enumerate(zip(regions, shapes, strict=True)):
-            progress.step((done + k / len(regions)) / len(tools[0]), f"What T{tool.number} reaches")
+            progress.step((done + k / len(regions)) / len(centres_of), f"What T{tool.number} reaches")
             if region.number in at.shapes:
                 found[k].append(reach(shape, tool.diameter, at.shapes[region.number]))
             else:
@@ -234,13 +244,13 @@ def _why(tools: tuple[Tool, Tool], regions: Sequence[RegionAdvice], choices: Seq
         return f"No tool fits: {_named(contour.tool)} is the smallest, and the largest disc is {_measured(widest)}."
     if pocket is contour:
         return (
-            f"{_bounds(contour, regions)} It takes about {_clock(pocket.times.total)} min by itself; "
+            f"{_bounds(contour, regions)} It takes about {minutes_words(pocket.times.total)} min by itself; "
             "a larger one before it saves no time."
         )
     return (
         f"{_bounds(contour, regions)} {_named(pocket.tool)} reaches {pocket.share:.0%} of the area; with it first the "
-        f"job takes about {_clock(pocket.times.total)} min, with {_named(contour.tool)} alone "
-        f"{_clock(contour.times.total)} min."
+        f"job takes about {minutes_words(pocket.times.total)} min, with {_named(contour.tool)} alone "
+        f"{minutes_words(contour.times.total)} min."
     )
 
 
@@ -261,8 +271,3 @@ def _measured(spot: SizedPlace) -> str:
 
 def _named(tool: Tool) -> str:
     return tool.name or f"T{tool.number} {tool.label}"
-
-
-def _clock(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes}:{rest:02d}"

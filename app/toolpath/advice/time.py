@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import shapely
 from shapely import Geometry as Shape
@@ -96,14 +97,14 @@ def times(pocket: Tool, contour: Tool, where: Mapping[float, CentreArea], plan: 
     """
     along, frame, beyond = (where[distance] for distance in distances(pocket, contour))
     clearing = max(frame.length, frame.area / (plan.stepover * pocket.diameter) + frame.length / 2)
-    seconds = _cutting(pocket, clearing, (_areas(frame), 1.0), plan)
+    seconds = _cutting(pocket, clearing, _Strokes(_areas(frame), 1.0), plan)
     cleared = {region: covered(shape, pocket.radius) for region, shape in frame.shapes.items()}
     metal = 1.0 - min(1.0, sum(shape.area for shape in cleared.values()) / along.area) if along.area > 0 else 1.0
-    wall = _cutting(contour, along.length, (along.rings, metal), plan)
+    wall = _cutting(contour, along.length, _Strokes(along.rings, metal), plan)
     rest = 0.0
     if pocket.diameter > contour.diameter:
-        area, pieces, alone = _rest(beyond, cleared, contour)
-        rest = _cutting(contour, area / (plan.stepover * contour.diameter), (pieces, alone), plan)
+        left = _rest(beyond, cleared, contour)
+        rest = _cutting(contour, left.area / (plan.stepover * contour.diameter), left.strokes, plan)
     return CuttingTimes(seconds, wall, rest, plan.tool_change if pocket.number != contour.number else 0.0)
 
 
@@ -112,10 +113,22 @@ def _areas(centres: CentreArea) -> int:
     return sum(shapely.get_num_geometries(shape) for shape in centres.shapes.values())
 
 
-def _rest(beyond: CentreArea, cleared: Mapping[int, Shape], contour: Tool) -> tuple[float, int, float]:
-    """Return (area, mm2, pieces, share of those that lie by themselves) of what neither the pocket tool nor the contour
-    pass takes.
-    """
+class _Strokes(NamedTuple):
+    """How many strokes there are, and the share of them that goes down into metal."""
+
+    number: int
+    into_metal: float
+
+
+class _Rest(NamedTuple):
+    """What two tools leave: its area, mm2, and the strokes for its pieces; those by themselves begin in metal."""
+
+    area: float
+    strokes: _Strokes
+
+
+def _rest(beyond: CentreArea, cleared: Mapping[int, Shape], contour: Tool) -> _Rest:
+    """Return what neither the pocket tool nor the contour pass takes."""
     area, pieces, alone = 0.0, 0, 0
     for region, shape in beyond.shapes.items():
         left = shapely.get_parts(shapely.difference(shape, cleared[region]) if region in cleared else shape)
@@ -125,10 +138,10 @@ def _rest(beyond: CentreArea, cleared: Mapping[int, Shape], contour: Tool) -> tu
             shapely.prepare(cleared[region])
             left = left[~shapely.dwithin(cleared[region], left, contour.radius)]
         alone += len(left)
-    return area, pieces, alone / max(pieces, 1)
+    return _Rest(area, _Strokes(pieces, alone / max(pieces, 1)))
 
 
-def _cutting(tool: Tool, length: float, strokes: tuple[int, float], plan: CuttingPlan) -> float:
+def _cutting(tool: Tool, length: float, strokes: _Strokes, plan: CuttingPlan) -> float:
     """Return the seconds for so many mm at each depth in so many strokes, of which a share goes down into metal."""
     if length <= 0:
         return 0.0

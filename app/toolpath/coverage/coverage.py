@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
-from itertools import pairwise
+from itertools import islice, pairwise
 
 import numpy as np
 import shapely
@@ -60,6 +60,9 @@ _TEXT = "Measuring what is left"
 
 _TILES = 256
 """Boxes that are held against moves in one go."""
+
+_TOGETHER = 16
+"""Parts of so many boxes that are given to the cores at once."""
 
 _RUN = 64
 """Moves that are widened in one go; longer runs cross themselves too often for the library."""
@@ -244,11 +247,12 @@ def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = 
 def _left(target: Shape, paths: list[_CuttingPath], progress: Progress) -> Shape:
     """Return what of a wanted area is not cut by paths as deep as its floor, or deeper."""
     tiles = uncertain(target, [(path.rows, path.radius) for path in paths], progress.part(0.0, 0.5))
-    left, done = [], 0
-    for part in _UndecidedBoxes(target, tiles, shapely.bounds(tiles), paths).parts():
+    left, done = list[Shape](), 0
+    parts = _UndecidedBoxes(target, tiles, shapely.bounds(tiles), paths).parts()
+    while some := list(islice(parts, _TOGETHER)):  # a few on all cores, so that it can be stopped between them
         progress.step(0.5 + done / max(len(tiles), 1) / 2, _TEXT)  # no box is in doubt where no move cuts
-        left.append(part.left())
-        done += len(part.tiles)
+        left += pool().map(_UndecidedBoxes.left, some)
+        done += sum(len(part.tiles) for part in some)
     return _solid(united(left))
 
 

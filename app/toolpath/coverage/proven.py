@@ -48,6 +48,9 @@ _ROUNDING = 1e-9
 _AT_A_TIME, _SQUARE_BYTES = 1 << 20, 250
 """Squares that are looked at together, few enough to be stopped between them, and what one takes meanwhile."""
 
+_EDGES_AT_A_TIME, _EDGE_BYTES = 1_500_000, 160
+"""Edges of an area that are looked at together, and what one takes with its tree."""
+
 Floats = NDArray[np.float64]
 States = NDArray[np.uint8]
 
@@ -62,11 +65,30 @@ def uncertain(
         paths: (rows (m, 8) of a path, radius of its cutter, mm, > 0); rows may sweep up to a full turn.
         progress: looked at between sizes of squares.
     """
-    from .swath_kernels import COVERED, OPEN, OUTSIDE
-
     swaths = [_Swath.of(rows, radius) for rows, radius in paths if len(rows)]
     if target.is_empty or not swaths:
         return np.array([] if target.is_empty else [shapely.box(*target.bounds)], dtype=object)
+    portions = _portions(target)
+    if len(portions) > 1 and not any(
+        len(_undecided(shapely.multipolygons(each), swaths, progress)) for each in portions
+    ):
+        return np.zeros(0, dtype=object)
+    return _undecided(target, swaths, progress)
+
+
+def _portions(target: Shape) -> list[NDArray[np.object_]]:
+    """Return the polygons of an area in portions whose edges are not too many to be held with all that is known of
+    them.
+    """
+    shapes, most = shapely.get_parts(target), min(_EDGES_AT_A_TIME, portion(_EDGE_BYTES))
+    upto = np.cumsum(shapely.get_num_coordinates(shapes))
+    return np.split(shapes, np.flatnonzero(np.diff(upto // most)) + 1)
+
+
+def _undecided(target: Shape, swaths: Sequence[_Swath], progress: Progress) -> NDArray[np.object_]:
+    """Return `uncertain` of an area beside some paths."""
+    from .swath_kernels import COVERED, OPEN, OUTSIDE
+
     area, least = DistanceField.of(_edges(target)), min(each.radius for each in swaths)
     most_reach = max(each.radius for each in swaths) + _SLACK
     kept: list[NDArray[np.object_]] = []

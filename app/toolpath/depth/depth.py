@@ -138,7 +138,7 @@ class DepthPasses:
         self._go_to_height(way.path, way.top, way.top + retract)
         self.builder.ramp(way.path, way.heights, self.label)
         if way.well is not None:
-            self.ground.cleared.wells[way.well[0]] = way.well[1]
+            self.ground.cleared.wells[way.well.disc] = way.well.floor
 
     def _floor(self, stroke: Stroke) -> float:
         """Return down to which height the ground is cut where a stroke begins, mm."""

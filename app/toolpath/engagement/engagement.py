@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -146,7 +147,7 @@ def sample_engagement(program: Program, job: Job, progress: Progress = NO_PROGRE
         number: _radius(job.tool(number), -float(lowest[cutting & (moves.tool == number)].min())) for number in numbers
     }
     path = _CuttingRuns(moves, radii, stock_box(job, program.regions, program.lines))
-    found: dict[int, tuple[PathPlaces, Floats]] = {}
+    found: dict[int, _SeenRun] = {}
     pitches = {}
     for k, number in enumerate(numbers):
         pitches[number] = path.along(number, found, progress.part(k / len(numbers), (k + 1) / len(numbers)))
@@ -164,6 +165,13 @@ def _radius(tool: Tool, depth: float) -> float:
     return max(cutting_radius(tool, depth), _THINNEST * tool.radius) if depth > 0 else tool.radius
 
 
+class _SeenRun(NamedTuple):
+    """Where a run was looked at, and the share of the tool that is engaged at each place."""
+
+    places: PathPlaces
+    share: Floats
+
+
 class _CuttingRuns:
     """The cutting moves of all tools, run by run."""
 
@@ -173,7 +181,7 @@ class _CuttingRuns:
         self._tools = [int(moves.tool[chosen[0]]) for chosen in self._runs]
         self._kept: dict[int, PathPlaces] = {}
 
-    def along(self, number: int, found: dict[int, tuple[PathPlaces, Floats]], progress: Progress) -> float:
+    def along(self, number: int, found: dict[int, _SeenRun], progress: Progress) -> float:
         """Put what is seen along the path of one tool, run by run, into `found`; return the side of the cells, mm."""
         own = [k for k, tool in enumerate(self._tools) if tool == number]
         radii = self._radii[number], max(self._radii.values())
@@ -184,7 +192,7 @@ class _CuttingRuns:
             here = progress.part(k / (own[-1] + 1), (k + 1) / (own[-1] + 1))
             run = self._places(k, here)
             if tool == number:
-                found[k] = replace(run, rows=run.rows[:0]), material.engaged(run.rows, here)[run.seen]
+                found[k] = _SeenRun(replace(run, rows=run.rows[:0]), material.engaged(run.rows, here)[run.seen])
             else:
                 material.cut(run.rows, self._radii[tool], here)
         return material.pitch

@@ -5,7 +5,7 @@ slowed there.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,7 +55,7 @@ def followed(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Pr
     count = high - low
     owner = np.repeat(going, count)
     block = np.arange(len(owner)) + np.repeat(low - (np.cumsum(count) - count), count)
-    allowed = _allowed(moves, owner, (blocks.share[block], limits[owner]), (seen, job))
+    allowed = _allowed(_Parts(owner, blocks.share[block], limits[owner]), moves, seen, job)
     offsets = np.cumsum(count) - count
     feed = moves.feed.copy()
     feed[going] = np.minimum.reduceat(allowed, offsets)
@@ -84,28 +84,38 @@ class _Blocks:
     share: Floats
 
 
-def _blocks(seen: EngagementSamples) -> tuple[Indices, Indices, Indices, _Blocks]:
-    """Return (moves, the first block of each, behind the last, blocks)."""
+class _BlocksOfMoves(NamedTuple):
+    """Moves that go anywhere, the first block of each, and the one behind its last; all blocks."""
+
+    moves: Indices
+    first: Indices
+    behind: Indices
+    blocks: _Blocks
+
+
+def _blocks(seen: EngagementSamples) -> _BlocksOfMoves:
+    """Return the blocks of path along moves."""
     going = np.flatnonzero(seen.end > seen.begin)
     if not len(going):
-        return going, going, going, _Blocks(seen.first, seen.last, seen.share)
+        return _BlocksOfMoves(going, going, going, _Blocks(seen.first, seen.last, seen.share))
     heads = np.flatnonzero(np.diff(seen.block, prepend=-1))
     tails = np.append(heads[1:], len(seen.block)) - 1
     blocks = _Blocks(seen.first[heads], seen.last[tails], np.maximum.reduceat(seen.share, heads))
     low, high = spans(seen.begin[going], seen.end[going], blocks.first, blocks.last)
-    return going, low, high, blocks
+    return _BlocksOfMoves(going, low, high, blocks)
 
 
-def _allowed(
-    moves: Moves, owner: Indices, shares: tuple[Floats, Floats], ground: tuple[EngagementSamples, Job]
-) -> Floats:
-    """Return the feed of parts of moves, mm/min.
+class _Parts(NamedTuple):
+    """Parts of moves: the move of each, the share of the tool that is engaged in it, and that may be."""
 
-    Args:
-        owner: move of each part. shares: engaged in each part, and allowed.
-        ground: what was seen, and the job.
-    """
-    (engaged, limit), (seen, job) = shares, ground
+    owner: Indices
+    engaged: Floats
+    limit: Floats
+
+
+def _allowed(parts: _Parts, moves: Moves, seen: EngagementSamples, job: Job) -> Floats:
+    """Return the feed of parts of moves, mm/min."""
+    owner, engaged, limit = parts
     numbers, place = np.unique(moves.tool[owner], return_inverse=True)
     requested = np.array([job.tool(int(number)).feed_rate for number in numbers])[place]
     bound = np.array([seen.bound(int(number)) for number in numbers])[place]

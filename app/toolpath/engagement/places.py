@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -135,7 +136,7 @@ def places(moves: Moves, chosen: Indices, radius: float) -> PathPlaces:
     )
     at = np.clip((middle - begin[own]) / flat[own], 0.0, 1.0) if len(own) else np.zeros(0)
     looks = _looks(rows[own], at, _heights(moves, chosen[own], at), middle)
-    stamps = _stamps(moves, chosen, (rows, flat, begins), (begin, end))
+    stamps = _stamps(moves, chosen, _Chains(rows, flat, begins, begin, end))
     every = np.concatenate([looks, stamps])
     order = np.argsort(every[:, 3], kind="stable")
     tail = np.array([[0.0, 0.0, 0.0, math.inf, 0.0, 0.0]])
@@ -154,8 +155,16 @@ def places(moves: Moves, chosen: Indices, radius: float) -> PathPlaces:
     )
 
 
-def _cells(begin: Floats, length: Floats, radius: float) -> tuple[Floats, Floats, Indices]:
-    """Return begin and size of each cell of some chains, and the number of its block."""
+class _ChainCells(NamedTuple):
+    """Cells of chains: where each begins, its size, and the number of its block."""
+
+    begin: Floats
+    size: Floats
+    block: Indices
+
+
+def _cells(begin: Floats, length: Floats, radius: float) -> _ChainCells:
+    """Return the cells of some chains."""
     going = length > 0
     begin, length = begin[going], length[going]
     blocks = np.maximum(1, np.floor(length / (BLOCK * radius) + _SLACK)).astype(np.int64)
@@ -164,7 +173,8 @@ def _cells(begin: Floats, length: Floats, radius: float) -> tuple[Floats, Floats
     chain = np.repeat(np.arange(len(begin)), count)
     number = np.arange(len(chain)) - np.repeat(np.cumsum(count) - count, count)
     size = (length / count)[chain]
-    return begin[chain] + number * size, size, (np.cumsum(blocks) - blocks)[chain] + number // each[chain]
+    block = (np.cumsum(blocks) - blocks)[chain] + number // each[chain]
+    return _ChainCells(begin[chain] + number * size, size, block)
 
 
 def _heights(moves: Moves, index: Indices, fraction: Floats) -> Floats:
@@ -186,11 +196,19 @@ def _ahead(rows: Rows, points: Floats) -> Floats:
     return np.asarray(ahead / np.maximum(np.hypot(*ahead.T), 1e-300)[:, None])
 
 
-def _stamps(
-    moves: Moves, chosen: Indices, path: tuple[Rows, Floats, NDArray[np.bool_]], positions: tuple[Floats, Floats]
-) -> Floats:
+class _Chains(NamedTuple):
+    """Cutting moves as chains: rows, lengths in the plane, which begin a chain, positions of their ends."""
+
+    rows: Rows
+    flat: Floats
+    begins: NDArray[np.bool_]
+    begin: Floats
+    end: Floats
+
+
+def _stamps(moves: Moves, chosen: Indices, chains: _Chains) -> Floats:
     """Return the places that are only cut: ends of chains, corners, and what goes straight down."""
-    (rows, flat, begins), (begin, end) = path, positions
+    rows, flat, begins, begin, end = chains
     last = np.append(begins[1:], True)
     setting_out, arriving = _ahead(rows, rows[:, :2]), _ahead(rows, rows[:, 2:4])
     turn = np.abs(

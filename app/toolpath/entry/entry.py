@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ from ...model.moves import Tab
 from ...model.operation import Direction
 from ...model.tool import Tool
 from ..build import Stroke
-from ..cleared_ground import ClearedGround
+from ..cleared_ground import ClearedGround, Disc
 
 Floats = NDArray[np.float64]
 
@@ -77,6 +78,13 @@ class EntryContext:
         return max(min(self.keep, here), self.keep - tolerances.LEVEL) - _EXACT
 
 
+class ClearedWell(NamedTuple):
+    """The disc that a helix clears, and the height down to which, mm."""
+
+    disc: Disc
+    floor: float
+
+
 @dataclass(frozen=True, eq=False)
 class Descent:
     """A way down.
@@ -87,7 +95,7 @@ class Descent:
         path: that it goes along; no rows where it goes straight down.
         heights: (n,) at which each row of it ends, mm.
         stroke: the path to be cut after it; it begins where the descent ends.
-        well: centre and radius of the disc that it clears itself, and the height down to which, mm.
+        well: that it clears itself; None where it clears none.
     """
 
     kind: EntryKind
@@ -95,7 +103,7 @@ class Descent:
     path: Stroke
     heights: Floats
     stroke: Stroke
-    well: tuple[tuple[float, float, float], float] | None = None
+    well: ClearedWell | None = None
 
 
 def descent(stroke: Stroke, z: float, kind: EntryKind, ground: EntryContext) -> Descent:
@@ -138,7 +146,7 @@ def _helix(stroke: Stroke, z: float, ground: EntryContext) -> Descent | None:
     centres = np.array([np.array(stroke.start) + side * radius * left for radius, side in tried])
     for (radius, side), centre, away in zip(tried, centres, ground.walls.nearest(centres)[0], strict=True):
         if away >= allowed + radius and not _over_tab(centre, radius, ground):
-            return _turns(stroke, z, (radius, side, centre), ground)
+            return _turns(stroke, z, _HelixCircle(radius, side, centre), ground)
     return None
 
 
@@ -147,10 +155,18 @@ def _over_tab(centre: Floats, radius: float, ground: EntryContext) -> bool:
     return any(math.dist(centre, (tab.x, tab.y)) < reach + tab.width / 2 for tab in ground.tabs)
 
 
-def _turns(stroke: Stroke, z: float, circle: tuple[float, float, Floats], ground: EntryContext) -> Descent:
+class _HelixCircle(NamedTuple):
+    """The circle of a helix: radius, mm, side of the path that it lies on (1 = left, -1 = right), centre (2,)."""
+
+    radius: float
+    side: float
+    centre: Floats
+
+
+def _turns(stroke: Stroke, z: float, circle: _HelixCircle, ground: EntryContext) -> Descent:
     radius, side, centre = circle
     x, y = centre.tolist()
-    disc = (x, y, radius + ground.tool.radius)
+    disc = Disc(x, y, radius + ground.tool.radius)
     material = (
         ground.cleared.wells[disc]
         if disc in ground.cleared.wells
@@ -165,7 +181,7 @@ def _turns(stroke: Stroke, z: float, circle: tuple[float, float, Floats], ground
     heights = top + (z - top) * np.arange(1, 2 * count + 1) / (2 * count)
     heights[-1] = z
     path = replace(stroke, rows=rows, purpose=np.zeros(len(rows), np.uint8), least_z=None)
-    return Descent(EntryKind.HELIX, top, path, heights, stroke, (disc, min(0.0, z + (top - z) / count)))
+    return Descent(EntryKind.HELIX, top, path, heights, stroke, ClearedWell(disc, min(0.0, z + (top - z) / count)))
 
 
 def _ramp(stroke: Stroke, z: float, ground: EntryContext) -> Descent | None:

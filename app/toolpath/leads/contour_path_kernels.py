@@ -1,7 +1,7 @@
 """Compiled inner loops on many paths at once: how far along each of them something is."""
 
 from ...core.jit import kernel
-from ...geometry.kernels import INF, nearest, place_on
+from ...geometry.kernels import INF, nearest_from, place_on
 
 _TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
 _ROUNDING = 1e-9
@@ -49,12 +49,14 @@ def keep_clear(walls, order, nodes, rows, sizes, need, step, miss, good):
         sizes: (n,) length of each row, mm.
         step: shortest step, mm. miss: by which a distance may fall short, mm.
     """
+    near = -1
     for k in range(len(rows)):
         at, known, good[k] = 0.0, INF, True
         while True:
             x, y = place_on(rows, k, min(at / max(sizes[k], 1e-300), 1.0))
             limit = min(max(need[k], 0.0) + sizes[k] - at, known) + _ROUNDING
-            distance, row = nearest(walls, order, nodes, x, y, limit)
+            distance, row = nearest_from(walls, order, nodes, x, y, -1.0, limit, near)
+            near = row if row >= 0 else near
             spare = distance - need[k]
             if spare < -miss:
                 good[k] = False

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -81,6 +82,39 @@ class PathWithLeads:
     bent: bool
 
 
+class _LeadTry(NamedTuple):
+    """Leads to be tried: arcs or straight lines, and how large, as a share of the size that was asked for."""
+
+    bent: bool
+    share: float
+
+
+class _Beginning(NamedTuple):
+    """Where a path may begin: its number, and the place, mm along it."""
+
+    path: int
+    start: float
+
+
+class _ClearLeads(NamedTuple):
+    """A beginning both of whose leads are clear all along; their rows (2, 8): to the wall, away from it."""
+
+    begins: _Beginning
+    ways: Rows
+
+
+class _PathCorners(NamedTuple):
+    """Corners of some closed paths, one path after the other.
+
+    Attributes:
+        at: (k,) mm along their path.
+        first: (m + 1,) where those of each path begin.
+    """
+
+    at: Floats
+    first: Indices
+
+
 def runs(
     paths: Sequence[ContourPath],
     taken: Sequence[Sequence[tuple[float, float]]],
@@ -103,16 +137,16 @@ def runs(
     joined = ContourPaths.of(paths)
     lengths = joined.lengths.tolist()
     made: dict[int, PathWithLeads] = {}
-    for bent, share in _tries(around):
-        if share * around.size < _LEAST:
+    for tried in _tries(around):
+        if tried.share * around.size < _LEAST:
             continue
         # the best beginning of every path, then the next of those still without
         for turn in range(max(map(len, starts), default=0)):
-            requested = [(k, starts[k][turn]) for k in range(len(paths)) if k not in made and turn < len(starts[k])]
-            for k, start, way in _fitting(joined, requested, around, (bent, share)):
-                made[k] = PathWithLeads(
-                    paths[k], start, _stop(paths[k], lengths[k], start, around), way[:1], way[1:], share, bent
-                )
+            left = [k for k in range(len(paths)) if k not in made and turn < len(starts[k])]
+            requested = [_Beginning(k, starts[k][turn]) for k in left]
+            for (k, start), way in _fitting(joined, requested, around, tried):
+                stop = _stop(paths[k], lengths[k], start, around)
+                made[k] = PathWithLeads(paths[k], start, stop, way[:1], way[1:], tried.share, tried.bent)
     none = np.zeros((0, 8))
     return tuple(
         made.get(k)
@@ -122,28 +156,24 @@ def runs(
 
 
 def _fitting(
-    paths: ContourPaths, requested: Sequence[tuple[int, float]], around: LeadContext, how: tuple[bool, float]
-) -> list[tuple[int, float, Rows]]:
-    """Return the beginnings (path, mm along it) both of whose leads are clear all along, and their rows (2, 8): to the
-    wall, away from it.
+    paths: ContourPaths, requested: Sequence[_Beginning], around: LeadContext, tried: _LeadTry
+) -> list[_ClearLeads]:
+    """Return the beginnings both of whose leads are clear all along.
 
     Leads keep off as the path does: where it lies nearer itself, by what it may miss its distance, as near as it.
-
-    Args:
-        how: (arc, share of the size).
     """
     if not requested:
         return []
-    number, start = np.array([k for k, _ in requested]), np.array([at for _, at in requested])
+    number, start = np.array([each.path for each in requested]), np.array([each.start for each in requested])
     points, ahead = _spots(paths, number, start, around)
-    ways = _ways(points, ahead, around, how)
+    ways = _ways(points, ahead, around, tried)
     near = around.field.nearest(points.reshape(-1, 2))[0].reshape(-1, 2).min(axis=1)
     good = (
         keep_clear(around.field, ways.reshape(-1, 8), np.repeat(np.minimum(around.need, near), 2))
         .reshape(-1, 2)
         .all(axis=1)
     )
-    return [(*requested[k], ways[k]) for k in np.flatnonzero(good).tolist()]
+    return [_ClearLeads(requested[k], ways[k]) for k in np.flatnonzero(good).tolist()]
 
 
 def _spots(paths: ContourPaths, number: Indices, start: Floats, around: LeadContext) -> tuple[Floats, Floats]:
@@ -158,16 +188,15 @@ def _spots(paths: ContourPaths, number: Indices, start: Floats, around: LeadCont
     return np.where(closed[:, None, None], points, outer), ahead  # an open path's end is the end of its last row
 
 
-def _ways(points: Floats, ahead: Floats, around: LeadContext, how: tuple[bool, float]) -> Rows:
+def _ways(points: Floats, ahead: Floats, around: LeadContext, tried: _LeadTry) -> Rows:
     """Return the rows (k, 2, 8) to the wall and away from it; args as `_spots` returns them and `_fitting` takes
     them.
     """
     aside = left_of(ahead.reshape(-1, 2)).reshape(ahead.shape) * around.away
-    bent, share = how
-    size = share * around.size
+    size = tried.share * around.size
     rows = np.zeros((len(points), 2, 8))
     rows[:, 0, [X1, Y1]], rows[:, 1, :2] = points[:, 0], points[:, 1]
-    if not bent:
+    if not tried.bent:
         rows[:, 0, :2], rows[:, 1, [X1, Y1]] = points[:, 0] + size * aside[:, 0], points[:, 1] + size * aside[:, 1]
         return rows
     centres = points + size * aside
@@ -177,16 +206,16 @@ def _ways(points: Floats, ahead: Floats, around: LeadContext, how: tuple[bool, f
     return rows
 
 
-def _tries(around: LeadContext) -> list[tuple[bool, float]]:
-    """Return (arc, share of the size) in the order of trying."""
+def _tries(around: LeadContext) -> list[_LeadTry]:
+    """Return which leads to try, in this order."""
     if around.lead.kind is LeadKind.NONE:
         return []
     least = _SMALLEST * min(1.0, around.tool.radius / around.size)
     shares = [1.0]
     while shares[-1] / 2 >= least:
         shares.append(shares[-1] / 2)
-    arcs = [(True, share) for share in shares] if around.lead.kind is LeadKind.ARC else []
-    return arcs + [(False, share) for share in shares]
+    arcs = [_LeadTry(True, share) for share in shares] if around.lead.kind is LeadKind.ARC else []
+    return arcs + [_LeadTry(False, share) for share in shares]
 
 
 def _stop(path: ContourPath, length: float, start: float, around: LeadContext) -> float:
@@ -225,7 +254,7 @@ def _starts(
     return found
 
 
-def _middles(paths: ContourPaths, corners: tuple[Floats, Indices]) -> tuple[Indices, Floats]:
+def _middles(paths: ContourPaths, corners: _PathCorners) -> tuple[Indices, Floats]:
     """Return (path, mm along it), path by path, of the middles of all rows, and of what lies between one corner and the
     next.
     """
@@ -240,9 +269,7 @@ def _middles(paths: ContourPaths, corners: tuple[Floats, Indices]) -> tuple[Indi
     return both[order], np.concatenate([paths.ends - paths.outlines.sizes / 2, between])[order]
 
 
-def _score(
-    paths: ContourPaths, path: Indices, places: Floats, corners: tuple[Floats, Indices], around: LeadContext
-) -> Floats:
+def _score(paths: ContourPaths, path: Indices, places: Floats, corners: _PathCorners, around: LeadContext) -> Floats:
     """Return how good places are to begin at: up to 1 for the way to the next corner, as much for room, a little for
     straight rows.
     """
@@ -257,7 +284,7 @@ def _score(
     return score + 0.01 * far / np.maximum(length, 1e-9)  # a tool as wide as its hole has a path of no length
 
 
-def _to_corners(path: Indices, places: Floats, corners: tuple[Floats, Indices], length: Floats) -> Floats:
+def _to_corners(path: Indices, places: Floats, corners: _PathCorners, length: Floats) -> Floats:
     """Return how far it is from places to the nearest corner along their path, mm; all of the path where it has
     none.
     """
@@ -279,13 +306,11 @@ def corners_of(path: ContourPath, around: LeadContext, least: float) -> Floats:
     Args:
         least: a joint that turns less is none, radians.
     """
-    return _corners(path.alone, around, least)[0]
+    return _corners(path.alone, around, least).at
 
 
-def _corners(paths: ContourPaths, around: LeadContext, least: float) -> tuple[Floats, Indices]:
-    """Return the corners of all of some closed paths, one path after the other, and (m + 1,) where those of each
-    begin.
-    """
+def _corners(paths: ContourPaths, around: LeadContext, least: float) -> _PathCorners:
+    """Return the corners of all of some closed paths."""
     rows, size, owner = paths.outlines.rows, paths.outlines.sizes, paths.outlines.owner
     begin = paths.ends - size
     rounding = (rows[:, TURN] == -around.away) & (np.abs(rows[:, R] - around.need) < _SAME)
@@ -296,7 +321,7 @@ def _corners(paths: ContourPaths, around: LeadContext, least: float) -> tuple[Fl
     at, path = at[order], path[order]
     new = np.ones(len(at), np.bool_)
     new[1:] = (np.diff(at) != 0) | (np.diff(path) != 0)
-    return at[new], np.searchsorted(path[new], np.arange(len(paths.closed) + 1))
+    return _PathCorners(at[new], np.searchsorted(path[new], np.arange(len(paths.closed) + 1)))
 
 
 def reach(around: LeadContext) -> float:

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
-from ...geometry.kernels import nearest
+from ...geometry.kernels import nearest_from
 from ..cleared_kernels import keeps_off
 
 
@@ -30,6 +30,7 @@ def clear_rows(rows, order, nodes, path, turn, distance, slack, out):
     Args:
         turn: (n,) signed sweep of each row, radians.
     """
+    near = -1
     for k in range(len(path)):
         ax, ay, cx, cy, r = path[k, 0], path[k, 1], path[k, 4], path[k, 5], path[k, 6]
         dx, dy = path[k, 2] - ax, path[k, 3] - ay
@@ -42,7 +43,8 @@ def clear_rows(rows, order, nodes, path, turn, distance, slack, out):
             x, y = ax + dx * part, ay + dy * part
             if arc:
                 x, y = cx + r * math.cos(start + turn[k] * part), cy + r * math.sin(start + turn[k] * part)
-            spare = nearest(rows, order, nodes, x, y, math.inf)[0] - (distance - slack)
+            away, near = nearest_from(rows, order, nodes, x, y, -1.0, math.inf, near)
+            spare = away - (distance - slack)
             if spare < slack / 4.0:
                 out[k] = False
                 break

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from ...core.pool import pool
 from ...geometry.distance import DistanceField
-from ...geometry.near_points import groups, pairs_within
+from ...geometry.near_points import groups_within
 from ...geometry.offset.offset import OffsetLevel, Ring
 from ...geometry.outlines import Outlines
 from ...geometry.primitives import Indices, Rows, lengths, path_length, points_at, reversed_rows, samples
@@ -217,8 +217,7 @@ class _Space:
         reach = 2 * (self._next.distance - self._half.distance if self._next else self._radius)
         step = self._radius / 4
         owner, points = _along(outlines, step)
-        pairs = np.unique(owner[pairs_within(points, reach + step)], axis=0)
-        return _Gaps(gaps, outlines, groups(len(gaps), pairs))
+        return _Gaps(gaps, outlines, groups_within(points, owner, len(gaps), reach + step))
 
     def corners(self, gaps: _Gaps) -> list[Floats]:
         """Return for each group of gaps the corners (m, 2) of what holds it and all that is uncut beyond it."""

@@ -55,6 +55,22 @@ def _make(job: Job, pixels: BitmapPart | None, drawing_findings: tuple[Finding, 
     return finish(program, job, progress.part(0.5, 0.95), drawing_findings)
 
 
+@dataclass(frozen=True, slots=True)
+class WaitingTimes:
+    """What takes time beside the operations, s; with theirs it is the program's whole time.
+
+    Attributes:
+        changes: how many tools are taken. changing: for these.
+        dwelling: until the spindle runs, and whatever else the control waits for.
+        travelling: on moves that are no operation's.
+    """
+
+    changes: int
+    changing: float
+    dwelling: float
+    travelling: float
+
+
 class Computation(QObject):
     """The document's tool paths.
 
@@ -80,6 +96,7 @@ class Computation(QObject):
         self._job_id: int | None = None
         self._snapshot: Job | None = None
         self._made_for: Job | None = None
+        self._compared: tuple[Job, Job, bool] | None = None
         self.made: MakeResult | None = None
         self.picture: object = None
         self.error = ""
@@ -99,12 +116,12 @@ class Computation(QObject):
             return ComputationState.FAILED
         if self.made is None:
             return ComputationState.NONE
-        return ComputationState.CURRENT if self._made_for is self._document.job else ComputationState.STALE
+        return ComputationState.STALE if self.outdated else ComputationState.CURRENT
 
     @property
     def outdated(self) -> bool:
         """Whether there is a result, of a job that has changed since."""
-        return self.made is not None and self._made_for is not self._document.job
+        return self.made is not None and not self._holds_for(self._made_for)
 
     @property
     def program(self) -> Program | None:
@@ -138,7 +155,7 @@ class Computation(QObject):
 
     def forget(self, drawing_findings: tuple[Finding, ...] = ()) -> None:
         """Drop the result: another document was opened, and reading it had this to say."""
-        self.made, self.picture, self._made_for, self.error = None, None, None, ""
+        self.made, self.picture, self._made_for, self._compared, self.error = None, None, None, None, ""
         self.drawing_findings = drawing_findings
         self.changed.emit()
 
@@ -147,6 +164,24 @@ class Computation(QObject):
         if findings != self.drawing_findings:
             self.drawing_findings = findings
             self.changed.emit()
+
+    def _holds_for(self, job: Job | None) -> bool:
+        """Return whether what was computed for a job is right for the one of now; asked often, compared once."""
+        now = self._document.job
+        if job is None or job is now:
+            return job is now
+        if self._compared is None or self._compared[0] is not job or self._compared[1] is not now:
+            self._compared = (job, now, job.same_paths(now))
+        return self._compared[2]
+
+    def waiting_times(self) -> WaitingTimes | None:
+        """Return what takes time beside the operations; None while the result is out of date."""
+        if self.made is None or self.state is not ComputationState.CURRENT:
+            return None
+        data = self.made.report.data
+        waited, changes = data["time_parts_s"]["wait"], data["tool_changes"]
+        moved = data["time_s"] - waited - sum(self.operation_times().values())
+        return WaitingTimes(changes["count"], changes["time_s"], waited - changes["time_s"], moved)
 
     def operation_times(self) -> dict[int, float]:
         """Return the time of each operation, seconds, by its index; nothing while the result is out of date."""
@@ -159,7 +194,7 @@ class Computation(QObject):
     def _on_change(self, change: DocumentChange) -> None:
         if not change & (DocumentChange.PART | DocumentChange.JOB):
             return
-        if self._job_id is not None and self._snapshot is not self._document.job:
+        if self._job_id is not None and not self._holds_for(self._snapshot):
             self._worker.cancel()
         self.error = ""
         self.changed.emit()
@@ -168,7 +203,7 @@ class Computation(QObject):
         if answer.job_id != self._job_id:
             return
         job = self._end()
-        if answer.revision == self._document.revision:
+        if answer.revision == self._document.revision or self._holds_for(job):
             assert isinstance(answer.value, ComputationResult)
             self.made, self.picture, self._made_for = answer.value.made, answer.value.picture, job
             self.changed.emit()

@@ -2,7 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+
 from PySide6.QtCore import QObject, Signal
+
+from ...model.finding import Finding
+from .verdict import VerdictSummary
+
+
+@dataclass(frozen=True, eq=False)
+class ShownDocument:
+    """What a view shows that is not the drawing and its job: title, badge and findings are of this then.
+
+    Attributes:
+        name: in the title. modified: it has changes that are in no file.
+        verdict: on the badge; None = it is being computed. findings: everything there is to say about it.
+        look_at: shows the place of a finding; None = the findings are only listed.
+    """
+
+    name: str
+    modified: bool
+    verdict: VerdictSummary | None
+    findings: tuple[Finding, ...] = ()
+    look_at: Callable[[Finding], None] | None = None
 
 
 class Controller(QObject):
@@ -17,6 +40,11 @@ class Controller(QObject):
     said = Signal(str)
     changed = Signal()
     front_requested = Signal()
+
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """What the view shows in place of the drawing and its job; None = these."""
+        return None
 
     def see(self, seen: bool) -> None:
         """Be told that the view came to the front, or no longer is there."""

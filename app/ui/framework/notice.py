@@ -32,7 +32,7 @@ class Notice(QWidget):
         self.text = QLabel()
         self.text.setWordWrap(True)
         self.buttons: list[QPushButton] = []
-        self._stays = False
+        self._stays = self._of_job = False
         self.sentence = ""
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(16, 4, 8, 4)
@@ -49,7 +49,19 @@ class Notice(QWidget):
         if not self._stays:
             self.hide()
 
-    def ask(self, sentence: str, answers: Answers = (), error: bool = False, stays: bool = False) -> None:
+    def lapse(self) -> None:
+        """Close the bar, with its buttons, if it speaks of the job as it was before it changed."""
+        if self._of_job:
+            self.hide()
+
+    def ask(
+        self,
+        sentence: str,
+        answers: Answers = (),
+        error: bool = False,
+        stays: bool = False,
+        of_job: bool = False,
+    ) -> None:
         """Show a sentence and a button for each answer; a pressed button closes the bar and acts.
 
         Args:
@@ -57,8 +69,9 @@ class Notice(QWidget):
             answers: text of each button, and what it does.
             error: True for what went wrong.
             stays: True when only an answer, or another sentence, closes the bar.
+            of_job: True when it holds of the job as it is now, and is to go when that changes.
         """
-        self._stays, self.sentence = stays, sentence
+        self._stays, self._of_job, self.sentence = stays, of_job, sentence
         for button in self.buttons:
             self._row.removeWidget(button)
             button.deleteLater()

@@ -21,6 +21,7 @@ class VerdictLevel(Enum):
 
 
 _WORST_FIRST = (
+    FindingKind.PROGRAM,
     FindingKind.AREA,
     FindingKind.GOUGE,
     FindingKind.CLAMP,
@@ -57,6 +58,7 @@ _WORST_FIRST = (
     FindingKind.ENTRY,
 )
 _RED = {
+    FindingKind.PROGRAM,
     FindingKind.AREA,
     FindingKind.GOUGE,
     FindingKind.CLAMP,

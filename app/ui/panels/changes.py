@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import Enum
+from typing import NamedTuple
 
 from ...core.errors import ParameterError
 from ...model.job import Job
@@ -90,20 +91,34 @@ def with_tool(job: Job, number: int, tool: Tool) -> Job:
     return replace(job, tools=tuple(tool if t.number == number else t for t in job.tools), operations=operations)
 
 
-def with_new_tool(job: Job) -> tuple[Job, int]:
+class JobWithTool(NamedTuple):
+    """A job, and the T number of the tool that it got."""
+
+    job: Job
+    number: int
+
+
+class JobWithOperation(NamedTuple):
+    """A job, and the place of an operation in its list."""
+
+    job: Job
+    place: int
+
+
+def with_new_tool(job: Job) -> JobWithTool:
     """Return the job with one more tool, a copy of the last with the next free number, and that number."""
     number = max((t.number for t in job.tools), default=0) + 1
     like = job.tools[-1] if job.tools else Tool(number, 3.0)
-    return replace(job, tools=(*job.tools, replace(like, number=number, name=""))), number
+    return JobWithTool(replace(job, tools=(*job.tools, replace(like, number=number, name=""))), number)
 
 
-def with_library_tool(job: Job, tool: Tool) -> tuple[Job, int]:
+def with_library_tool(job: Job, tool: Tool) -> JobWithTool:
     """Return the job with a tool of the library as one more, and its number: its own where that is free, else the
     next.
     """
     taken = {t.number for t in job.tools}
     number = tool.number if tool.number not in taken else max(taken) + 1
-    return replace(job, tools=(*job.tools, replace(tool, number=number))), number
+    return JobWithTool(replace(job, tools=(*job.tools, replace(tool, number=number))), number)
 
 
 def without_tool(job: Job, number: int) -> Job:
@@ -140,17 +155,17 @@ def with_order(job: Job, order: Order) -> Job:
     )
 
 
-def with_moved_operation(job: Job, index: int, place: int) -> tuple[Job, int]:
+def with_moved_operation(job: Job, index: int, place: int) -> JobWithOperation:
     """Return the job with one operation at another place in the list, and its new index; from then on it is cut as
     listed.
     """
     place = min(max(place, 0), len(job.operations) - 1)
     operations = list(job.operations)
     operations.insert(place, operations.pop(index))
-    return replace(job, operations=tuple(operations), order=Order.POCKET_FIRST), place
+    return JobWithOperation(replace(job, operations=tuple(operations), order=Order.POCKET_FIRST), place)
 
 
-def with_new_operation(job: Job, kind: type[Operation]) -> tuple[Job, int]:
+def with_new_operation(job: Job, kind: type[Operation]) -> JobWithOperation:
     """Return the job with one more operation, as deep as the last one of its kind or the last of all, and its index.
 
     Pockets and rest machining go before the contours, so that a small cutter follows walls where a large one has been.
@@ -168,14 +183,14 @@ def with_new_operation(job: Job, kind: type[Operation]) -> tuple[Job, int]:
     place = contours[0] if early else late
     operations = list(job.operations)
     operations.insert(place, kind(replace(like, enabled=True, curves=())))
-    return replace(job, operations=tuple(operations)), place
+    return JobWithOperation(replace(job, operations=tuple(operations)), place)
 
 
-def with_copied_operation(job: Job, index: int) -> tuple[Job, int]:
+def with_copied_operation(job: Job, index: int) -> JobWithOperation:
     """Return the job with an operation twice, one after the other, and the index of the second."""
     operations = list(job.operations)
     operations.insert(index + 1, operations[index])
-    return replace(job, operations=tuple(operations)), index + 1
+    return JobWithOperation(replace(job, operations=tuple(operations)), index + 1)
 
 
 def without_operation(job: Job, index: int) -> Job:

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+from itertools import accumulate, pairwise
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QLabel, QMenu
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QWidget
 
 from ...model.job import Job
 from ...model.operation import Operation
 from ...model.operation_kinds import OPERATION_KINDS
 from ...model.tool import Tool
+from ..framework.computation import WaitingTimes
 from ..framework.dropping import drop
 from ..framework.figures import TIMES, clock, grouped
 from ..framework.icons import IconButton, IconLabel
 from ..framework.labels import Elided, muted
 from ..framework.samples import LineSample, Switch, sample_of
-from ..framework.section import ListRow, PanelSection, theme_children
+from ..framework.section import EDGE, ListRow, PanelSection, theme_children
 from ..framework.theme import Theme
 from .changes import Subject, SubjectKind, operation_name, refusal
 from .tool_kinds import icon_of
@@ -167,6 +171,42 @@ class ToolSection(ListSection):
             self.add_row(Subject(SubjectKind.TOOL, tool.number), row)
 
 
+@dataclass(frozen=True)
+class OperationTimes:
+    """What takes how long; nothing while the paths are out of date.
+
+    Attributes:
+        of: seconds of each operation, by its index. beside: of what is none.
+    """
+
+    of: dict[int, float] = field(default_factory=dict)
+    beside: WaitingTimes | None = None
+
+    def whole(self) -> OperationTimes:
+        """Return them in whole seconds that add up to the whole time as it is rounded."""
+        beside = self.beside
+        rest = [beside.changing, beside.dwelling, beside.travelling] if beside is not None else []
+        ends = [round(end) for end in accumulate([0.0, *self.of.values(), *rest])]
+        seconds = [float(after - before) for before, after in pairwise(ends)]
+        of = dict(zip(self.of, seconds, strict=False))
+        return OperationTimes(of, WaitingTimes(beside.changes, *seconds[len(of) :]) if beside is not None else None)
+
+
+class WaitingRow(QWidget):
+    """What takes time and is no operation: name, how often, time; it is only read."""
+
+    def __init__(self, name: str, how: str, time: str) -> None:
+        super().__init__()
+        line = QHBoxLayout(self)
+        line.setContentsMargins(EDGE, 0, EDGE, 0)
+        line.setSpacing(8)
+        self.setFixedHeight(24)
+        self.time = muted(time)
+        line.addWidget(muted(name))
+        line.addWidget(Elided(how, "muted"), 1)
+        line.addWidget(self.time)
+
+
 class OperationSection(ListSection):
     """Every operation in the order of cutting: switch, line sample, name, tool, time.
 
@@ -198,23 +238,49 @@ class OperationSection(ListSection):
         self.add_button.clicked.connect(lambda: drop(menu, self.add_button))
         self.head.addWidget(self.add_button)
         self._shown: object = None
+        self.waiting: list[WaitingRow] = []
         self.switches: list[Switch] = []
 
-    def show_job(self, job: Job, times: dict[int, float]) -> None:
-        """Rebuild the rows when operations, tools or times (seconds by index) have changed."""
-        shown = (job.operations, job.tools, tuple(times.items()))
+    def show_job(self, job: Job, times: OperationTimes) -> None:
+        """Rebuild the rows when operations, tools or times have changed; with what is waited for beside the operations
+        the rows add up to the program's time.
+        """
+        times = times.whole()
+        shown = (job.operations, job.tools, times)
         if shown == self._shown:
             return
         self._shown = shown
         self.clear_rows()
         self.switches = []
         for index, operation in enumerate(job.operations):
-            time = QLabel(clock(times[index])) if index in times and operation.cut.enabled else muted("-")
+            seconds = times.of.get(index) if operation.cut.enabled else None
+            time = QLabel(clock(seconds)) if seconds is not None else muted("-")
             row = self._operation_row(index, operation, job, time)
             row.moved.connect(lambda way, i=index: self.moved.emit(i, way))
             row.copied.connect(lambda i=index: self.copied.emit(i))
             row.setToolTip("Drag, or Alt+Up and Alt+Down: cut earlier or later; Ctrl+D: duplicate; Del: remove")
             self.add_row(Subject(SubjectKind.OPERATION, index), row)
+        self._show_waiting(times.beside)
+
+    def _show_waiting(self, waiting: WaitingTimes | None) -> None:
+        """List what takes time and is no operation's."""
+        for row in self.waiting:
+            self.rows.removeWidget(row)
+            row.hide()
+            row.deleteLater()
+        self.waiting = []
+        if waiting is None:
+            return
+        each = waiting.changing / max(waiting.changes, 1)
+        for name, how, seconds in (
+            ("Tool changes", f"{waiting.changes} {TIMES} {each:.0f} s", waiting.changing),
+            ("Dwell", "spindle starts", waiting.dwelling),
+            ("Approach and retract", "", waiting.travelling),
+        ):
+            if seconds > 0:
+                row = WaitingRow(name, how, clock(seconds))
+                self.waiting.append(row)
+                self.rows.addWidget(row)
 
     def _operation_row(self, index: int, operation: Operation, job: Job, time: QLabel) -> ListRow:
         cut = operation.cut

@@ -21,7 +21,7 @@ from .advice import AdviceSection
 from .changes import Subject, SubjectKind
 from .job_form import JobForm
 from .library import LibrarySection
-from .lists import JobSection, OperationSection, ToolSection
+from .lists import JobSection, OperationSection, OperationTimes, ToolSection
 from .operation_form import OperationForm
 from .tool_form import ToolForm
 
@@ -44,7 +44,7 @@ class SidePanel(QScrollArea):
         super().__init__()
         self._document = document
         self._size: tuple[float, float] | None = None
-        self._times: dict[int, float] = {}
+        self._times = OperationTimes()
         self._strokes: int | None = None
         self.subject = Subject(SubjectKind.OPERATION, 0)
         self.job, self.tools, self.operations = JobSection(), ToolSection(), OperationSection()
@@ -151,8 +151,8 @@ class SidePanel(QScrollArea):
         for problem in problems[:1]:
             self.refused.emit(problem)
 
-    def show_results(self, times: dict[int, float], strokes: int | None) -> None:
-        """Show what was computed: seconds by index of the operation, and pocket strokes; None = not computed."""
+    def show_results(self, times: OperationTimes, strokes: int | None) -> None:
+        """Show what was computed: what takes how long, and pocket strokes; None = not computed."""
         self._times, self._strokes = times, strokes
         self.refresh()
 

@@ -286,6 +286,7 @@ MENUS: tuple[tuple[str, tuple[ActionSpec, ...]], ...] = (
         (
             ActionSpec("help_language", "Shape &language"),
             ActionSpec("manual", "&Manual"),
+            ActionSpec("five_texts", "The &five texts"),
             ActionSpec("keys", "&Keys", "F1"),
             ActionSpec("what_is_this", "&What is this?", "Shift+F1"),
             ActionSpec("tour", "&Tour"),

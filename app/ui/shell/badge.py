@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QPaintEvent
 from PySide6.QtWidgets import (
     QFrame,
+    QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
@@ -22,6 +26,11 @@ from ..framework.figures import counted
 from ..framework.labels import muted
 from ..framework.section import ListRow, heading
 from ..framework.verdict import VerdictLevel, VerdictSummary, finding_level, short, worst_first
+
+if TYPE_CHECKING:
+    from ...usecases.mending import Mend
+
+    MendsOf = Callable[[Finding], Sequence[Mend]]
 
 _TURN = "◐◓◑◒"
 _TURN_MS = 150
@@ -99,23 +108,31 @@ class FindingsList(QFrame):
     """Every finding, worst first; a click goes to its place, a button mends what one button can.
 
     Signals:
-        picked(finding). left_out(layer): what is on it shall not be machined.
+        picked(finding). left_out(layer): what is on it shall not be machined. mended(Mend): the job shall be changed
+            so.
     """
 
     picked = Signal(Finding)
     left_out = Signal(str)
+    mended = Signal(object)
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
         self.setObjectName("findings")
         self.rows: list[ListRow] = []
         self._layers: frozenset[str] = frozenset()
+        self._mends: MendsOf = _no_mends
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 12, 0, 8)
         self._column.setSpacing(0)
 
     def show_findings(
-        self, findings: tuple[Finding, ...], above: QWidget, empty: str, layers: frozenset[str] = frozenset()
+        self,
+        findings: tuple[Finding, ...],
+        above: QWidget,
+        empty: str,
+        layers: frozenset[str] = frozenset(),
+        mends: MendsOf | None = None,
     ) -> None:
         """Open above a widget.
 
@@ -123,10 +140,10 @@ class FindingsList(QFrame):
             findings: what to list, in any order.
             above: the badge; the list's right edge is the badge's.
             empty: what to say when there are none.
-            layers: that can be left out.
+            layers: that can be left out. mends: tells what mends a finding; None = nothing does.
         """
         self._clear()
-        self._layers = layers
+        self._layers, self._mends = layers, mends or _no_mends
         counting = sum(f.counts for f in findings)
         remarks = counted(len(findings) - counting, "remark") if len(findings) > counting else ""
         title = heading(", ".join(filter(None, (counted(counting, "finding") if counting else "No findings", remarks))))
@@ -175,9 +192,10 @@ class FindingsList(QFrame):
             label.setProperty("role", "error")
         elif not finding.counts:
             label.setProperty("role", "muted")
-        mends = finding.layer in self._layers
-        row = ListRow(_above(label, self._hiding(finding.layer)) if mends else label)
-        row.setFixedHeight(label.heightForWidth(_TEXT_PX) + 12 + (_BUTTON_PX if mends else 0))
+        buttons = [self._hiding(finding.layer)] if finding.layer in self._layers else []
+        buttons += [self._mending(mend) for mend in self._mends(finding)]
+        row = ListRow(_above(label, buttons) if buttons else label)
+        row.setFixedHeight(label.heightForWidth(_TEXT_PX) + 12 + (_BUTTON_PX if buttons else 0))
         row.setAccessibleName(label.text())
         self.rows.append(row)
         if finding.entity_ids or finding.x is not None:
@@ -189,12 +207,22 @@ class FindingsList(QFrame):
         return row
 
     def _hiding(self, layer: str) -> QPushButton:
-        button = QPushButton(f"Hide layer {layer}")
+        button = self._button(f"Hide layer {layer}", "What is on a hidden layer is not machined")
+        button.clicked.connect(lambda: self.left_out.emit(layer))
+        return button
+
+    def _mending(self, mend: Mend) -> QPushButton:
+        tip = f"{mend.words}: {mend.change}. The paths are computed again; Ctrl+Z takes it back."
+        button = self._button(mend.words, tip)
+        button.clicked.connect(lambda: self.mended.emit(mend))
+        return button
+
+    def _button(self, words: str, tip: str) -> QPushButton:
+        button = QPushButton(words)
         button.setProperty("role", "link")
-        button.setToolTip("What is on a hidden layer is not machined")
+        button.setToolTip(tip)
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         button.clicked.connect(self.hide)
-        button.clicked.connect(lambda: self.left_out.emit(layer))
         return button
 
     def _pick(self, finding: Finding) -> None:
@@ -202,12 +230,21 @@ class FindingsList(QFrame):
         self.picked.emit(finding)
 
 
-def _above(label: QLabel, button: QPushButton) -> QWidget:
-    """Return both, one above the other."""
+def _no_mends(_: Finding) -> tuple[Mend, ...]:
+    return ()
+
+
+def _above(label: QLabel, buttons: Sequence[QPushButton]) -> QWidget:
+    """Return the label above a row of buttons."""
     both = QWidget()
     column = QVBoxLayout(both)
     column.setContentsMargins(0, 6, 0, 4)
     column.setSpacing(0)
     column.addWidget(label)
-    column.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)
+    row = QHBoxLayout()
+    row.setSpacing(4)
+    for button in buttons:
+        row.addWidget(button)
+    row.addStretch(1)
+    column.addLayout(row)
     return both

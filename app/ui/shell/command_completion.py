@@ -9,7 +9,7 @@ from ...drafting.commands.properties import WORDS
 from ...drafting.document import Document
 from ...drafting.expressions.values import Curves
 from ...drafting.expressions.words import name_text
-from ..views.language.completion import CompletionItem, offers, word_before
+from ..views.language.completion import CompletionItem, names_of, offers, word_before
 
 _LAYER = re.compile(
     r"(?:^|;)\s*(?:layer|la|hide|show|lock|unlock|colou?r|(?:select|se)\s+(?:(?:add|remove)\s+)?layer|(?:rename|remove)\s+layer|set\s.*\blayer)"
@@ -26,7 +26,6 @@ def completions(line: str, document: Document) -> tuple[str, list[CompletionItem
         layers = _layers(found["begun"], (layer.name for layer in document.part.layers))
         return found["begun"], [CompletionItem(name, "layer") for name in layers]
     session = document.session
-    names = [(name, False) for name in session.names] + [(command, True) for command in session.commands]
     begun = word_before(line)
     if (found := _SET.search(line)) is not None and not any(
         re.search(rf"\b{word}\s", line) for word in (*WORDS, "layer")
@@ -41,7 +40,7 @@ def completions(line: str, document: Document) -> tuple[str, list[CompletionItem
             if isinstance(value, Curves)
         ]
         return begun, [offer for offer in words if offer.word.startswith(begun.lower())]
-    return begun, offers(line, names)
+    return begun, offers(line, names_of(session))
 
 
 def _layers(begun: str, layers: Iterable[str]) -> list[str]:

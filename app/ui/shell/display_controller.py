@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QObject, Signal
 
 from ...drafting.document import DocumentChange
@@ -10,15 +13,20 @@ from ...geometry.sample import bounds, union
 from ...model.finding import Finding
 from ...model.part import Part
 from ..framework.computation import ComputationState
+from ..framework.controller import Controller, ShownDocument
 from ..framework.missing import NOTHING
 from ..framework.samples import PathLineKind
 from ..framework.verdict import VerdictLevel, VerdictSummary, verdict_summary
 from ..framework.view import View, ViewPage
+from ..panels.lists import OperationTimes
 from ..views.canvas.modes import PathColourBy, PathLayers
 from ..views.canvas.painting.program_layer import ProgramLayer
 from .main_window import MainWindow
 from .open_controller import size_of
 from .view_pages import pages_of
+
+if TYPE_CHECKING:
+    from ...usecases.mending import Mend
 
 _LAYERS = {
     PathLineKind.PART: PathLayers.PART,
@@ -34,14 +42,25 @@ _LAYERS = {
 }
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class _Teller:
+    """Who tells what a view shows."""
+
+    view: View
+    controller: Controller
+
+
+START_PROMPT = "Choose a file or a sample, begin a part, or type a line such as  rect 0,0 80,50"
+
+
 class DisplayController(QObject):
-    """Reads the state and shows it; changes nothing but the window.
+    """Reads the state and shows it; changes nothing but the window, and what the list of findings is asked to mend.
 
     Signals:
         view_changed(View): another view came to the front.
 
     Attributes:
-        view: the one at the front. stages_missing: what the stages lack.
+        view: the one at the front. stages_missing, film_missing: what the stages lack.
         pages: of every view.
         writing: the drawing is being written as a text, so that nothing need be said of an empty one.
     """
@@ -53,10 +72,11 @@ class DisplayController(QObject):
         self._window = window
         self._document, self._computation = window.document, window.computation
         self.view = View.DRAW
-        self.stages_missing, self.writing = NOTHING, False
+        self.stages_missing, self.film_missing, self.writing = NOTHING, NOTHING, False
         self.pages = pages_of(window, self)
         window.take_pages(self.pages)
         self._layers = PathLayers.ALL
+        self._tellers: list[_Teller] = []
         self._shown_program: object = None
         self._empty_action = "open"
         self._sized: tuple[Part, tuple[str, ...], tuple[float, float] | None] | None = None
@@ -67,6 +87,7 @@ class DisplayController(QObject):
         window.status.badge.clicked.connect(self.open_findings)
         window.findings_list.picked.connect(self.go_to)
         window.findings_list.left_out.connect(self.leave_out)
+        window.findings_list.mended.connect(self.mend)
         window.canvas.tool_changed.connect(lambda _: self.show_missing())
         window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
         window.views.legend.layer_switched.connect(self._on_layer)
@@ -76,6 +97,16 @@ class DisplayController(QObject):
     def page(self) -> ViewPage:
         """What the view at the front puts into the window."""
         return self.pages[self.view]
+
+    def ask(self, controller: Controller, view: View) -> None:
+        """Have a controller say what its view shows in place of the drawing."""
+        self._tellers.append(_Teller(view, controller))
+
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """What is at the front in place of the drawing and its job; None = these."""
+        told = (each.controller.shown_document for each in self._tellers if each.view is self.view)
+        return next((document for document in told if document is not None), None)
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -109,11 +140,21 @@ class DisplayController(QObject):
         self.view_changed.emit(view)
         self.show_missing()
 
+    def show_start(self) -> None:
+        """Bring the page that the window begins with to the front, until a view is shown again."""
+        self.view = View.DRAW
+        self._window.actions_[View.DRAW.value].setChecked(True)
+        self._window.views.show_view(View.DRAW)
+        self._window.views.show_start()
+        self.show_prompt()
+        self.show_state()
+
     def show_prompt(self) -> None:
         """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is
         for.
         """
-        self._window.command_line.set_prompt(self.page.prompt())
+        starting = self._window.views.starting
+        self._window.command_line.set_prompt(START_PROMPT if starting else self.page.prompt())
 
     def refresh(self, change: DocumentChange) -> None:
         """Show what changed in the document."""
@@ -124,11 +165,13 @@ class DisplayController(QObject):
         self.show_titles()
 
     def show_titles(self) -> None:
-        """Name the file that is worked on, and what can be undone in it: the drawing, or the scene in its view."""
+        """Name what is looked at, and what can be undone: in the drawing, or in the scene in its view."""
         document, scene, actions = self._document, self._window.scene, self._window.actions_
-        on_scene = self.view is View.SURFACES and scene.open
-        name = scene.name if on_scene else document.path.name if document.path else document.part.name
-        modified = scene.modified if on_scene else document.modified
+        on_scene, other = self.view is View.SURFACES and scene.open, self.shown_document
+        drawing = document.path.name if document.path else document.part.name
+        name, modified = (other.name, other.modified) if other is not None else (drawing, document.modified)
+        if self._window.views.starting:
+            name, modified = "Start here", False
         self._window.file_label.setText(f"{name}{' *' if modified else ''}")
         self._window.menuBar().setCornerWidget(self._window.file_label)
         self._window.setWindowTitle(f"{name}{' *' if modified else ''} - Hitofude")
@@ -148,6 +191,7 @@ class DisplayController(QObject):
 
     def show_state(self) -> None:
         """Show where the view at the front stands."""
+        self.show_prompt()
         self._show_badge()
         self._show_standing()
         self.show_missing()
@@ -163,9 +207,9 @@ class DisplayController(QObject):
 
     def _show_side(self) -> None:
         """Have what belongs to the view at its right: the job, or what is known of the cut, or what is asked of it."""
-        window, plotting = self._window, self._window.views.plotting
-        window.tool_strip.setVisible(self.page.widget is window.canvas and not plotting)
-        beside = window.plot_panel if plotting else self.page.side()
+        window, views = self._window, self._window.views
+        window.tool_strip.setVisible(self.page.widget is window.canvas and not views.covered)
+        beside = window.plot_panel if views.plotting else None if views.starting else self.page.side()
         for widget in window.sides:
             if widget is not beside:
                 widget.hide()
@@ -180,11 +224,8 @@ class DisplayController(QObject):
             self._show_standing()
 
     def _show_standing(self) -> None:
-        """Show what the status bar says when nothing else is to be said: of a run that failed, why it did."""
-        words, computation = self.page.summary(), self._computation
-        self._window.status.show_message(
-            words or computation.error or computation.state.value, error=bool(computation.error and not words)
-        )
+        """Show what the status bar says when nothing else is to be said; why a run failed is said above the view."""
+        self._window.status.show_message(self.page.summary() or self._computation.state.value)
 
     def _on_computation(self) -> None:
         made, state = self._computation.made, self._computation.state
@@ -198,19 +239,23 @@ class DisplayController(QObject):
             self._window.canvas.set_findings(self._marked())
         self._window.canvas.set_stale(self._computation.outdated)
         strokes = made.program.strokes if made is not None and state is ComputationState.CURRENT else None
-        self._window.panel.show_results(self._computation.operation_times(), strokes)
+        self._window.panel.show_results(
+            OperationTimes(self._computation.operation_times(), self._computation.waiting_times()), strokes
+        )
         self._show_badge()
         self.show_missing()
         self._window.status.show_message(state.value)
 
     def _show_badge(self) -> None:
         badge, state, made = self._window.status.badge, self._computation.state, self._computation.made
-        surfaces = self._window.views.surfaces
-        if self.view is View.SURFACES:
-            if surfaces.computing:
+        other = self.shown_document
+        if self._window.views.starting:
+            badge.show_verdict(VerdictSummary(VerdictLevel.NONE, "Nothing open"))
+        elif other is not None:
+            if other.verdict is None:
                 badge.show_running()
             else:
-                badge.show_verdict(surfaces.verdict)
+                badge.show_verdict(other.verdict)
         elif state is ComputationState.RUNNING:
             badge.show_running()
         elif state is ComputationState.CURRENT and made is not None:
@@ -238,19 +283,42 @@ class DisplayController(QObject):
         empty = sentences.get(
             self._computation.state, "No gouge, nothing left that a tool could reach, no rapid in material."
         )
-        if self.view is View.SURFACES:
-            said = self._window.views.surfaces.verdict
-            self._window.findings_list.show_findings(
-                self._window.views.surfaces.findings, self._window.status.badge, said.tip or said.text
-            )
+        other = self.shown_document
+        if other is not None:
+            said = "It is being computed." if other.verdict is None else other.verdict.tip or other.verdict.text
+            self._window.findings_list.show_findings(other.findings, self._window.status.badge, said)
             return
         shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
-        self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown)
+        mends = self._mends if self._computation.state is ComputationState.CURRENT else None
+        self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown, mends)
+
+    def _mends(self, finding: Finding) -> tuple[Mend, ...]:
+        """Return what mends a finding on the job's program."""
+        from ...formats.tools.library import load_libraries
+        from ...usecases.mending import Fault, mends
+        from ...usecases.program_lines import operation_of_line
+
+        made = self._computation.made
+        if made is None:
+            return ()
+        index = operation_of_line(made, 0, finding.line) if len(made.files) == 1 else None
+        library = [tool for each in load_libraries()[0].values() for tool in each.tools]
+        return mends(made.job, Fault.of(finding, index), library)
+
+    def mend(self, mend: Mend) -> None:
+        """Change the job so that a finding is mended, and compute it again; one undoable step."""
+        self._document.change_job(mend.words, mend.job)
+        self._computation.start()
 
     def go_to(self, finding: Finding) -> None:
         """Show the place of a finding on the canvas, with the whole of the curves that it is about, and select
-        these.
+        these; of another document at the front, there.
         """
+        other = self.shown_document
+        if other is not None:
+            if other.look_at is not None:
+                other.look_at(finding)
+            return
         ids = set(finding.entity_ids)
         box = union([bounds(entity.curve) for entity in self._document.part.entities if entity.id in ids])
         if finding.x is not None and finding.y is not None:

@@ -7,15 +7,18 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ...drafting.document import DocumentChange
 from ...formats.project.project import Project, SavedView
 from ...formats.readers import suffixes
+from ...gcode.posts.posts import load_post
+from ...model.job import Job
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
 from ...usecases.bitmap_options import PICTURES, is_picture
+from ...usecases.solid_files import SOLIDS, is_solid
 from ..framework.figures import counted, grouped
 from ..framework.log import Log
 from ..framework.view import View, views
@@ -26,7 +29,7 @@ from ..views.surfaces.shown_scene import is_scene
 from . import open_controller as opening_files
 from .display_controller import DisplayController
 from .main_window import MainWindow
-from .nc_export_controller import FILTER, NcExportController
+from .nc_export_controller import ExportPlace, NcExportController, post_filters
 from .open_controller import OpenController, OpenedDrawing, UndecidedDrawing
 from .reread_controller import RereadController
 from .save_controller import SaveController
@@ -36,21 +39,29 @@ FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, 
 
 def open_filter() -> str:
     """Return what the dialog of Open shows: every kind of file that can be opened."""
-    patterns = (*suffixes(), ".DXF", ".toml", *PICTURES, *PROGRAM_SUFFIXES)
-    return f"Drawings, scenes, pictures and NC programs ({' '.join(f'*{each}' for each in patterns)});;All files (*)"
+    patterns = (*suffixes(), ".DXF", ".toml", *SOLIDS, *PICTURES, *PROGRAM_SUFFIXES)
+    shown = " ".join(f"*{each}" for each in patterns)
+    return f"Drawings, solids, scenes, pictures and NC programs ({shown});;All files (*)"
 
 
 @dataclass(frozen=True)
 class Openers:
-    """Who opens what is no drawing: an NC program, a picture, a scene."""
+    """Who opens what is no drawing: an NC program, a picture, a scene, a solid."""
 
     program: Callable[[Path], None]
     picture: Callable[[Path], None]
     scene: Callable[[Path], None]
+    solid: Callable[[Path], None]
 
 
 class FileController(QObject):
-    """Everything between the window and files."""
+    """Everything between the window and files.
+
+    Signals:
+        begun(): an empty drawing; what it is to be may be asked.
+    """
+
+    begun = Signal()
 
     def __init__(self, window: MainWindow, showing: DisplayController, log: Log, open_others: Openers) -> None:
         super().__init__(window)
@@ -58,11 +69,8 @@ class FileController(QObject):
         self._window, self._showing, self._log = window, showing, log
         self._document, self._computation = window.document, window.computation
         self._given_up: object = None
-        self._open_program, self._open_picture, self._open_scene = (
-            open_others.program,
-            open_others.picture,
-            open_others.scene,
-        )
+        self._open_program, self._open_picture = open_others.program, open_others.picture
+        self._open_scene, self._open_solid = open_others.scene, open_others.solid
         self.open_controller = OpenController(window.document, window.worker)
         self.reread_controller = RereadController(
             window.drawing_page.reading, window.card, window.worker, window.workspace
@@ -80,6 +88,7 @@ class FileController(QObject):
         self.open_controller.opened.connect(self._on_opened)
         self.open_controller.asked.connect(self._ask_how)
         self.export_controller.written.connect(self._on_written)
+        self.export_controller.post_chosen.connect(self._choose_post)
         self._unsubscribe = window.document.subscribe(
             lambda change: window.card.hide() if change & DocumentChange.LOADED else None
         )
@@ -95,13 +104,9 @@ class FileController(QObject):
         """Begin an empty drawing, after asking when changes would be lost."""
         self._leave_drawing("Begin a new drawing", self.new)
 
-    def ask_sample(self) -> None:
-        """Open the sample part, after asking when changes would be lost."""
-        self._leave_drawing("Open the sample part", self.open_sample)
-
     def open_file(self, path: Path, reading: ReadingOptions = AS_THE_FILE_SAYS) -> None:
-        """Open a drawing, after asking when changes would be lost; NC programs and scenes are shown beside it, and
-        nothing is lost.
+        """Open a drawing, after asking when changes would be lost; NC programs, scenes and solids are shown beside it,
+        and nothing is lost.
 
         Args:
             path: of the file. reading: how it is read, if it is a drawing.
@@ -112,14 +117,23 @@ class FileController(QObject):
         if is_scene(path):
             self._open_scene(path)
             return
+        if is_solid(path.name):
+            self._open_solid(path)
+            return
         if is_picture(path.name):
             self._leave_drawing(f"Open {path.name}", lambda: self._open_picture(path))
             return
         self._leave_drawing(f"Open {path.name}", lambda: self.open_controller.open(path, reading))
 
-    def open_sample(self) -> None:
-        """Open the sample part; it is computed at once."""
-        self.open_controller.open(opening_files.sample_path())
+    def open_sample(self, path: Path | None = None) -> None:
+        """Open a sample with a job of its own, after asking when changes would be lost: fig. 2, which is computed at
+        once, a drawing, for which operations are proposed, or a scene.
+        """
+        sample = path or opening_files.sample_path()
+        if is_scene(sample):
+            self._open_scene(sample)
+        else:
+            self._leave_drawing("Open the sample", lambda: self.open_controller.open(sample, before=Job(Part())))
 
     def new(self) -> None:
         """Begin an empty drawing with the same tools."""
@@ -128,6 +142,7 @@ class FileController(QObject):
         self._log.note("new", "Empty drawing, same tools.")
         self._window.notice.hide()
         self._showing.show_view(View.DRAW)
+        self.begun.emit()
 
     def choose_file(self) -> None:
         """Ask for a drawing or a program and open it."""
@@ -152,11 +167,27 @@ class FileController(QObject):
     def _forget_recent(self) -> None:
         self._preferences.keep(replace(self._preferences.settings, recent_files=()))
 
-    def _choose_nc_file(self, ending: str) -> Path | None:
+    def _choose_nc_file(self, suffix: str, post: str) -> ExportPlace | None:
+        """Ask for a file and, by its kind, for the control; that of a frame is the job's."""
         stem = self._document.path.stem if self._document.path else self._document.part.name
-        start = str(self._preferences.last_folder / f"{stem}{ending}")
-        name, _ = QFileDialog.getSaveFileName(self._window, "Export NC", start, FILTER)
-        return Path(name) if name else None
+        posts = post_filters()
+        own = next((each for each, name in posts.items() if name == post), "NC programs (*)")
+        offered = list(posts) if not suffix else [own]
+        dialog = QFileDialog(
+            self._window, "Export NC", str(self._preferences.last_folder / f"{stem}{suffix}"), ";;".join(offered)
+        )
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setLabelText(QFileDialog.DialogLabel.FileType, "Control:")
+        dialog.filterSelected.connect(lambda each: dialog.setDefaultSuffix(load_post(posts.get(each, post)).extension))
+        dialog.selectNameFilter(own)
+        dialog.setDefaultSuffix(load_post(post).extension)
+        if not dialog.exec():
+            return None
+        return ExportPlace(Path(dialog.selectedFiles()[0]), posts.get(dialog.selectedNameFilter(), post))
+
+    def _choose_post(self, post: str) -> None:
+        """Have the job written for another control."""
+        self._document.change_job("Post", replace(self._document.job, post=post))
 
     def _leave_drawing(self, what: str, act: Callable[[], None]) -> None:
         self.leave(f"{what}?", act)
@@ -196,7 +227,7 @@ class FileController(QObject):
 
     def _on_opened(self, opened: OpenedDrawing) -> None:
         window = self._window
-        if opened.path != opening_files.sample_path():
+        if not opening_files.is_sample(opened.path):
             self._preferences.add_recent(opened.path)
         self.save_controller.known = opened.stamp
         self._computation.forget(opened.drawing.findings)
@@ -213,12 +244,15 @@ class FileController(QObject):
             self._showing.show_view(View.PATHS)
             tour = [] if window.preferences.settings.tour else [("Show me round", window.actions_["tour"].trigger)]
             window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)])
+        elif opening_files.is_sample(opened.path):
+            window.actions_["propose"].trigger()
         elif opened.drawing.question is not None:
             self._ask_after(opened)
         elif opened.job.part.entities:
             window.notice.ask(
                 f"{opened.path.name} says nothing about machining; the operations are those that were there before.",
                 [("Propose operations", window.actions_["propose"].trigger)],
+                of_job=True,
             )
         self._see_all()
 

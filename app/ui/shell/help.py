@@ -8,7 +8,9 @@ from ... import __version__
 
 _ABOUT = (
     f"<h3>Hitofude {__version__}</h3><p>From a line drawing to tool paths that can be trusted on a real machine.</p>"
-    "<p>Contour and pocket paths after JP H07-107645 (1986), with exact lines and arcs.</p><p>MIT licence.</p>"
+    "<p>Five published methods: contour and pocket paths (JP H07-107645, 1986), the cut before cutting (JP 3571564, "
+    "1999), compound surfaces (JP H06-61675), curves from approximate points (JP 4800873), curves with a proven error "
+    "(JP 2014-242013).</p><p>MIT licence.</p>"
 )
 
 

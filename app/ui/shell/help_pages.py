@@ -22,7 +22,7 @@ from PySide6.QtGui import (
 from ...core.resources import resource
 from ..framework.theme import HEADING_PX, TEXT_PX, Theme, mono_font, text_font
 
-_FIRST = ("language", "project", "posts")
+_FIRST = ("language", "project", "posts", "texts", "texts_ja")
 _MARGIN_PX, _CELL_PX = 24, 5
 _PROPORTIONAL = 1  # QTextBlockFormat.LineHeightTypes
 _HEADINGS_PX = {1: 20, 2: HEADING_PX, 3: TEXT_PX}

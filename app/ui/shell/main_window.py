@@ -6,13 +6,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QVBoxLayout, QWidget
 
 from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
 from ...formats.readers import suffixes
 from ...usecases.bitmap_options import PICTURES
+from ...usecases.solid_files import SOLIDS
 from ..framework import style
 from ..framework.activity import Activity
 from ..framework.arrow import arrow_picture
@@ -36,6 +37,7 @@ from ..views.nc.program_reader import SUFFIXES as PROGRAM_SUFFIXES
 from ..views.plot.panel import PlotPanel
 from ..views.stages.import_panel import ImportPanel
 from ..views.stages.panel import StagesPanel
+from ..views.stages.text_film_panel import TextFilmPanel
 from ..views.surfaces.scene_document import SceneDocument
 from ..views.surfaces.scene_tabs import SceneTabs
 from .actions import Actions
@@ -71,12 +73,13 @@ class MainWindow(QMainWindow):
     closing = Signal()
 
     def __init__(self, document: Document, settings: Settings) -> None:
+        theme = self._theme_for(settings.theme)
+        if isinstance(application := QApplication.instance(), QApplication):
+            style.prepare(application, theme)  # a window that there is already would keep the system's font
         super().__init__()
+        self.theme = theme
         self.document, self.preferences = document, Preferences(settings, self)
         self.preferences.saving.connect(lambda: remember_geometry(self, self.preferences))
-        self.theme = self._theme_for(settings.theme)
-        if isinstance(application := QApplication.instance(), QApplication):
-            style.prepare(application, self.theme)
         self.may_close = True
         self.worker = Worker(self)
         self.activity = Activity(self)
@@ -91,12 +94,14 @@ class MainWindow(QMainWindow):
         self.side.add_page("Drawing", self.drawing_page, "properties, layers and history of what is drawn")
         self.cut_form, self.curves_panel = SetupForm(), CurvesPanel()
         self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
+        self.film_panel = TextFilmPanel()
         self.scene = SceneDocument(self)
         self.scene_side = SceneTabs(self.scene)
         self.sides: list[QWidget] = [
             self.side,
             self.import_panel,
             self.stages_panel,
+            self.film_panel,
             self.cut_panel,
             self.cut_form,
             self.curves_panel,
@@ -193,11 +198,16 @@ class MainWindow(QMainWindow):
                 widget.set_theme(self.theme)
         self.actions_[f"theme_{choice.value}"].setChecked(True)
 
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Let what is beside the view have its share of a wide window."""
+        super().resizeEvent(event)
+        self.cut_panel.fit_beside(event.size().width())
+
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
-        """Welcome one drawing, scene, picture or NC program."""
+        """Welcome one drawing, solid, scene, picture or NC program."""
         urls = event.mimeData().urls()
         if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(
-            (*suffixes(), ".toml", *PICTURES, *PROGRAM_SUFFIXES)
+            (*suffixes(), ".toml", *SOLIDS, *PICTURES, *PROGRAM_SUFFIXES)
         ):
             event.acceptProposedAction()
 

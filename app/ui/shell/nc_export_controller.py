@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +12,7 @@ from PySide6.QtCore import QObject, Signal
 
 from ...core.atomic import write_together
 from ...core.errors import HitofudeError
-from ...gcode.posts.posts import load_post
+from ...gcode.posts.posts import load_post, post_titles
 from ..framework.computation import Computation, ComputationState
 from ..framework.notice import Notice
 from .proof import proof, warning
@@ -18,27 +20,47 @@ from .proof import proof, warning
 if TYPE_CHECKING:
     from ...usecases.make import MakeResult
 
-FILTER = "NC programs (*.ngc *.nc *.tap);;All files (*)"
+
+def post_filters() -> dict[str, str]:
+    """Return what the file dialog offers, and the post of each; posts that are damaged are left out."""
+    found = {}
+    for name, title in post_titles().items():
+        with suppress(HitofudeError):
+            found[f"{title} (*{load_post(name).extension})"] = name
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class ExportPlace:
+    """Where a program goes, and for which control it is written: the name of its post."""
+
+    path: Path
+    post: str
+
+
+ChooseFile = Callable[[str, str], ExportPlace | None]
 
 
 class NcExportController(QObject):
-    """Computes first when the paths are out of date, asks for the file, writes it whole or not at all.
+    """Computes first when the paths are out of date, asks for the file and its control, writes it whole or not at all.
 
     A control that changes no tools gets a file for each tool beside the chosen name: all of them, or none.
 
     Signals:
         written(paths, lines): every file, and the lines of all. failed(sentence). show_findings(): the user wants to
-        see them first.
+        see them first. post_chosen(name): the job shall be written for another control.
 
     Attributes:
-        choose_file: asks the user for a path, given how its name may end; None = he changed his mind.
+        choose_file: asks the user for a path and a control, given what goes between the name and its suffix, and the
+            control that the job is for; None = he changed his mind.
     """
 
     written = Signal(list, int)
     failed = Signal(str)
     show_findings = Signal()
+    post_chosen = Signal(str)
 
-    def __init__(self, computation: Computation, notice: Notice, choose_file: Callable[[str], Path | None]) -> None:
+    def __init__(self, computation: Computation, notice: Notice, choose_file: ChooseFile) -> None:
         super().__init__()
         self._computation, self._notice = computation, notice
         self.choose_file = choose_file
@@ -82,12 +104,19 @@ class NcExportController(QObject):
         made = self._made()
         if made is None:
             return
+        self._look_first(made, self._write)
+
+    def _look_first(self, made: MakeResult, write: Callable[[], None]) -> None:
+        """Say what is proven of a program and write it; or say what is wrong, and leave that to the user."""
         if made.clean:
-            self._notice.ask(proof(made))
-            self._write()
+            self._notice.ask(proof(made), of_job=True)
+            write()
             return
         self._notice.ask(
-            warning(made.findings), [("Show", self.show_findings.emit), ("Write anyway", self._write)], error=True
+            warning(made.findings),
+            [("Show", self.show_findings.emit), ("Write anyway", write)],
+            error=True,
+            of_job=True,
         )
 
     def _write(self) -> None:
@@ -95,21 +124,38 @@ class NcExportController(QObject):
         if made is None or self._computation.state is not ComputationState.CURRENT:
             self.failed.emit("The job has changed; export it again.")
             return
-        path = self._chosen(made, "")
-        if path is not None:
+        place = self._chosen(made, "")
+        if place is None:
+            return
+        if place.post == made.job.post:
+            self._write_to(place.path)
+        else:
+            self.post_chosen.emit(place.post)
+            self._when_computed(lambda: self._write_for_another(place.path))
+
+    def _write_for_another(self, path: Path) -> None:
+        """Write the program that was computed for the control that was chosen with the file."""
+        made = self._made()
+        if made is not None:
+            self._look_first(made, lambda: self._write_to(path))
+
+    def _write_to(self, path: Path) -> None:
+        made = self._computation.made
+        if made is not None:
             self._keep({file.named(path): file.nc.text for file in made.files})
 
     def _write_frame(self) -> None:
         made = self._made()
-        path = self._chosen(made, "_frame") if made is not None else None
-        if made is not None and path is not None:
-            self._keep({path: made.frame()})
+        place = self._chosen(made, "_frame") if made is not None else None
+        if made is not None and place is not None:
+            self._keep({place.path: made.frame()})
 
-    def _chosen(self, made: MakeResult, suffix: str) -> Path | None:
-        """Ask for a file; a name without an extension gets that of the post."""
-        extension = load_post(made.job.post).extension
-        path = self.choose_file(f"{suffix}{extension}")
-        return path if path is None or path.suffix else path.with_suffix(extension)
+    def _chosen(self, made: MakeResult, suffix: str) -> ExportPlace | None:
+        """Ask for a file; a name without an extension gets that of its post."""
+        place = self.choose_file(suffix, made.job.post)
+        if place is None or place.path.suffix:
+            return place
+        return replace(place, path=place.path.with_suffix(load_post(place.post).extension))
 
     def _keep(self, texts: dict[Path, str]) -> None:
         """Write all files or none."""

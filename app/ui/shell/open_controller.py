@@ -65,6 +65,11 @@ def sample_path() -> Path:
     return resource("samples", "fig2.dxf")
 
 
+def is_sample(path: Path) -> bool:
+    """Return whether a file comes with the program."""
+    return path.parent == sample_path().parent
+
+
 def read_drawing_file(
     path: Path, reading: ReadingOptions, before: Job, progress: Progress
 ) -> OpenedDrawing | UndecidedDrawing:
@@ -151,14 +156,15 @@ class OpenController(QObject):
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
 
-    def open(self, path: Path, reading: ReadingOptions = AS_THE_FILE_SAYS) -> None:
+    def open(self, path: Path, reading: ReadingOptions = AS_THE_FILE_SAYS, before: Job | None = None) -> None:
         """Read a drawing; the document changes only when it has been read whole.
 
         Args:
             path: a drawing or a project.
             reading: how a drawing is read.
+            before: the job that goes on with a drawing; None = the document's.
         """
-        before = self._document.job
+        before = before or self._document.job
         self._job_id = self._worker.start(
             lambda progress: _read(path, reading, before, progress), self._document.revision
         )

@@ -16,6 +16,7 @@ from ..views.language.page import TextPage
 from .help_window import HelpWindow
 
 _MANUAL = "posts"
+_TEXTS = "texts"
 
 
 class ShapeLanguageController(QObject):
@@ -33,6 +34,7 @@ class ShapeLanguageController(QObject):
         self.control = TextController(TextPage(), self.lines, workspace, commands)
         on_trigger(commands, "help_language", self.help.show_page)
         on_trigger(commands, "manual", lambda: self.help.show_page(_MANUAL))
+        on_trigger(commands, "five_texts", lambda: self.help.show_page(_TEXTS))
         on_trigger(commands, "text", self.control.open)
         self.control.page.editor.help_requested.connect(self.help.show_word)
         workspace.activity.cancelled.connect(self.lines.cancel)

@@ -89,9 +89,11 @@ def _tell_mistake(
 
 
 def begin(wiring: WindowController, path: Path | None) -> None:
-    """Open a file, and then offer what a crash has left; without a file offer that, or else open the sample part."""
+    """Open a file, and then offer what a crash has left; without a file offer that, or else the last files and
+    samples.
+    """
     if path is None:
-        wiring.recovery_controller.offer(wiring.files.open_sample)
+        wiring.recovery_controller.offer(wiring.open_start)
         return
     wiring.files.open_controller.opened.connect(
         lambda _: wiring.recovery_controller.offer(), Qt.ConnectionType.SingleShotConnection
@@ -100,7 +102,7 @@ def begin(wiring: WindowController, path: Path | None) -> None:
 
 
 def start(path: Path | None = None) -> int:
-    """Open the window with a drawing, or with the sample part, and stay until it is closed.
+    """Open the window with a file, or with the last ones to choose from, and stay until it is closed.
 
     Returns:
         Exit status.

@@ -5,17 +5,20 @@ operation.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from ...drafting.document import Document
 from ...model.curves import Point
+from ...model.fields import parameters_of, with_values
 from ...model.job import Job
-from ...model.operation import ContourOperation
+from ...model.operation import Operation
 from ..panels.changes import with_operation
 from ..panels.operation_groups import BY_HAND
 from ..panels.side_panel import SidePanel
 from ..views.canvas.canvas import Canvas
 from ..views.canvas.marker_mode import MarkerMode
+
+_PLACES = "tab_places"
+"""Key of the parameter that says where tabs are."""
 
 
 class TabController:
@@ -43,20 +46,21 @@ class TabController:
             canvas.setFocus()
 
     @property
-    def _operation(self) -> ContourOperation | None:
+    def _operation(self) -> Operation | None:
+        """The operation, where it is of a kind that has tabs."""
         operations = self._document.job.operations
         operation = operations[self._index] if self._index < len(operations) else None
-        return operation if isinstance(operation, ContourOperation) else None
+        return operation if operation is not None and _PLACES in parameters_of(type(operation)) else None
 
     def _places(self) -> tuple[Point, ...]:
         operation = self._operation
-        return operation.tabs.places if operation is not None else ()
+        return parameters_of(type(operation))[_PLACES].of(operation) if operation is not None else ()
 
     def _click(self, at: Point, reach: float) -> None:
         operation = self._operation
         if operation is None:
             return
-        places = operation.tabs.places
+        places = self._places()
         near = [place for place in places if math.dist(place, at) <= reach]
         kept = (
             tuple(place for place in places if place not in near)
@@ -65,6 +69,6 @@ class TabController:
         )
 
         def make(job: Job) -> Job:
-            return with_operation(job, self._index, replace(operation, tabs=replace(operation.tabs, places=kept)))
+            return with_operation(job, self._index, with_values(operation, {_PLACES: kept}))
 
         self._panel.change("Remove tab" if near else "Put tab", make)

@@ -63,7 +63,7 @@ STEPS = (
     TourStep(
         lambda marks: marks.top_bar.tabs["view_cut"],
         "Cut",
-        "The program, cut out of its stock. Drag turns it; a click on the metal shows the line that cut there.",
+        "The program, cut out of its stock. Drag turns it; a click on the metal marks the line that cut there.",
     ),
     TourStep(
         lambda marks: marks.top_bar.export,
@@ -104,7 +104,7 @@ class Callout(QFrame):
         last = number == len(STEPS) - 1
         self.title.setText(tr(step.title))
         self.words.setText(tr(step.words))
-        self.count.setText(tr("{} of {}").format(number + 1, len(STEPS)))
+        self.count.setText(tr(f"{number + 1} of {len(STEPS)}"))
         self.skip.setText(tr("Skip"))
         self.skip.setVisible(not last)
         self.back.setText(tr("Back"))

@@ -34,12 +34,15 @@ SCENE_WAITS = MissingHint("The scene is not computed yet.", "Compute  F5", "comp
 SCENE_COMPUTING = MissingHint("The scene is being computed.", "Cancel  Shift+F5", "cancel")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 CUT_PROMPT = (
-    "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click goes to "
-    "the line"
+    "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click marks "
+    "the line that cut there"
 )
 CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
 SURFACES_PROMPT = (
     "Drag turns the scene, the middle button shifts it; what is set at the right is computed at once; Ctrl+E writes it"
+)
+SLOW_SURFACES_PROMPT = (
+    "Drag turns the scene, the middle button shifts it; F5 computes what is set at the right; Ctrl+E writes it"
 )
 _NO_SCENE = {
     SceneState.NONE: NO_SCENE,
@@ -51,6 +54,7 @@ _NO_SCENE = {
     SceneState.PROVEN: SCENE_COMPUTING,
 }
 STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
+FILM_PROMPT = "Space plays, Left and Right step; Save all steps writes pictures and figures"
 PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
 COMPUTING = MissingHint("The paths are being computed.", "Cancel  Shift+F5", "cancel")
 
@@ -59,6 +63,7 @@ class WindowState(Protocol):
     """What pages are told of the window's state."""
 
     stages_missing: MissingHint
+    film_missing: MissingHint
     writing: bool
 
 
@@ -128,6 +133,8 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         return window.import_panel.reading is not None
 
     def stages_missing() -> MissingHint:
+        if stages.text != "A":
+            return NOTHING if stages.films.film is not None else told.film_missing
         shows = stages.film is not None or picture()
         if not shows and drawn.part.entities:
             return told.stages_missing
@@ -136,6 +143,8 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
     def beside_stages() -> QWidget | None:
         if picture():
             return window.import_panel
+        if stages.text != "A":
+            return window.film_panel
         return window.stages_panel if drawn.part.entities else window.side
 
     def scene_missing() -> MissingHint:
@@ -145,7 +154,7 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         View.STAGES: ViewPage(
             stages,
             stages,
-            lambda: PICTURE_PROMPT if picture() else STAGES_PROMPT,
+            lambda: PICTURE_PROMPT if picture() else STAGES_PROMPT if stages.text == "A" else FILM_PROMPT,
             stages_missing,
             lambda: stages.summary,
             beside_stages,
@@ -153,7 +162,7 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         View.SURFACES: ViewPage(
             surfaces,
             surfaces.canvas,
-            lambda: SURFACES_PROMPT,
+            lambda: SURFACES_PROMPT if surfaces.at_once else SLOW_SURFACES_PROMPT,
             scene_missing,
             lambda: surfaces.summary,
             lambda: window.scene_side if window.scene.open else None,

@@ -21,6 +21,7 @@ from ..views.nc.view import NcView
 from ..views.plot.preview import PlotPreview
 from ..views.stages.view import StagesView
 from ..views.surfaces.view import SurfacesView
+from .start_page.page import StartPage
 
 _RULER_PX, _MARGIN_PX = 24, 16
 _LONG_MS = 30.0
@@ -78,8 +79,8 @@ class ViewStack(QStackedWidget):
         )
         self.surfaces, self.cut_page = SurfacesView(), CutPage(self.cut)
         self._pages: dict[View, ViewPage] = {}
-        self.view, self.plot = View.DRAW, PlotPreview()
-        for widget in (canvas, self.stages, self.cut_page, self.curves, self.surfaces, self.nc, self.plot):
+        self.view, self.plot, self.start = View.DRAW, PlotPreview(), StartPage()
+        for widget in (canvas, self.stages, self.cut_page, self.curves, self.surfaces, self.nc, self.plot, self.start):
             self.addWidget(widget)
         self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
         self.legend.hide()
@@ -113,6 +114,21 @@ class ViewStack(QStackedWidget):
         self.setCurrentWidget(self.plot)
         self.take_focus()
 
+    def show_start(self) -> None:
+        """Bring the page that the window begins with to the front, until a view is shown."""
+        self.setCurrentWidget(self.start)
+        self.start.setFocus()
+
+    @property
+    def starting(self) -> bool:
+        """Whether the page that the window begins with is in front of the view."""
+        return self.currentWidget() is self.start
+
+    @property
+    def covered(self) -> bool:
+        """Whether the view is behind something else."""
+        return self.plotting or self.starting
+
     @property
     def plotting(self) -> bool:
         """Whether sheets of paper are in front of the view."""
@@ -120,7 +136,8 @@ class ViewStack(QStackedWidget):
 
     def take_focus(self) -> None:
         """Have the keys go to what is at the front."""
-        (self.plot if self.plotting else self._pages[self.view].widget).setFocus()
+        over = self.plot if self.plotting else self.start if self.starting else None
+        (over or self._pages[self.view].widget).setFocus()
 
     @property
     def viewport(self) -> Zoomable:
@@ -134,11 +151,11 @@ class ViewStack(QStackedWidget):
             sentence, button: of the empty state.
             shows_paths: there are paths, so the legend belongs beside them.
         """
-        self.empty.setVisible(bool(sentence) and not self.plotting)
-        if sentence and not self.plotting:
+        self.empty.setVisible(bool(sentence) and not self.covered)
+        if sentence and not self.covered:
             self.empty.say(sentence, button)
             self.empty.raise_()
-        self.legend.setVisible(self.view is View.PATHS and shows_paths and not self.plotting)
+        self.legend.setVisible(self.view is View.PATHS and shows_paths and not self.covered)
         self.legend.raise_()
         self.fade.raise_()
         self.place()

@@ -30,6 +30,7 @@ from ..views.plot.controller import PlotController
 from ..views.session1986.controller import SessionController
 from ..views.stages.controller import StagesController
 from ..views.stages.import_controller import ImportController
+from ..views.stages.text_film_controller import TextFilmController
 from ..views.surfaces.controller import SAMPLES, SceneController, SceneProgram
 from ..views.surfaces.export_controller import SceneExportController
 from .actions import Actions
@@ -51,12 +52,15 @@ from .help_window import HelpWindow
 from .keys_window import KeysWindow
 from .main_window import MainWindow
 from .memory_choice import MemoryChoice
+from .new_job import NewPart, new_job
+from .own_film_files import OwnFilmFiles
 from .owned_curves_controller import OwnedCurvesController
 from .proposal_controller import ProposalController
 from .recovery_controller import RecoveryController
 from .shape_language_controller import ShapeLanguageController
 from .shortcuts import Shortcuts
 from .snap_controller import SnapController
+from .start_page.controller import StartController
 from .tab_controller import TabController
 from .tool_exchange import ToolExchange
 from .tour import Landmarks, Tour
@@ -91,7 +95,7 @@ class WindowController(QObject):
         self.workspace, self.log = workspace, workspace.log
         self.display_controller = DisplayController(window)
         self._make_controllers(window.views, workspace)
-        openers = Openers(self.nc.open, self.import_controller.open, self.scenes.open)
+        openers = Openers(self.nc.open, self.import_controller.open, self.scenes.open, self.scenes.open_solid)
         self.files = FileController(window, self.display_controller, self.log, openers)
         self.recovery_controller = RecoveryController(self.files, window.card, workspace)
         self._make_choices(workspace, commands)
@@ -109,7 +113,8 @@ class WindowController(QObject):
         self._connect_programs()
         self._connect_language()
         self._connect_helpers()
-        self._unsubscribe = self.document.subscribe(self.display_controller.refresh)
+        self._connect_start()
+        self._unsubscribe = self.document.subscribe(self._on_change)
         self.display_controller.show_view(View.DRAW)
         self.display_controller.refresh(DocumentChange.ALL)
 
@@ -124,6 +129,8 @@ class WindowController(QObject):
             RecordingController(views.cut_page, workspace),
         )
         self.stages_controller = StagesController(views.stages, window.stages_panel, workspace)
+        own = OwnFilmFiles(self.nc, window.scene)
+        self.film_controller = TextFilmController(views.stages, window.film_panel, own.of, workspace)
         self.import_controller = ImportController(views.stages, window.import_panel, workspace)
         self.smoothing_controller = SmoothingController(views.curves, window.curves_panel, self.nc, workspace)
         self.scenes = SceneController(views.surfaces, window.scene_side, window.scene, workspace)
@@ -158,6 +165,7 @@ class WindowController(QObject):
         self.announcing = Announcing(workspace, self)
         self.command_line_controller = CommandLineController(window.command_line, canvas, self.document)
         self.focus_keeper = FocusKeeper(window, window.views.take_focus)
+        self.start_controller = StartController(window.views.start, workspace)
 
     def _make_helpers(self, workspace: Workspace, commands: Actions) -> None:
         """Make what helps to find one's way."""
@@ -187,6 +195,7 @@ class WindowController(QObject):
     def _connect_controllers(self) -> None:
         """Show what the controllers of views tell, and tell them whether their view is at the front."""
         self._connect_controller(self.stages_controller, View.STAGES)
+        self._connect_controller(self.film_controller, View.STAGES)
         self._connect_controller(self.import_controller, View.STAGES)
         self._connect_controller(self.cut_controller, View.CUT)
         self._connect_controller(self.image_controller, View.CUT)
@@ -200,6 +209,7 @@ class WindowController(QObject):
                 self._connect_controller(page.controller, view)
 
     def _connect_controller(self, controller: Controller, view: View) -> None:
+        self.display_controller.ask(controller, view)
         controller.failed.connect(self._say_error)
         controller.said.connect(self._say)
         controller.changed.connect(self.display_controller.show_state)
@@ -263,7 +273,7 @@ class WindowController(QObject):
         files = self.files
         self._on("new", files.ask_new)
         self._on("open", files.choose_file)
-        self._on("sample", files.ask_sample)
+        self._on("sample", files.open_sample)
         self._on("save", lambda: self.scenes.save() if self._on_scene else files.save_controller.save())
         self._on("save_as", lambda: self.scenes.save_as() if self._on_scene else files.save_controller.save_as())
         self._on("save_copy", files.save_controller.save_copy)
@@ -304,14 +314,19 @@ class WindowController(QObject):
     def _connect_stages(self) -> None:
         view = self.window_.views.stages
         self.stages_controller.changed.connect(self._show_stages)
-        self._on("stages_again", self.stages_controller.again)
+        self.film_controller.changed.connect(self._show_stages)
+        self._on("stages_again", self._stages_again)
         self.import_controller.shown.connect(self._show_picture)
         self.import_controller.taken.connect(self._on_picture_taken)
         view.hovered.connect(self.display_controller.show_hovered)
         view.pixels.cursor_moved.connect(self.window_.status.show_place)
 
+    def _stages_again(self) -> None:
+        (self.stages_controller if self.window_.views.stages.text == "A" else self.film_controller).again()
+
     def _show_stages(self) -> None:
         self.display_controller.stages_missing = self.stages_controller.missing
+        self.display_controller.film_missing = self.film_controller.missing
 
     def _show_picture(self) -> None:
         """Bring the picture to the front when it comes."""
@@ -324,6 +339,32 @@ class WindowController(QObject):
         self.workspace.preferences.add_recent(path)
         self.window_.notice.hide()
         self.display_controller.show_view(View.STAGES)
+        self.window_.canvas.fit()
+
+    def _connect_start(self) -> None:
+        """The page that the window begins with."""
+        page, files = self.window_.views.start, self.files
+        self.start_controller.shown.connect(self.display_controller.show_start)
+        page.opened.connect(files.open_file)
+        page.sampled.connect(files.open_sample)
+        page.new.begun.connect(self._begin)
+        page.left.connect(lambda: self.display_controller.show_view(View.DRAW))
+        self.display_controller.view_changed.connect(lambda _: self.start_controller.close())
+        files.begun.connect(self.open_start)
+
+    def open_start(self) -> None:
+        """Show the last files, samples, and what a new part is to be."""
+        self.start_controller.open(self.window_.theme)
+        self.window_.views.start.new.lengths[0].edit.setFocus()
+
+    def _begin(self, part: NewPart) -> None:
+        """Begin a new part of a size, for a machine and a material."""
+        self.document.load(new_job(part))
+        self.computation.forget()
+        self.display_controller.show_view(View.DRAW)
+        if part.outline:
+            self.run(part.line())
+        self.window_.lay_out_now()
         self.window_.canvas.fit()
 
     def _connect_edit(self) -> None:
@@ -411,7 +452,9 @@ class WindowController(QObject):
         canvas.prompt_changed.connect(lambda _: self.display_controller.show_prompt())
         canvas.hovered.connect(self.display_controller.show_hovered)
         window.views.cut.hovered.connect(self.display_controller.show_hovered)
-        window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
+        self.cut_controller.operation_picked.connect(
+            lambda index: window.panel.choose(Subject(SubjectKind.OPERATION, index))
+        )
         window.cut_panel.line_requested.connect(self._go_to_motion)
         self.nc.cut_requested.connect(self._show_cut)
         window.views.cut.cursor_moved.connect(window.status.show_place)
@@ -422,7 +465,7 @@ class WindowController(QObject):
 
     def _take_tool(self, tool: CanvasTool) -> None:
         """Take a tool in hand, on the canvas."""
-        if self.display_controller.view not in (View.DRAW, View.PATHS):
+        if self.display_controller.view not in (View.DRAW, View.PATHS) or self.window_.views.starting:
             self.display_controller.show_view(View.DRAW)
         self.window_.canvas.set_tool(tool)
         self._on_tool(self.window_.canvas.tool)
@@ -435,6 +478,18 @@ class WindowController(QObject):
                 self.display_controller.show_view(View.DRAW)
             self.window_.views.take_focus()
 
+    def _on_change(self, change: DocumentChange) -> None:
+        """Let nothing stand that speaks of what was before; the cut of another program goes with the drawing beside
+        which it was looked at.
+        """
+        if change & (DocumentChange.PART | DocumentChange.JOB):
+            self.window_.notice.lapse()
+        if change & DocumentChange.LOADED:
+            self.cut_controller.back()
+        if change & DocumentChange.PART and self.window_.views.starting:
+            self.display_controller.show_view(View.DRAW)
+        self.display_controller.refresh(change)
+
     def run(self, line: str) -> None:
         """Carry out one line of the drawing language; what is wrong with it stands in the log."""
         self.language.lines.run(line)
@@ -445,6 +500,9 @@ class WindowController(QObject):
         if self.display_controller.view is View.SURFACES:
             self.scenes.compute()
             return
+        self.cut_controller.back()
+        if self.nc.foreign and self.nc.source is not None and self.nc.source.path is not None:
+            self.nc.back()
         self.computation.start()
         if self.display_controller.view is View.DRAW:
             self.display_controller.show_view(View.PATHS)
@@ -523,5 +581,4 @@ class WindowController(QObject):
         self.window_.status.show_message(text)
 
     def _say_error(self, text: str) -> None:
-        self.window_.status.show_message(text, error=True)
-        self.window_.notice.ask(text, error=True)
+        self.window_.notice.ask(text, error=True, of_job=True)

@@ -8,8 +8,8 @@ import numpy as np
 
 from app.gcode.interpreter.arc_kernels import centre_by_radius
 from app.gcode.interpreter.columns import MotionColumns
-from app.gcode.interpreter.lane import LaneState, plain_blocks
 from app.model.motion import Motions, Plane
+from tests.gcode.interpreter.plain_lane import LaneState, plain_blocks
 
 WORD = re.compile(r"([A-Z])([+-]?(?:\d+\.?\d*|\.\d+))")
 Row = tuple[float, ...]

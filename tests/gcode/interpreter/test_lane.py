@@ -9,8 +9,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from app.gcode.interpreter.columns import MotionColumns
-from app.gcode.interpreter.lane import LaneState, plain_blocks
 from tests.examples import examples
+from tests.gcode.interpreter.plain_lane import LaneState, plain_blocks
 from tests.gcode.interpreter.plain_oracle import Oracle, lane, same_bits
 
 START, END, CENTRE = slice(0, 3), slice(3, 6), slice(6, 9)

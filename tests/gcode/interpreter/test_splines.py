@@ -20,10 +20,10 @@ from app.gcode.interpreter.splines import (
     quadratic,
     second_offset,
 )
-from app.geometry.arcs.nurbs import nurbs_points
 from app.model.motion import Nurbs, Plane
 from tests.examples import examples
 from tests.gcode.rs274_oracle import exact_motions
+from tests.nurbs_oracle import nurbs_points
 
 START = (1.0, 2.0, 3.0)
 HEAD = "G21 G17 G90 F100 G64\nG0 X1 Y2 Z3\n"

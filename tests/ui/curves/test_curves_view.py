@@ -351,3 +351,31 @@ def test_degree_is_a_choice_of_splines(qtbot, opened) -> None:
     assert panel.degree.isVisible()
     press_smooth(qtbot, opened)
     assert curves_of(opened).curves.done.options.degree == 5
+
+
+def test_who_insists_on_splines_is_told_what_was_written(qtbot, opened) -> None:
+    panel = opened.window_.curves_panel
+    assert not panel.insist.isVisible()
+    panel.post.show_value("fanuc")
+    click(panel.form, "nurbs")
+    assert panel.insist.isVisible() and panel.insist.value is False
+    click(panel.insist, True)
+    press_smooth(qtbot, opened)
+    done = curves_of(opened).curves.done
+    assert done.options.insist and done.kinds.splines > 0 == done.kinds.lines + done.kinds.arcs
+    assert done.kinds.words in panel.title.text()
+
+
+def test_a_region_by_its_outline_reaches_the_engine_or_says_what_is_wrong(qtbot, opened) -> None:
+    panel = opened.window_.curves_panel
+    click(panel.region, "outline")
+    assert panel.outline.isVisible() and not panel.tolerance.isVisible()
+    panel.outline.edit.setText("0.01 + 0.01 * zz")
+    press_smooth(qtbot, opened)
+    assert "zz" in panel.reason.text()
+    panel.outline.edit.setText("0=0.01,0.5=0.02,1=0.01")
+    press_smooth(qtbot, opened)
+    done = curves_of(opened).curves.done
+    assert done.options.profile.text == "0=0.01,0.5=0.02,1=0.01" and done.options.tolerance == 0.01
+    click(panel.region, "cylinder")
+    assert panel.tolerance.isVisible() and not panel.outline.isVisible()

@@ -1,12 +1,20 @@
 """The window cuts what it has computed, without being asked, and shows what is left."""
 
 import numpy as np
+import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.model.finding import FindingKind
+from app.model.job import Job
+from app.model.operation import CutParameters, PocketOperation
+from app.model.tool import Tool
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
+from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.window_controller import WindowController
+from app.ui.views.cut.cut_player import PlaybackStep
+from tests.part_shapes import layered_part, square
 
 
 def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot, wiring: WindowController) -> None:
@@ -28,8 +36,52 @@ def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot, wiring: 
     row, column = (int(k) for k in np.argwhere(picture.move >= 0)[5000])
     motion = picture.move_at(row, column)
     view.cell_picked.emit(0.0, 0.0, 0.0, motion)
-    assert wiring.display_controller.view is View.NC
-    assert wiring.window_.views.nc.pane.text.current + 1 == picture.moves.line[motion]
+    beside = wiring.window_.cut_panel.nc
+    assert wiring.display_controller.view is View.CUT, "nothing leaves"
+    assert beside.text.current + 1 == picture.moves.line[motion] and "Contour T2" in beside.where.text()
+    assert view.overlay.way is not None and wiring.window_.panel.subject == Subject(SubjectKind.OPERATION, 2)
     wiring.files.new()
     qtbot.waitUntil(lambda: view.model.picture is None, timeout=10_000)
     assert wiring.window_.views.empty.isVisible() or wiring.display_controller.view is not View.CUT
+
+
+def test_text_and_picture_go_together_while_it_is_played_both_ways(qtbot: QtBot, computed: WindowController) -> None:
+    control, beside = computed.cut_controller, computed.window_.cut_panel.nc
+    computed.display_controller.show_view(View.CUT)
+    player = control.player
+    qtbot.waitUntil(lambda: player.timeline is not None, timeout=60_000)
+    assert beside.text.current == -1, "at the end nothing is marked"
+    player.go(40)
+    qtbot.waitUntil(lambda: player.at is not None and player.at.motion == 40, timeout=20_000)
+    lines = player.timeline.line
+    assert beside.text.current + 1 == lines[39] and "Pocket T1" in beside.where.text()
+    player.step(PlaybackStep.LINE, 1)
+    qtbot.waitUntil(lambda: player.at.motion == 41, timeout=20_000)
+    assert beside.text.current + 1 == lines[40]
+    beside.text.pick(int(lines[99]) - 1)
+    qtbot.waitUntil(lambda: player.at.motion == 100, timeout=20_000)
+    assert beside.motion == 99 and computed.window_.views.cut.overlay.way is not None
+    beside.text.pick(0)
+    qtbot.waitUntil(lambda: player.at.motion == 0, timeout=20_000)
+    assert computed.display_controller.view is View.CUT
+
+
+@pytest.mark.exhaustive
+def test_a_mend_is_one_step_that_is_computed_and_can_be_taken_back(qtbot: QtBot, wiring: WindowController) -> None:
+    cut = CutParameters(1, depth=6.0, stepdown=3.0)
+    tool = Tool(1, 6.0, flute_length=4.0, shank_diameter=8.0)
+    wiring.document.load(Job(layered_part({"0": [square(20.0)]}), (tool,), (PocketOperation(cut),)))
+    wiring.compute()
+    panel = wiring.window_.cut_panel
+    qtbot.waitUntil(lambda: bool(panel.entries), timeout=60_000)
+    wiring.display_controller.show_view(View.CUT)
+    panel.choose(next(each for each in panel.entries if each.kind is FindingKind.SHANK_CONTACT))
+    words = [button.text() for button in panel.mends]
+    assert words[0] == "T1 of the library" and "T1 flutes 7 mm" in words and "Depth 3.5 mm" in words
+    panel.mends[words.index("Depth 3.5 mm")].click()
+    assert not panel.mends and wiring.document.undo_name == "Depth 3.5 mm"
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=60_000)
+    assert wiring.window_.status.badge.text().startswith("✓ 0 gouge")
+    wiring.document.undo()
+    assert wiring.document.job.operations[0].cut == cut
+    assert wiring.computation.state is ComputationState.STALE

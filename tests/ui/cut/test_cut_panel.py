@@ -24,10 +24,12 @@ def beside(qtbot, wiring):
     return wiring
 
 
-def test_the_panel_stands_in_the_job_panels_place_while_there_is_a_cut(beside):
+def test_the_panel_stands_in_the_job_panels_place_while_there_is_a_cut(qtbot, beside):
     window = beside.window_
     assert window.cut_panel.isVisible() and not window.panel.isVisible()
-    assert window.cut_panel.histogram.isVisible()
+    assert window.cut_panel.nc.isVisible() and not window.cut_panel.histogram.isVisible(), "the text comes first"
+    window.resize(1280, 1050)
+    qtbot.waitUntil(window.cut_panel.histogram.isVisible)
     assert "mm²" in window.cut_panel.histogram.sums.text()
     beside.display_controller.show_view(View.DRAW)
     assert window.panel.isVisible() and not window.cut_panel.isVisible()
@@ -55,7 +57,7 @@ def test_a_place_is_gone_to_and_its_line_is_shown(qtbot, beside):
     at = next(k for k, entry in enumerate(panel.entries) if entry.colour is FindingColour.GOUGE and entry.line == 13)
     qtbot.mouseClick(panel.rows[at], Qt.MouseButton.LeftButton)
     assert panel.rows[at].property("chosen") == "true"
-    assert panel.text.isVisible() and panel.text.current == 12
+    assert panel.nc.text.isVisible() and panel.nc.text.current == 12
     assert view.colour is CutColourBy.DEVIATION
     place = panel.entries[at].place
     qtbot.waitUntil(lambda: _near_the_middle(view, place), timeout=WAIT_MS)
@@ -92,12 +94,12 @@ def test_what_is_said_of_a_place_fits_into_a_small_window(qtbot, beside):
     qtbot.mouseClick(window.cut_panel.rows[0], Qt.MouseButton.LeftButton)
     assert not window.cut_panel.histogram.isVisible()
     assert window.cut_panel.go.isVisible()
-    window.resize(1100, 1000)
+    window.resize(1100, 1200)
     qtbot.waitUntil(window.cut_panel.histogram.isVisible, timeout=WAIT_MS)
 
 
 def test_the_metal_that_is_pointed_at_shows_its_line_beside_it(beside):
     panel, view = beside.window_.cut_panel, beside.window_.views.cut
     motion = int(view.model.picture.move.max())
-    panel.show_line(motion)
-    assert panel.text.current + 1 == view.model.picture.moves.line[motion]
+    panel.nc.mark(motion)
+    assert panel.nc.text.current + 1 == view.model.picture.moves.line[motion]

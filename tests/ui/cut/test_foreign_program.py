@@ -80,14 +80,12 @@ def test_other_tools_and_back_to_the_jobs_own_cut(qtbot, opened):
     )
 
 
-def test_computing_anew_leaves_the_other_program_where_it_is(qtbot, opened):
+def test_computing_anew_brings_the_cut_of_the_job_back(qtbot, opened):
     wiring = opened(TOLD + PROGRAM)
-    before, foreign = wiring.computation.made, wiring.cut_controller.cut
+    before = wiring.computation.made
     wiring.compute()
     qtbot.waitUntil(lambda: wiring.computation.made is not before, timeout=WAIT_MS)
     qtbot.waitUntil(lambda: not wiring.cut_controller.worker.busy, timeout=WAIT_MS)
-    assert wiring.cut_controller.cut is foreign
-    wiring.cut_controller.back()
     assert wiring.cut_controller.cut.cut is wiring.computation.made.cut
 
 
@@ -115,11 +113,11 @@ def test_the_line_of_the_metal_is_shown_in_the_nc_view(qtbot, opened):
     wiring = opened(TOLD + PROGRAM)
     cut = wiring.cut_controller.cut
     motion = int(np.flatnonzero(cut.picture.moves.line == 7)[0])
-    wiring.window_.views.cut.cell_picked.emit(20.0, 15.0, -2.0, motion)
+    wiring.window_.cut_panel.line_requested.emit(motion)
     assert wiring.display_controller.view is View.NC and wiring.window_.views.nc.pane.text.current == 6
     wiring.cut_controller.back()
     motion = int(wiring.cut_controller.cut.picture.move.max())
-    wiring.window_.views.cut.cell_picked.emit(0.0, 0.0, 0.0, motion)
+    wiring.window_.cut_panel.line_requested.emit(motion)
     line = wiring.cut_controller.cut.picture.moves.line[motion]
     assert not wiring.nc.foreign
     qtbot.waitUntil(lambda: wiring.window_.views.nc.pane.text.current + 1 == line, timeout=WAIT_MS)

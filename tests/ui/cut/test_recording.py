@@ -22,6 +22,9 @@ from app.ui.shell.start import places
 from app.ui.views.cut.camera import Camera
 from app.ui.views.cut.cell_colours import CutColourBy, cell_colours
 from app.ui.views.cut.cell_patch import patch_of
+from app.ui.views.cut.cut_player import PlaybackPace
+from app.ui.views.cut.model import middle
+from app.ui.views.cut.record_sheet import RecordedMotion, RecordPlan
 from app.ui.views.cut.recording import (
     CutSnapshot,
     FrameChange,
@@ -31,11 +34,13 @@ from app.ui.views.cut.recording import (
     write_gif,
     write_pictures,
 )
+from app.ui.views.cut.recording_controller import RecordingRequest, turntable
 from app.ui.views.cut.rendering.cut_frame import CutFrame
 from app.ui.views.cut.rendering.cut_scene import CutScene
 from app.ui.views.cut.tool_outline import DrawnTool, outline_of
 from tests.conftest import ROOT
 from tests.ui.cut.pictures import INKS, LOOK, flat_picture, without_a_screen
+from tests.ui.cut.real_cut import real_shown
 
 SIZE = (120, 90)
 COUNT = 5
@@ -220,3 +225,19 @@ def test_a_folder_that_tells_no_writer_or_a_living_one_is_not_swept(tmp_path: Pa
     mine.mkdir()
     sweep(tmp_path)
     assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_turntable_turns_the_whole_cut_once_round_its_middle():
+    shown = real_shown()
+    camera = Camera().fitted(shown.picture.low, shown.picture.high, SIZE)
+    plan = RecordPlan(0.4, 20.0, SIZE[0], RecordedMotion.TURNTABLE)
+    requested = RecordingRequest(
+        shown, CutFrame(camera, SIZE, LOOK), plan, PlaybackPace.TIME, CutColourBy.METAL, INKS, False, Path("a.gif")
+    )
+    changes = list(turntable(requested))
+    assert len(changes) == plan.count == 8 and changes[0].whole is not None and changes[1].whole is None
+    centre = middle(shown.picture)[None]
+    seen = [each.camera.project(centre, SIZE)[0, :2] for each in changes]
+    assert np.allclose(seen, seen[0], atol=1e-6)
+    turns = np.diff([each.camera.yaw for each in changes])
+    assert np.allclose(turns, 2 * np.pi / 8)

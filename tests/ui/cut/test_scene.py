@@ -260,3 +260,27 @@ def test_a_long_path_is_thinned_within_its_unbroken_parts_alone():
     pieces = [(a[0], b[0]) for a, b in zip(thin["from"], thin["to"], strict=True)]
     assert pieces == [(0, 2), (2, 4), (4, 5), (5, 7), (7, 8), (8, 9), (9.5, 10)]
     assert thin["gone"].tolist() == [0, 2, 4, 0, 2, 0, 0]
+
+
+@pytest.mark.parametrize("budget", [0, 20_000], ids=["fine", "moving"])
+def test_a_round_wall_has_no_stripes(context, budget):
+    """Along a wall that turns, what the light leaves turns too: as a cylinder's normal says, whatever the cells."""
+    x, y = cells(256)
+    radius, depth = 3.5, 2.0
+    picture = flat_picture(np.where(np.hypot(x - 5, y - 5) < radius, -depth, 0.0))
+    camera = seen(picture, StandardView.ISOMETRIC)
+    pixels = painted(context, picture, camera, budget=budget).astype(float)[..., 0]
+    towards = camera.axes[2]
+    away = math.atan2(-towards[1], -towards[0])
+    angles = away + np.linspace(-0.9, 0.9, 60)
+    middle = np.column_stack(
+        [5 + radius * np.cos(angles), 5 + radius * np.sin(angles), np.full(len(angles), -depth / 2)]
+    )
+    column, row = camera.project(middle, SIZE)[:, :2].astype(int).T
+    got = pixels[row, column]
+    # the wall of a pocket faces inward; the corner's shade takes a share that changes slowly
+    normals = np.column_stack([-np.cos(angles), -np.sin(angles), np.zeros(len(angles))])
+    expected = METAL[0] * (AMBIENT + DIRECT * np.maximum(normals @ (LIGHT @ camera.axes), 0.0))
+    share = got / expected
+    assert np.ptp(share) < 0.25, share.round(2)
+    assert np.std(np.diff(got)) < 8.0, got

@@ -31,7 +31,7 @@ from app.ui.views.stages.code_colours import code_colours, table
 from app.ui.views.stages.direction_rose import DirectionRose
 from app.ui.views.stages.film_set import FilmRequest, film_set_of
 from app.ui.views.stages.painting.pixel_painter import PixelPaint
-from app.ui.views.stages.view import StagesView
+from app.ui.views.stages.view import HEAD_PX, StagesView
 from app.usecases.bitmap_options import BitmapSize
 from app.usecases.make import job_from_drawing
 from app.usecases.options import MakeOptions
@@ -67,7 +67,7 @@ def view_of(job: Job, points: int, side: int = _SIDE) -> StagesView:
     reel = film_set_of(FilmRequest(job, BitmapSize(points)))
     view = StagesView()
     view.set_theme(LIGHT)
-    view.resize(side + view.rail.width(), side)
+    view.resize(side + view.rail.width(), side + HEAD_PX)
     view.show()
     QApplication.processEvents()
     view.show_film(reel.film, reel.part.frame)

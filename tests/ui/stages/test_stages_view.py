@@ -14,6 +14,7 @@ from app.raster.steps import STEPS
 from app.ui.framework.theme import LIGHT
 from app.ui.framework.view import View
 from app.ui.views.stages.code_colours import step_colours
+from app.ui.views.stages.film_player import SPEEDS
 from app.ui.views.stages.painting.pixel_painter import LETTER_PX, RASTER_PX
 from app.ui.views.stages.panel import FillRules
 from app.ui.views.stages.step_notes import note
@@ -82,7 +83,7 @@ def test_keys_step_and_the_rail_ticks_what_was_reached(qtbot, staged):
 
 def test_space_plays_to_the_end_and_pauses(qtbot, staged):
     view = staged.window_.views.stages
-    view.player.set_speed(60)
+    view.player.speed.setCurrentIndex(SPEEDS.index(60))
     seen = []
     view.shown.connect(lambda: seen.append(view.at))
     qtbot.keyClick(view.pixels, Qt.Key.Key_Space)
@@ -340,7 +341,7 @@ def test_what_gets_no_path_is_said(qtbot, staged):
         qtbot.waitUntil(lambda reel=before: staged.stages_controller.reel is not reel, timeout=WAIT_MS)
     assert (
         staged.window_.views.stages.rail.numbers == (110,)
-        and "No operation" in panel.finding.text()
+        and "no operation is one of them" in panel.finding.text()
         and panel.finding.isVisible()
     )
     staged.window_.panel.operations.switched.emit(2, True)

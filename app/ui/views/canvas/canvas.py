@@ -21,10 +21,10 @@ from ....raster.frame import BitmapFrame
 from ...framework.theme import Theme
 from .describe import describe_entity, describe_note
 from .grips import GRIP_PX, GripDragTool, SelectionDragTool
-from .interactive_viewport import PICK_PX, InteractiveViewport
+from .interactive_viewport import PICK_PX, InteractiveViewport, MouseAnswers
 from .modes import CanvasMode, CanvasTool, PathColourBy, PathLayers
 from .painting import overlay
-from .painting.annotation_layer import paint_note
+from .painting.annotation_layer import NoteLook, paint_note
 from .painting.curve_path import MANY, curve_path
 from .painting.grid import (
     cells_shown,
@@ -42,6 +42,7 @@ from .painting.underlay_layer import UnderlayLayer
 from .program_hover import describe, nearest_move
 from .value_picture import SheetPlace, ValueSheet, paint_values
 from .view_transform import ViewTransform
+from .viewport import FarScene, ViewportScene
 
 __all__ = ["BitmapFrame", "Canvas", "CanvasMode", "CanvasTool", "PathColourBy", "PathLayers"]
 
@@ -72,7 +73,15 @@ class Canvas(InteractiveViewport):
 
     def __init__(self, document: Document, theme: Theme, parent: QWidget | None = None) -> None:
         """Show a document; it is followed from now on."""
-        super().__init__(document, parent)
+        scene = ViewportScene(
+            self._scene_steps,
+            self._paint_margins,
+            self.paint_overlay,
+            self._paint_ground,
+            lambda: self.heavy,
+            FarScene(self._far_box, self._far_steps),
+        )
+        super().__init__(document, scene, MouseAnswers(self.look_at, self.fit), parent)
         self.frame = BitmapFrame()
         self._underlay: UnderlayLayer | None = None
         self._look, self._mode = PathDisplay(theme), CanvasMode.DRAW
@@ -96,11 +105,6 @@ class Canvas(InteractiveViewport):
     def mode(self) -> CanvasMode:
         """Whether drawing or tool paths are shown."""
         return self._mode
-
-    @property
-    def visible_layers(self) -> PathLayers:
-        """What PATHS shows."""
-        return self._look.layers
 
     @property
     def colour_by(self) -> PathColourBy:
@@ -160,11 +164,6 @@ class Canvas(InteractiveViewport):
         if stale != self._look.stale:
             self._set_look(replace(self._look, stale=stale))
 
-    def set_frame(self, frame: BitmapFrame) -> None:
-        """Lay the display's frame elsewhere, or give its cells another size."""
-        self.frame = frame
-        self.repaint_scene()
-
     def set_underlay(self, picture: UnderlayLayer | None) -> None:
         """Lay a picture under the drawing, or none."""
         self._underlay = picture
@@ -207,12 +206,12 @@ class Canvas(InteractiveViewport):
     def _shown_program(self) -> ProgramLayer | None:
         return self._program if self._mode is CanvasMode.PATHS else None
 
-    def scene_steps(self, painter: QPainter, area: QRectF) -> Iterator[None]:
+    def _scene_steps(self, painter: QPainter, area: QRectF) -> Iterator[None]:
         """Paint paper, paths and part within a screen rectangle, with pauses."""
         look, program, whole = self._look, self._shown_program, self.view.world_box(self.area)
         theme = look.theme
         box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
-        self.paint_ground(painter, area)
+        self._paint_ground(painter, area)
         if program is not None:
             fine = program.count(whole, look.layers) > MANY
             shown = replace(look, theme=theme.faint(_STALE) if look.stale else theme, fine=fine)
@@ -221,30 +220,29 @@ class Canvas(InteractiveViewport):
             self.around.paint_clamps(painter, self.view, box, theme)
         if program is None or PathLayers.PART in look.layers:
             self.picture.fine = self.picture.count(whole) > MANY
-            self.around.paint_copies(painter, self.view, self.picture, (box, theme))
+            self.around.paint_copies(painter, self.view, self.picture, box, theme)
             yield
             yield from self.picture.steps(painter, self.view, box, theme)
         paint_origin(painter, self.view, theme)
 
-    @property
-    def far_box(self) -> Box | None:
-        """The box of part and paths, where they are many."""
+    def _far_box(self) -> Box | None:
+        """Return the box of part and paths, where they are many."""
         program = self._shown_program
         box = union(
             [box for box in (self.picture.box, program.box if program is not None else None) if box is not None]
         )
         return box if box is not None and self._elements(box) > MANY else None
 
-    def far_steps(self, painter: QPainter, view: ViewTransform) -> Iterator[None]:
+    def _far_steps(self, painter: QPainter, view: ViewTransform) -> Iterator[None]:
         """Paint paths and part with the finest pens."""
-        look, program, box = self._look, self._shown_program, self.far_box
+        look, program, box = self._look, self._shown_program, self._far_box()
         if program is not None and box is not None:
             theme = look.theme.faint(_STALE) if look.stale else look.theme
             yield from program.steps(painter, view, box, replace(look, theme=theme, fine=True))
         if program is None or PathLayers.PART in look.layers:
             yield from self.picture.coarse_steps(painter, view, look.theme)
 
-    def paint_ground(self, painter: QPainter, area: QRectF) -> None:
+    def _paint_ground(self, painter: QPainter, area: QRectF) -> None:
         """Paint the paper."""
         paint_paper(painter, self.view, area, self._look.theme, self.unit)
         if self._underlay is not None:
@@ -252,7 +250,7 @@ class Canvas(InteractiveViewport):
             paint_raster(painter, self.view, area, self._look.theme, self.unit)
         paint_display(painter, self.view, area, self.frame, self._look.theme)
 
-    def paint_margins(self, painter: QPainter) -> None:
+    def _paint_margins(self, painter: QPainter) -> None:
         """Paint the rulers."""
         paint_rulers(painter, self.view, self.size(), self._look.theme, self.unit)
 
@@ -263,7 +261,7 @@ class Canvas(InteractiveViewport):
         if self._mode is CanvasMode.DRAW:
             overlay.paint_owned(painter, self.view, self.owned, theme)
         if isinstance(self._lit, Note):
-            paint_note(painter, self.view, self._lit, (theme.accent_text, 2.2), self.area)
+            paint_note(painter, self.view, self._lit, NoteLook(theme.accent_text, 2.2), self.area)
         elif self._lit is not None and not self.runner.shows_change:
             overlay.paint_highlight(painter, self.view, self._lit_path, (theme.accent, theme.accent_text))
         overlay.paint_findings(painter, self.view, self._findings, theme)
@@ -339,7 +337,8 @@ class Canvas(InteractiveViewport):
             return
         at = self.entry.at
         if self.aim is not None:
-            overlay.paint_tracking(painter, self.view, (self.aim.tracked, self.snap_state.acquired), self.area, theme)
+            aids = overlay.TrackingAids(self.aim.tracked, self.snap_state.acquired)
+            overlay.paint_tracking(painter, self.view, aids, self.area, theme)
         end = typed.answer(tool, at)
         end = end if isinstance(end, tuple) else at
         if isinstance(tool, SelectionDragTool):

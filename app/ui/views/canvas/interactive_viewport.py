@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QKeyEvent, QKeySequence, QMouseEvent
@@ -27,11 +28,24 @@ from .snapped_point import SnappedPoint, rounded
 from .tool_runner import ToolRunner
 from .tool_target import aimed
 from .value_entry import ValueEntry
-from .viewport import Viewport
+from .viewport import Viewport, ViewportScene
 
 PICK_PX = 6.0
 _DRAG_PX = 4.0
 _ADDING = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+
+
+@dataclass(frozen=True, eq=False)
+class MouseAnswers:
+    """What the picture does for the mouse and the keys.
+
+    Attributes:
+        look_at: lights up what lies under a place, mm; None for nothing.
+        fit: shows everything.
+    """
+
+    look_at: Callable[[Point | None], None]
+    fit: Callable[[], None]
 
 
 class InteractiveViewport(Viewport):
@@ -56,9 +70,12 @@ class InteractiveViewport(Viewport):
     key_typed = Signal(str)
     menu_requested = Signal(QPoint)
 
-    def __init__(self, document: Document, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, document: Document, scene: ViewportScene, answers: MouseAnswers, parent: QWidget | None = None
+    ) -> None:
         """Begin with SELECT, snapping to points."""
-        super().__init__(parent)
+        super().__init__(scene, parent)
+        self._answers = answers
         self.document, self.picture = document, PartLayer()
         self.runner = ToolRunner(document, self.message.emit)
         edited = QLineEdit(self)
@@ -77,14 +94,6 @@ class InteractiveViewport(Viewport):
         self._told = (self.runner.prompt, CanvasTool.SELECT)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-
-    def look_at(self, point: Point | None) -> None:
-        """Light up what lies under the mouse, mm; None for nothing."""
-        raise NotImplementedError
-
-    def fit(self) -> None:
-        """Show everything."""
-        raise NotImplementedError
 
     @property
     def tool(self) -> CanvasTool:
@@ -120,7 +129,7 @@ class InteractiveViewport(Viewport):
         self.marker_mode = None
         self.runner.start(tool)
         self.snap_state.forget()
-        self.look_at(None)
+        self._answers.look_at(None)
         self._tell()
 
     def set_snap(self, on: bool) -> None:
@@ -260,13 +269,13 @@ class InteractiveViewport(Viewport):
         if self.mouse is None or self.runner.tool is not None or len(self.candidates()) < 2:
             return super().focusNextPrevChild(forward)
         self.turns.on(self.mouse)
-        self.look_at(self.view.to_world(self.mouse))
+        self._answers.look_at(self.view.to_world(self.mouse))
         return True
 
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
         """Forget the mouse."""
         self.mouse = self.aim = self.entry.pointer = None
-        self.look_at(None)
+        self._answers.look_at(None)
         self.update()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
@@ -309,7 +318,7 @@ class InteractiveViewport(Viewport):
             Qt.Key.Key_Enter: self.accept,
             Qt.Key.Key_Delete: self.delete_selection,
             Qt.Key.Key_Backspace: self.back,
-            Qt.Key.Key_Home: self.fit,
+            Qt.Key.Key_Home: self._answers.fit,
             Qt.Key.Key_Up: lambda: self._count_on(1),
             Qt.Key.Key_Down: lambda: self._count_on(-1),
             Qt.Key.Key_Space: lambda: self._hold_space(True),
@@ -339,7 +348,7 @@ class InteractiveViewport(Viewport):
         point = self.aim.point if self.aim else rounded(self.view.to_world(self.mouse), self.view.scale)
         self.cursor_moved.emit(*point)
         if self.band_from is None:
-            self.look_at(self.view.to_world(self.mouse) if self.runner.looking else None)
+            self._answers.look_at(self.view.to_world(self.mouse) if self.runner.looking else None)
 
     def _aim_again(self) -> None:
         tool = self.runner.tool
@@ -388,7 +397,7 @@ class InteractiveViewport(Viewport):
 
     def _hold(self, tool: DragTool) -> None:
         """Take a grip or the selection in hand."""
-        self.look_at(None)
+        self._answers.look_at(None)
         self.runner.hold(tool)
         self._tell()
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 
 from PySide6.QtCore import QEasingCurve, QPointF, QRectF, Qt, QTimer, QVariantAnimation, Signal
@@ -53,6 +54,43 @@ _NOTCH = 1.2
 _SPARE = 0.45
 
 
+@dataclass(frozen=True, eq=False)
+class FarScene:
+    """A coarse picture of everything, kept where painting takes so long that it is worth it.
+
+    Attributes:
+        box: the box in mm of everything; None where no coarse picture is needed.
+        steps: paints everything coarsely, without its ground, as a view has it; at every pause others may have their
+            turn.
+    """
+
+    box: Callable[[], Box | None]
+    steps: Callable[[QPainter, ViewTransform], Iterator[None]]
+
+
+@dataclass(frozen=True, eq=False)
+class ViewportScene:
+    """What a viewport shows, by the functions that paint it.
+
+    Attributes:
+        steps: paints what lies in a screen rectangle and stays while only the mouse moves; at every pause others may
+            have their turn.
+        margins: paints what stands round the drawing. overlay: what follows the mouse.
+        ground: paints what a screen rectangle shows until the scene is painted there; None: the palette's base.
+        heavy: tells whether so much is in view that painting it may take longer than a frame.
+        far: a coarse picture of everything; None: none is ever needed.
+        room: returns the part of the area that a box in mm is fitted into; None: all that nothing is laid over.
+    """
+
+    steps: Callable[[QPainter, QRectF], Iterator[None]]
+    margins: Callable[[QPainter], None]
+    overlay: Callable[[QPainter], None]
+    ground: Callable[[QPainter, QRectF], None] | None = None
+    heavy: Callable[[], bool] = lambda: False
+    far: FarScene | None = None
+    room: Callable[[Box], QRectF] | None = None
+
+
 class Viewport(QWidget):
     """Shows a scene; what follows the mouse is painted over it and never repaints it.
 
@@ -64,9 +102,10 @@ class Viewport(QWidget):
 
     view_changed = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        """Begin with 5 px per mm."""
+    def __init__(self, scene: ViewportScene, parent: QWidget | None = None) -> None:
+        """Show a scene, with 5 px per mm."""
         super().__init__(parent)
+        self._shown = scene
         self.view = ViewTransform()
         self.scene_ms, self.unit = 0.0, 1.0
         self._scene: QPixmap | None = None
@@ -95,49 +134,10 @@ class Viewport(QWidget):
         """The part of the widget that shows the drawing, beside the rulers."""
         return QRectF(RULER, RULER, max(self.width() - RULER, 1), max(self.height() - RULER, 1))
 
-    def paint_scene(self, painter: QPainter, area: QRectF) -> None:
-        """Paint what lies in a screen rectangle and stays while only the mouse moves."""
-        raise NotImplementedError
-
-    def scene_steps(self, painter: QPainter, area: QRectF) -> Iterator[None]:
-        """Do what `paint_scene` does; at every pause others may have their turn."""
-        self.paint_scene(painter, area)
-        return iter(())
-
-    def paint_ground(self, painter: QPainter, area: QRectF) -> None:
-        """Paint what a screen rectangle shows until the scene is painted there."""
-        painter.fillRect(area, self.palette().base())
-
-    @property
-    def heavy(self) -> bool:
-        """Whether so much is in view that painting it may take longer than a frame."""
-        return False
-
-    @property
-    def far_box(self) -> Box | None:
-        """The box in mm of everything, where painting that takes so long that a coarse picture of it is kept; else
-        None.
-        """
-        return None
-
-    def far_steps(self, painter: QPainter, view: ViewTransform) -> Iterator[None]:
-        """Paint everything coarsely, without its ground, as a view has it; at every pause others may have their
-        turn.
-        """
-        return iter(())
-
     @property
     def sharp(self) -> bool:
         """Whether the kept scene is what this view shows."""
         return self._scene is not None and not self._outdated and self._scene_view == self.view
-
-    def paint_margins(self, painter: QPainter) -> None:
-        """Paint what stands round the drawing."""
-        raise NotImplementedError
-
-    def paint_overlay(self, painter: QPainter) -> None:
-        """Paint what follows the mouse."""
-        raise NotImplementedError
 
     def set_view(self, view: ViewTransform) -> None:
         """Look at the drawing this way; a shift by whole px keeps what was painted."""
@@ -159,6 +159,8 @@ class Viewport(QWidget):
         """Return the part of the area that a box in mm is fitted into: nothing laid over it covers it, unless there is
         no room.
         """
+        if self._shown.room is not None:
+            return self._shown.room(box)
         covered = self.covered_right if self.covered_right < _SPARE * self.area.width() else 0.0
         return self.area.adjusted(0.0, 0.0, -covered, 0.0)
 
@@ -206,7 +208,7 @@ class Viewport(QWidget):
     def _paint_patch(self, rect: QRectF, painter: QPainter) -> None:
         if not rect.isEmpty():
             painter.setClipRect(rect)
-            for _ in self.scene_steps(painter, rect):
+            for _ in self._shown.steps(painter, rect):
                 pass
 
     def zoom_by(self, factor: float, at: QPointF | None = None) -> None:
@@ -251,7 +253,7 @@ class Viewport(QWidget):
         else:
             self._paint_moved(painter)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        self.paint_overlay(painter)
+        self._shown.overlay(painter)
         painter.end()
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 (Qt's name)
@@ -315,7 +317,7 @@ class Viewport(QWidget):
         pixmap = QPixmap(round(self.width() * ratio), round(self.height() * ratio))
         pixmap.setDevicePixelRatio(ratio)
         self._growing = IncrementalPicture(pixmap, self.view, partial(self._whole_scene, self._scroll()))
-        if self._scene is None or not self.heavy:
+        if self._scene is None or not self._shown.heavy():
             self._grow(math.inf)
         elif self.scene_ms <= _FRAME_MS:
             self._grow(_FRAME_MS)
@@ -338,10 +340,11 @@ class Viewport(QWidget):
 
     def _grow_far(self) -> None:
         """Go on with the coarse picture while nothing else is to be painted."""
-        box = self.far_box
-        if box is None or not self.sharp or not self.isVisible():
+        far = self._shown.far
+        box = far.box() if far is not None else None
+        if far is None or box is None or not self.sharp or not self.isVisible():
             return
-        self._far.go_on(box, self.far_steps, _SLICE_MS)
+        self._far.go_on(box, far.steps, _SLICE_MS)
         if not self._far.whole:
             self._far_rest.start(0)
 
@@ -360,14 +363,17 @@ class Viewport(QWidget):
             painter.drawPixmap(scroll, self._scene)
         for part in [self.area] if scroll is None else _uncovered(self.area, scroll):
             painter.setClipRect(part)
-            yield from self.scene_steps(painter, part)
+            yield from self._shown.steps(painter, part)
         painter.setClipping(False)
-        self.paint_margins(painter)
+        self._shown.margins(painter)
 
     def _paint_moved(self, painter: QPainter) -> None:
         """Paint the kept scene where this view would have it, on bare ground, and sharp margins."""
         painter.setClipRect(self.area)
-        self.paint_ground(painter, self.area)
+        if self._shown.ground is not None:
+            self._shown.ground(painter, self.area)
+        else:
+            painter.fillRect(self.area, self.palette().base())
         ratio = self.devicePixelRatioF()
         smooth = self.width() * self.height() * ratio * ratio < _SMOOTH_PX
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, smooth)
@@ -375,7 +381,7 @@ class Viewport(QWidget):
             self._paint_kept(painter, self._scene)
         painter.setClipping(False)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        self.paint_margins(painter)
+        self._shown.margins(painter)
 
     def _paint_kept(self, painter: QPainter, scene: QPixmap) -> None:
         """Paint the kept scene where this view would have it, and everything coarsely beside it."""

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QFileDialog
 from ....core.atomic import write_atomically
 from ....core.errors import HitofudeError
 from ....core.progress import Progress
-from ...framework.controller import Controller
+from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
 from ..nc.controller import NcController
@@ -41,6 +41,11 @@ class SmoothingController(Controller):
         self._panel.nc_requested.connect(self.open_in_nc)
         self._view.side_requested.connect(self._draw_side)
         self._view.spotted.connect(self.said)
+
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """The NC view's program, where it is not the job's."""
+        return self._nc.shown_document
 
     def smooth_or_cancel(self) -> None:
         """Smooth the program as the form says; while that is done, leave it."""

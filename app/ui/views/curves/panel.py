@@ -14,6 +14,7 @@ from ...framework.figures import counted, grouped
 from ...framework.labels import muted
 from ...framework.section import EDGE, hairline, heading
 from ...panels.side_panel import WIDTH
+from .outline_field import OutlineField
 from .points_form import PointsForm
 
 if TYPE_CHECKING:
@@ -53,7 +54,10 @@ class CurvesPanel(QScrollArea):
             )
         )
         self.form = ChoiceField("Write", FORMS)
-        self.region = ChoiceField("Region", [("cylinder", "Cylinder"), ("barrel", "Barrel")])
+        self.insist = ChoiceField("Splines", [(False, "Where shorter"), (True, "All along")])
+        self.insist.setToolTip("All along: however many blocks they take; else arcs stand where these take fewer")
+        self.region = ChoiceField("Region", [("cylinder", "Cylinder"), ("barrel", "Barrel"), ("outline", "r = f(z)")])
+        self.outline = OutlineField()
         self.middle = NumberField(
             NumberSpec(
                 "Middle",
@@ -95,9 +99,11 @@ class CurvesPanel(QScrollArea):
             self.preset,
             self.tolerance,
             self.form,
+            self.insist,
             self.degree,
             self.region,
             self.middle,
+            self.outline,
             self.corner,
             self.bend,
             self.points,
@@ -153,6 +159,7 @@ class CurvesPanel(QScrollArea):
         self.post.show_value(None)
         self.tolerance.show_value(options.tolerance)
         self.form.show_value(options.form.value)
+        self.insist.show_value(options.insist)
         self.degree.show_value(options.degree)
         self._show_form(options.form.value)
         self.bend.show_value(math.degrees(options.bend))
@@ -160,6 +167,7 @@ class CurvesPanel(QScrollArea):
         self.region.show_value("cylinder" if options.middle is None else "barrel")
         self.middle.show_value(options.middle or _BARREL * options.tolerance)
         self.middle.setVisible(options.middle is not None)
+        self.outline.setVisible(False)
         self._show_preset()
 
     def options(self, base: SmoothOptions) -> SmoothOptions:
@@ -171,10 +179,11 @@ class CurvesPanel(QScrollArea):
         from ....gcode.posts.posts import load_post
         from ....usecases.smooth import OutputForm
 
-        name = self.post.value
+        name, profile = self.post.value, self.outline.profile() if self.region.value == "outline" else None
         return replace(
             base,
-            tolerance=self.tolerance.number,
+            tolerance=profile.radius if profile is not None else self.tolerance.number,
+            profile=profile,
             form=OutputForm(self.form.value),
             degree=5 if self.degree.value == 5 else 3,
             middle=self.middle.number if self.barrel else None,
@@ -182,6 +191,7 @@ class CurvesPanel(QScrollArea):
             bend=math.radians(self.bend.number),
             post=load_post(str(name)) if name is not None else None,
             effective=self.points.method(),
+            insist=self.form.value == "nurbs" and self.insist.value is True,
         )
 
     @property
@@ -252,10 +262,14 @@ class CurvesPanel(QScrollArea):
 
     def _show_form(self, form: str) -> None:
         self.degree.setVisible(form == "nurbs")
+        self.insist.setVisible(form == "nurbs")
         self.bend.setVisible(form == "arcs")
 
     def _show_region(self, region: str) -> None:
         self.middle.setVisible(region == "barrel")
+        self.outline.setVisible(region == "outline")
+        for field in (self.preset, self.tolerance):
+            field.setVisible(region != "outline")
         if region == "barrel":
             self.middle.show_value(max(self.middle.number, _BARREL * self.tolerance.number))
 
@@ -272,8 +286,8 @@ def _headline(told: dict[str, Any], kept: set[str]) -> str:
         return "No straight feed moves follow one another here, so there is nothing to smooth."
     if not changed:
         return f"Nothing was written anew: {'; '.join(sorted(kept))}."
-    name = {"lines": "straight lines", "nurbs": "NURBS"}.get(told["as"], told["as"])
-    return f"{changed} of {of} written anew as {name}, and proven as written."
+    words = told["written"]["words"]
+    return f"{changed} of {of} written anew as {words}, and proven as written."
 
 
 def _figures(told: dict[str, Any]) -> list[tuple[str, str, str]]:

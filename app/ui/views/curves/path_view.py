@@ -22,7 +22,7 @@ from ..nc.painting.path_key import KeyRow
 from ..nc.path_view import PathView
 from .deviation_track import DeviationSample
 from .model import CurveLayers, CurvesModel
-from .painting.point_marks import are_apart, key_rows, paint_points
+from .painting.point_marks import PointsInSight, are_apart, key_rows, paint_points
 
 _CURVE_PX, _CORNER_PX, _TOOTH_PX, _TALLEST_PX = 2.0, 3.5, 36.0, 90.0
 _FAINT = 0.45
@@ -78,9 +78,9 @@ class CurvesPathView(PathView):
         why = self.curves.why(motion) if self.curves is not None else ""
         return f"{super().described(motion)}{f' · stays as it was: {why}' if why else ''}"
 
-    def paint_overlay(self, painter: QPainter) -> None:
+    def _paint_overlay(self, painter: QPainter) -> None:
         """Paint what follows the mouse, and the place that is marked."""
-        super().paint_overlay(painter)
+        super()._paint_overlay(painter)
         if self.spot is not None and self.picture is not None:
             painter.setClipRect(self.area)
             overlay.paint_place(painter, self.view.to_screen(self._on_side(self.spot)), self._how.theme.accent_text)
@@ -113,7 +113,7 @@ class CurvesPathView(PathView):
             yield lambda painter: self._paint_comb(painter, curves, side)
         yield from seen.curves.portions(self.view, box, MotionPaint(theme, MotionColourBy.MOTION, width=_CURVE_PX))
         if self._points_seen(curves):
-            yield lambda painter: paint_points(painter, curves.points, (side, box, self._on_screen), theme)
+            yield lambda painter: paint_points(painter, curves.points, PointsInSight(side, box, self._on_screen), theme)
         yield lambda painter: self._paint_corners(painter, curves.corners, side, box)
         yield lambda painter: paint_origin(painter, self.view, theme)
         yield self._name_axes

@@ -6,15 +6,19 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from PySide6.QtCore import Signal
+
 from ....core.progress import Progress
+from ....model.finding import Finding
 from ...framework.computation import ComputationState
-from ...framework.controller import Controller
+from ...framework.controller import Controller, ShownDocument
 from ...framework.verdict import VerdictLevel, VerdictSummary, verdict_summary
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
+from ...panels.changes import operation_name
 from ..nc.program_reader import ProgramSource
 from .cell_colours import CutColourBy, key_of
-from .findings import CutFinding, FindingColour
+from .findings import CutFinding, FindingColour, level_of, sentences_of, title_of
 from .foreign_program import ForeignProgram, MissingSetup, foreign_shown
 from .overlay import PlacePin
 from .page import CutPage
@@ -28,6 +32,8 @@ from .zoom_controller import ZoomController, ZoomTarget
 if TYPE_CHECKING:
     from ....gcode.interpreter.dialect import Dialect
     from ....usecases.make import MakeResult
+    from ....usecases.mending import Mend
+    from ....usecases.timeline import TimelinePlace
     from ....verify.parts import Part
 
 
@@ -50,10 +56,13 @@ class CutController(Controller):
 
     Signals:
         changed(): the view shows another cut, or none, or something is asked for.
+        operation_picked(index): the user points at what an operation of the job has cut.
 
     Attributes:
         cut: what is shown; None = nothing.
     """
+
+    operation_picked = Signal(int)
 
     def __init__(self, page: CutPage, panel: CutPanel, form: SetupForm, workspace: Workspace) -> None:
         super().__init__(page)
@@ -67,7 +76,9 @@ class CutController(Controller):
         self._own: ShownCut | None = None
         self._foreign: ForeignProgram | None = None
         self._shown_foreign: ForeignProgram | None = None
-        self._made: object = None
+        self._made: MakeResult | None = None
+        self._marked = False
+        self._at: TimelinePlace | None = None
         self.worker, self.foreign_worker = Worker(self), Worker(self)
         self.zoom_controller = ZoomController(self._view.model, self._view.render_scheduler, self)
         self.zoom_controller.found.connect(self._view.show_detail)
@@ -76,6 +87,7 @@ class CutController(Controller):
 
     def _connect(self) -> None:
         activity = self._activity
+        self.foreign_worker.busy_changed.connect(lambda _: self.changed.emit())
         for worker in (self.worker, self.foreign_worker):
             worker.done.connect(self._on_done)
             worker.failed.connect(self._on_failed)
@@ -96,8 +108,30 @@ class CutController(Controller):
         self._panel.picked.connect(self._go_to)
         self._panel.form_requested.connect(self._open_form)
         self._panel.left.connect(self.back)
+        self._panel.mend_requested.connect(self._mend)
+        self._panel.nc.line_picked.connect(self._go_to_line)
+        self._view.cell_picked.connect(lambda x, y, z, motion: self.mark_motion(motion))
         self._form.accepted.connect(self._cut_as)
         self._form.left.connect(self._leave_form)
+
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """The cut of another program than the job's, or that it is being made; None = the job's."""
+        foreign, cut = self._foreign, self.cut
+        if foreign is None:
+            return None
+        if cut is None or cut.given is None or self.foreign_worker.busy:
+            waits = VerdictSummary(VerdictLevel.NONE, "Not cut yet")
+            return ShownDocument(foreign.source.name, False, None if self.foreign_worker.busy else waits)
+        verdict = VerdictSummary(level_of(cut), title_of(cut), sentences_of(cut))
+        findings = tuple(dict.fromkeys((*cut.cut.findings, *cut.assumed)))
+        return ShownDocument(foreign.source.name, False, verdict, findings, self._look_at)
+
+    def _look_at(self, finding: Finding) -> None:
+        """Show the place of a finding of the cut."""
+        entry = next((entry for entry in self._panel.entries if entry.sentence == finding.text), None)
+        if entry is not None:
+            self._panel.choose(entry)
 
     def show_program(self, source: ProgramSource, dialect: Dialect, scene: Callable[[], Part] | None = None) -> None:
         """Cut a program that is none of the job's; what was there stays until it is cut.
@@ -168,7 +202,7 @@ class CutController(Controller):
             self._show(cut)
 
     def _show(self, cut: ShownCut | None) -> None:
-        self.cut = cut
+        self.cut, self._marked, self._at = cut, False, None
         self._view.show_cut(cut.picture if cut is not None else None)
         self.zoom_controller.follow(ZoomTarget(cut.cut) if cut is not None else None)
         self._panel.show_cut(cut)
@@ -180,12 +214,66 @@ class CutController(Controller):
     def _tell(self) -> None:
         """The job's own cut is headed by the badge's verdict, or by that it is out of date."""
         made, own = self._computation.made, self.cut is not None and self.cut is self._own
+        self._offer_mends()
         if not own or made is None:
             self._panel.show_told(None)
         elif self._computation.outdated:
             self._panel.show_told(VerdictSummary(VerdictLevel.NONE, "Out of date: compute again"))
         else:
             self._panel.show_told(verdict_summary(made.findings, made.report.data))
+
+    def operation_of(self, motion: int) -> int | None:
+        """Return the index of the job's operation that a motion of the cut belongs to; None where that is not known."""
+        from ....usecases.program_lines import operation_of_line
+
+        cut, made = self.cut, self._made
+        if cut is None or cut is not self._own or made is None or motion < 0 or cut.picture.moves is None:
+            return None
+        return operation_of_line(made, cut.file_of(motion), int(cut.picture.moves.line[motion]))
+
+    def mark_motion(self, motion: int, stays: bool = True) -> None:
+        """Mark a motion: its line beside the cut, its way over it, and the operation that it belongs to.
+
+        Args:
+            motion: of all files; -1 = none. stays: until another is marked, or the cut is played.
+        """
+        cut = self.cut
+        if cut is None or cut.picture.moves is None:
+            return
+        index = self.operation_of(motion)
+        tool = f"T{cut.picture.moves.tool[motion]}" if motion >= 0 else ""
+        name = operation_name(self._made.job.operations[index]) if self._made is not None and index is not None else ""
+        self._panel.nc.mark(motion, " ".join(filter(None, (name, tool))))
+        self._marked = stays and motion >= 0
+        self._view.overlay.show_way(cut.way_of(motion) if self._marked else None)
+        if stays and index is not None:
+            self.operation_picked.emit(index)
+
+    def _go_to_line(self, file: int, row: int) -> None:
+        """Show the cut as it is behind a line of the text."""
+        if self.cut is None:
+            return
+        motion = self.cut.motion_at(file, row)
+        self.player.go(motion + 1)
+        self.mark_motion(motion)
+
+    def _offer_mends(self) -> None:
+        """Offer what mends the chosen place, as long as the job is the one that was cut."""
+        from ....formats.tools.library import load_libraries
+        from ....usecases.mending import Fault, mends
+
+        entry, made = self._panel.chosen, self._made
+        if entry is None or made is None or self.cut is not self._own or self._computation.outdated:
+            self._panel.show_mends(())
+            return
+        fault = Fault(entry.kind, self.operation_of(entry.motion), entry.amount if entry.line else None, entry.disc)
+        library = [tool for each in load_libraries()[0].values() for tool in each.tools]
+        self._panel.show_mends(mends(made.job, fault, library))
+
+    def _mend(self, mend: Mend) -> None:
+        """Change the job and compute it again."""
+        self._document.change_job(mend.words, mend.job)
+        self._computation.start()
 
     def _show_key(self) -> None:
         """The histogram has the colours of the deviation, whatever the metal's tell."""
@@ -201,6 +289,8 @@ class CutController(Controller):
         """
         if not self.player.at_end:
             self.player.go(entry.motion + 1 if entry.motion >= 0 else self.player.length)
+        self.mark_motion(entry.motion)
+        self._offer_mends()
         if entry.place is None:
             return
         if (
@@ -232,7 +322,18 @@ class CutController(Controller):
     def _on_played(self) -> None:
         """A finer look shows the moment that the cut rests at; within a motion there is none."""
         at, cut = self.player.at, self.cut
+        self._follow_player()
         if cut is None or self.player.playing or (at is not None and at.fraction > 0):
             self.zoom_controller.follow(None)
         else:
             self.zoom_controller.follow(ZoomTarget(cut.cut, None if at is None or self.player.at_end else at.motion))
+
+    def _follow_player(self) -> None:
+        """Mark the line that is being cut; at the end what was pointed at stays marked."""
+        player = self.player
+        if player.timeline is None or player.at is None or player.at == self._at:
+            return
+        self._at = player.at
+        motion = -1 if player.at_end else player.timeline.current(player.at)
+        if motion != self._panel.nc.motion and not (motion < 0 and self._marked):
+            self.mark_motion(motion, stays=False)

@@ -36,6 +36,13 @@ _NAMES = {
     FindingKind.HOLDER_CONTACT: "holder",
     FindingKind.SHANK_CONTACT: "shank",
 }
+_SPOT_KINDS = {
+    "gouge": FindingKind.GOUGE,
+    "left": FindingKind.LEFT_REACHABLE,
+    "unreachable": FindingKind.LEFT_UNREACHABLE,
+}
+"""By the value of `verify.judgement.SpotKind`."""
+
 _SPOTS = (FindingKind.GOUGE, FindingKind.LEFT_REACHABLE, FindingKind.LEFT_UNREACHABLE)
 
 
@@ -58,6 +65,8 @@ class CutFinding:
         colour: which one. counts: it is wrong; else a remark.
         place: x, y, z, mm; None = there is none. field: mm that should be seen round it.
         motion: row of the motion that did it, -1 = nobody knows. line: of its NC line, 0 = none.
+        kind: of what is wrong. amount: how deep, mm, or how large; None = nobody has said.
+        disc: diameter of what fits where metal is left, mm; None = it is of no place where some is.
     """
 
     title: str
@@ -68,6 +77,9 @@ class CutFinding:
     field: float = _LEAST_FIELD
     motion: int = -1
     line: int = 0
+    kind: FindingKind = FindingKind.ASSUMED
+    amount: float | None = None
+    disc: float | None = None
 
     @property
     def words(self) -> str:
@@ -179,6 +191,9 @@ def _of_spot(spot: Spot) -> CutFinding:
         max(_FIELD * size, _LEAST_FIELD),
         spot.motion,
         spot.line,
+        _SPOT_KINDS[spot.kind.value],
+        spot.depth_mm,
+        spot.disc_mm,
     )
 
 
@@ -203,4 +218,6 @@ def _of_finding(shown: ShownCut, finding: Finding) -> CutFinding:
         2 * _FIELD,
         motion,
         finding.line,
+        finding.kind,
+        finding.amount,
     )

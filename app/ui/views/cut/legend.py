@@ -5,15 +5,14 @@ from __future__ import annotations
 from enum import Enum
 
 from PySide6.QtCore import QRectF, Qt, Signal
-from PySide6.QtGui import QColor, QImage, QMouseEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QSlider, QVBoxLayout, QWidget
+from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent
+from PySide6.QtWidgets import QSlider, QWidget
 
 from ...framework.fields import ChoiceField, ListField
-from ...framework.icons import IconButton
+from ...framework.legend import LegendRow, LegendSheet
 from ...framework.samples import PathLineKind
-from ...framework.section import hairline, heading
+from ...framework.section import heading
 from ...framework.theme import LIGHT, Theme, text_font
-from ..canvas.legend import LegendRow
 from .cell_colours import STEPS, ColourKey, CutColourBy
 
 WIDTH = 228
@@ -84,7 +83,7 @@ class ColourScale(QWidget):
             painter.drawText(QRectF(22, middle - 9, self.width(), 18), Qt.AlignmentFlag.AlignVCenter, name)
 
 
-class CutLegend(QFrame):
+class CutLegend(LegendSheet):
     """A quiet sheet in the upper right corner.
 
     Signals:
@@ -98,14 +97,13 @@ class CutLegend(QFrame):
     section_chosen = Signal(SectionAxis, float)
 
     def __init__(self, parent: QWidget) -> None:
-        super().__init__(parent)
-        self._theme = LIGHT
-        self.setFixedWidth(WIDTH)
-        self.title, self.key = heading(CutColourBy.METAL.value), ColourScale()
+        super().__init__(parent, heading(CutColourBy.METAL.value), WIDTH)
+        self.key = ColourScale()
         self.colour = ListField("Colour by", [(colour, colour.value) for colour in CutColourBy])
         self.colour.box.setFixedWidth(_CHOICE_PX)
         self.side = ChoiceField("Section", [(side, side.value) for side in SectionAxis], 60)
-        self.slider = QSlider(Qt.Orientation.Horizontal)
+        self.side.show_value(SectionAxis.WHOLE)
+        self.slider = self._slider()
         self.rows = {
             sample: LegendRow(sample)
             for sample in (PathLineKind.POCKET, PathLineKind.CONTOUR, PathLineKind.PLUNGE, PathLineKind.RAPID)
@@ -113,42 +111,24 @@ class CutLegend(QFrame):
         self.wedges = LegendRow(PathLineKind.WEDGES)
         self.wedges.setChecked(False)
         self.wedges.hide()
-        self.body = QWidget()
-        self._lay_out()
+        self.add(self.key)
+        self.add_gap(6)
+        self.add(self.colour)
+        self.add_line()
+        self.add(*self.rows.values(), self.wedges)
+        self.add_line()
+        self.add(self.side, self.slider)
         self._connect()
 
-    def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        self.fold = IconButton("up", "Fold the legend")
-        self.fold.setCheckable(True)
-        head.addWidget(self.title)
-        head.addStretch(1)
-        head.addWidget(self.fold)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(12, 10, 12, 10)
-        column.setSpacing(0)
-        column.addLayout(head)
-        column.addWidget(self.body)
-        body = QVBoxLayout(self.body)
-        body.setContentsMargins(0, 4, 0, 0)
-        body.setSpacing(0)
-        body.addWidget(self.key)
-        body.addSpacing(6)
-        body.addWidget(self.colour)
-        for widgets in ([*self.rows.values(), self.wedges], [self.side, self.slider]):
-            body.addSpacing(8)
-            body.addWidget(hairline())
-            body.addSpacing(8)
-            for widget in widgets:
-                body.addWidget(widget)
-        self.slider.setRange(0, _SLIDES)
-        self.slider.setAccessibleName("Place of the section")
-        self.slider.setValue(_SLIDES // 2)
-        self.slider.hide()
-        self.side.show_value(SectionAxis.WHOLE)
+    def _slider(self) -> QSlider:
+        slider = QSlider(Qt.Orientation.Horizontal)
+        slider.setRange(0, _SLIDES)
+        slider.setAccessibleName("Place of the section")
+        slider.setValue(_SLIDES // 2)
+        slider.hide()
+        return slider
 
     def _connect(self) -> None:
-        self.fold.toggled.connect(self._fold)
         self.colour.chosen.connect(self.colour_chosen)
         self.side.chosen.connect(self._choose_side)
         self.slider.valueChanged.connect(lambda _: self._tell_section())
@@ -189,19 +169,6 @@ class CutLegend(QFrame):
             f"Show or hide what the last moves sweep: cylinders and wedges, in facets of d = {facet:.2g} mm"
         )
 
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
-
-    def fit_contents(self) -> None:
-        """Be as high as what is shown."""
-        for widget in (self.body, self):
-            layout = widget.layout()
-            if layout is not None:
-                layout.activate()
-        self.adjustSize()
-
     def _choose_side(self, side: SectionAxis) -> None:
         self.slider.setVisible(side is not SectionAxis.WHOLE)
         self.fit_contents()
@@ -209,18 +176,3 @@ class CutLegend(QFrame):
 
     def _tell_section(self) -> None:
         self.section_chosen.emit(self.chosen_side, self.slider.value() / _SLIDES)
-
-    def _fold(self, folded: bool) -> None:
-        self.body.setVisible(not folded)
-        self.fold.show_icon("down" if folded else "up", "Unfold the legend" if folded else "Fold the legend")
-        self.fit_contents()
-
-    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Keep clicks beside a row from reaching the cut."""
-        event.accept()
-
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Paint the sheet: the canvas' own colour, nearly covering."""
-        ground = QColor(self._theme.canvas)
-        ground.setAlphaF(0.92)
-        QPainter(self).fillRect(self.rect(), ground)

@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from ...framework.theme import LIGHT, Theme, text_font
-from .camera import Camera
+from .camera import Camera, Floats
 from .overlay_text import pitch_words
 
 _AXIS_PX, _AXES_EDGE_PX, _NAME_PX = 30.0, 52.0, 11.0
@@ -51,6 +51,7 @@ class CutOverlay(QWidget):
         self.probe: ProbedCell | None = None
         self.line: Line | None = None
         self.pin: PlacePin | None = None
+        self.way: Floats | None = None
         self._pitch, self._finer = "", False
 
     def set_theme(self, theme: Theme) -> None:
@@ -62,12 +63,17 @@ class CutOverlay(QWidget):
         """Turn the axes, and keep the line where it is."""
         turned = camera.axes.tolist() != self._camera.axes.tolist()
         self._camera = camera
-        if turned or self.line is not None or self.pin is not None:
+        if turned or self.line is not None or self.pin is not None or self.way is not None:
             self.update()
 
     def show_line(self, line: Line | None) -> None:
         """Show a line over the metal, or none."""
         self.line = line
+        self.update()
+
+    def show_way(self, way: Floats | None) -> None:
+        """Show the way (n, 3) of a motion over the metal, mm, or none."""
+        self.way = way if way is not None and len(way) > 1 else None
         self.update()
 
     def show_pin(self, pin: PlacePin | None) -> None:
@@ -92,6 +98,8 @@ class CutOverlay(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_axes(painter)
         self._paint_pitch(painter)
+        if self.way is not None:
+            self._paint_way(painter, self.way)
         if self.line is not None:
             self._paint_line(painter, self.line)
         if self.pin is not None:
@@ -158,6 +166,15 @@ class CutOverlay(QWidget):
         painter.setBrush(self._theme.accent)
         for end in ends:
             painter.drawEllipse(end, 3.0, 3.0)
+
+    def _paint_way(self, painter: QPainter, way: Floats) -> None:
+        """Paint the way of a motion with its end."""
+        points = [self._on_screen((x, y, z)) for x, y, z in way.tolist()]
+        for colour, width in ((self._theme.canvas, 6.0), (self._theme.accent, 2.6)):
+            painter.setPen(QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+            painter.drawPolyline(points)
+        painter.setBrush(self._theme.accent)
+        painter.drawEllipse(points[-1], 3.5, 3.5)
 
     def _paint_cross(self, painter: QPainter, at: QPointF) -> None:
         for colour, width in ((self._theme.canvas, 4.0), (self._theme.accent, 1.6)):

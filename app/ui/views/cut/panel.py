@@ -1,31 +1,49 @@
-"""Beside the cut: the verdict, the places to look at, the NC text of the one that was picked, and how far all is from
-the part.
+"""Beside the cut: the verdict, the NC text in step with it, the places to look at, what mends the one that was picked,
+and how far all is from the part.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QBoxLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
 
 from ...framework.fields import restyle
 from ...framework.figures import TIMES
 from ...framework.labels import Elided, muted
-from ...framework.section import EDGE, ListRow, hairline, heading
+from ...framework.section import EDGE, ListRow, hairline, heading, theme_children
 from ...framework.theme import LIGHT, Theme
 from ...framework.verdict import VerdictLevel, VerdictSummary
 from ...panels.side_panel import WIDTH
-from ..nc.text_view import NcTextView
 from .cell_colours import ColourKey
 from .findings import CutFinding, FindingColour, findings_of, level_of, sentences_of, title_of
 from .histogram_plot import HistogramPlot
+from .mend_row import MendRow
+from .nc_beside import NcBeside
 from .overlay_text import pitch_words
 from .shown_cut import ShownCut
 
+if TYPE_CHECKING:
+    from ....usecases.mending import Mend
+
 _ROLES = {VerdictLevel.OK: "ok", VerdictLevel.BAD: "error", VerdictLevel.REMARK: "warning", VerdictLevel.NONE: ""}
-_TEXT_PX, _LEAST_LIST_PX, _ROOM_PX = 100, 112, 700
+_TEXT_PX, _LEAST_LIST_PX, _ROOM_PX, _TIGHT_PX = 64, 56, 760, 640
+
+ROOMY_PX, WIDE_PX = 1600, 420
+"""From this width of the window on the panel is so wide."""
 
 _TITLE_PX = 230
 """So wide a place's title is shown whole; the words of where it lies give way first."""
@@ -77,15 +95,18 @@ class CutPanel(QWidget):
     Signals:
         picked(CutFinding): the user wants to see this place. line_requested(motion): and its line in the NC view.
         form_requested(): tools and stock shall be others. left(): the job's own cut shall be shown.
+        mend_requested(Mend): the job shall be changed so.
 
     Attributes:
         shown: what it tells of; None = nothing. entries: the places. chosen: the one that was picked last.
+        nc: the text beside the cut. mends: the buttons that change the job.
     """
 
     picked = Signal(CutFinding)
     line_requested = Signal(int)
     form_requested = Signal()
     left = Signal()
+    mend_requested = Signal(object)
 
     def __init__(self) -> None:
         super().__init__()
@@ -99,7 +120,9 @@ class CutPanel(QWidget):
         self.rows: list[ListRow] = []
         self.title, self.name, self.verdict, self.cells = heading("Cut"), Elided(role="muted"), QLabel(), muted()
         self.counted, self.sentence, self.go = heading("Places"), muted(), QPushButton("Show the line")
-        self.text, self.histogram = NcTextView(), HistogramPlot()
+        self.nc, self.histogram = NcBeside(), HistogramPlot()
+        self.mends: list[QPushButton] = []
+        self._mending = QVBoxLayout()
         self.inner, self.list, self.details = QWidget(), QScrollArea(), QWidget()
         self._rows = QVBoxLayout(self.inner)
         self.foreign, self.form, self.back = (
@@ -127,12 +150,13 @@ class CutPanel(QWidget):
         self.list.setWidgetResizable(True)
         self.list.setMinimumHeight(_LEAST_LIST_PX)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.text.setFixedHeight(_TEXT_PX)
+        self.nc.text.setMinimumHeight(_TEXT_PX)
+        self._mending.setSpacing(4)
         details = QVBoxLayout(self.details)
         details.setContentsMargins(0, 0, 0, 0)
         details.setSpacing(6)
         details.addLayout(_indented(self.sentence))
-        details.addWidget(self.text)
+        details.addLayout(_indented(self._mending))
         details.addLayout(_indented(self.go, stretch=True))
         self.details.hide()
         column = QVBoxLayout(self)
@@ -149,6 +173,8 @@ class CutPanel(QWidget):
         row.addStretch(1)
         column.addWidget(self.foreign)
         column.addWidget(hairline())
+        column.addWidget(self.nc, 3)
+        column.addWidget(hairline())
         column.addLayout(_indented(self.counted))
         column.addWidget(self.list, 1)
         column.addWidget(self.details)
@@ -161,6 +187,8 @@ class CutPanel(QWidget):
         self.shown, self.chosen = shown, None
         self.entries = findings_of(shown) if shown is not None else ()
         self._fill()
+        self.nc.show_cut(shown)
+        self.show_mends(())
         self.details.hide()
         if shown is None:
             return
@@ -171,7 +199,12 @@ class CutPanel(QWidget):
         self.cells.setText(f"{grid.cols} {TIMES} {grid.rows} cells of {pitch_words(grid.pitch)}")
         self.show_told(None)
         self.counted.setText(f"Places ({len(self.entries)})" if self.entries else "No places to look at")
+        self.list.setVisible(bool(self.entries))
         self._make_room()
+
+    def fit_beside(self, width: int) -> None:
+        """Be wider in a wide window, of so many px: whole lines of NC text can be read then."""
+        self.setFixedWidth(WIDE_PX if width >= ROOMY_PX else WIDTH)
 
     def show_told(self, told: VerdictSummary | None) -> None:
         """Head the panel with the badge's verdict; None = there is none on this cut."""
@@ -192,24 +225,29 @@ class CutPanel(QWidget):
         for row, each in zip(self.rows, self.entries, strict=True):
             row.set_chosen(each is entry)
         self.sentence.setText(entry.sentence.replace("mm2", "mm²"))
-        self.show_line(entry.motion)
+        self.go.setVisible(entry.motion >= 0)
+        self.go.setText(f"Show line {entry.line} in the NC view")
+        self.show_mends(())
         self.details.show()
         self._make_room()
         self.picked.emit(entry)
 
-    def show_line(self, motion: int) -> None:
-        """Show the NC line of a motion among its neighbours; nothing where there is none."""
-        known = self.shown is not None and motion >= 0
-        self.text.setVisible(known)
-        self.go.setVisible(known)
-        if self.shown is None or not known:
-            return
-        file = self.shown.file_of(motion)
-        if self.text.text is not self.shown.texts[file]:
-            self.text.show_text(self.shown.texts[file])
-        row = int(self.shown.picture.moves.line[motion]) - 1 if self.shown.picture.moves is not None else 0
-        self.text.pick(row, tell=False)
-        self.go.setText(f"Show line {row + 1} in the NC view")
+    def show_mends(self, mends: Sequence[Mend]) -> None:
+        """Offer what mends the chosen place: a button each, and beside it what it changes."""
+        while (item := self._mending.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.hide()
+                widget.deleteLater()
+        self.mends = []
+        for mend in mends:
+            row = MendRow(mend)
+            theme_children(row, self._theme)
+            row.button.clicked.connect(partial(self._mend, mend))
+            self.mends.append(row.button)
+            self._mending.addWidget(row)
+
+    def _mend(self, mend: Mend, *_: object) -> None:
+        self.mend_requested.emit(mend)
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
@@ -220,8 +258,12 @@ class CutPanel(QWidget):
         self._make_room()
 
     def _make_room(self) -> None:
-        """Where there is little room, what is said of a place takes that of the histogram."""
-        room = self.details.isHidden() or self.height() > _ROOM_PX
+        """Where there is little room, what is said of a place takes that of the histogram, then that of what is said of
+        the whole.
+        """
+        room = self.height() > (_ROOM_PX if self.details.isHidden() else _ROOM_PX + 140)
+        for label in (self.verdict, self.cells):
+            label.setVisible(self.details.isHidden() or self.height() > _TIGHT_PX)
         for widget in (self.histogram, self.line):
             widget.setVisible(room and self.shown is not None and self.shown.histogram is not None)
 
@@ -260,7 +302,7 @@ class CutPanel(QWidget):
             self.line_requested.emit(self.chosen.motion)
 
 
-def _indented(what: QWidget | QHBoxLayout, stretch: bool = False) -> QHBoxLayout:
+def _indented(what: QWidget | QBoxLayout, stretch: bool = False) -> QHBoxLayout:
     """Return a row that keeps the panel's margins."""
     line = QHBoxLayout()
     line.setContentsMargins(EDGE, 0, EDGE, 0)

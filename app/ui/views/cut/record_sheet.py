@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
-from ...framework.fields import NumberField, NumberSpec
+from ...framework.fields import ChoiceField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted
 from ...framework.icons import IconButton
 from ...framework.labels import muted
@@ -39,17 +39,26 @@ class RecordFormat(Enum):
     PICTURES = "pictures"
 
 
+class RecordedMotion(Enum):
+    """What moves in a recording; the value is its name for people."""
+
+    CUT = "The tool"
+    TURNTABLE = "Turntable"
+
+
 @dataclass(frozen=True, slots=True)
 class RecordPlan:
     """How a cut is recorded.
 
     Attributes:
         seconds: how long it runs. per_second: pictures. width: of them, px.
+        motion: the cut as it is made, or the whole of it, turned once round.
     """
 
     seconds: float = 10.0
     per_second: float = 20.0
     width: int = 800
+    motion: RecordedMotion = RecordedMotion.CUT
 
     @property
     def count(self) -> int:
@@ -62,7 +71,7 @@ class RecordPlan:
 
 
 class RecordSheet(QFrame):
-    """A sheet with three fields and two buttons.
+    """A sheet with a choice, three fields and two buttons.
 
     Signals:
         requested(RecordFormat): record so. closed(): rather not.
@@ -76,6 +85,9 @@ class RecordSheet(QFrame):
         self._theme = LIGHT
         self.plan = RecordPlan()
         self.length, self.rate, self.width_px = NumberField(LENGTH), NumberField(RATE), NumberField(WIDTH)
+        self.motion = ChoiceField("Moving", [(each, each.value) for each in RecordedMotion])
+        self.motion.show_value(RecordedMotion.CUT)
+        self.motion.chosen.connect(lambda _: self._take())
         self.summary = muted()
         self.gif, self.pictures = QPushButton("Save GIF…"), QPushButton("Save pictures…")
         self._size = (4, 3)
@@ -99,7 +111,7 @@ class RecordSheet(QFrame):
         column.setContentsMargins(16, 8, 12, 12)
         column.setSpacing(4)
         column.addLayout(head)
-        for widget in (self.length, self.rate, self.width_px, self.summary):
+        for widget in (self.motion, self.length, self.rate, self.width_px, self.summary):
             column.addWidget(widget)
         column.addSpacing(4)
         column.addLayout(buttons)
@@ -108,6 +120,7 @@ class RecordSheet(QFrame):
     def open_for(self, size: tuple[int, int]) -> None:
         """Ask for a recording of a view of so many px."""
         self._size = size
+        self.motion.show_value(self.plan.motion)
         self.length.show_value(self.plan.seconds)
         self.rate.show_value(self.plan.per_second)
         self.width_px.show_value(float(self.plan.width))
@@ -118,7 +131,8 @@ class RecordSheet(QFrame):
         self.gif.setFocus(Qt.FocusReason.PopupFocusReason)
 
     def _take(self) -> None:
-        self.plan = RecordPlan(self.length.number, self.rate.number, round(self.width_px.number))
+        motion = RecordedMotion(self.motion.value)
+        self.plan = RecordPlan(self.length.number, self.rate.number, round(self.width_px.number), motion)
         wide, high = self.plan.size(self._size)
         self.summary.setText(f"{counted(self.plan.count, 'picture')} of {wide} {TIMES} {high} px")
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 from PySide6.QtWidgets import QFileDialog
 
 from ....core.progress import Progress
@@ -18,9 +19,10 @@ from ...framework.workspace import Workspace
 from .cell_colours import Colormap, CutColourBy, cell_colours
 from .cut_player import PlaybackPace
 from .live_cells import FrameRequest, LiveCells
+from .model import middle
 from .page import CutPage
 from .playback_overlay import drawn_tool
-from .record_sheet import RecordFormat, RecordPlan
+from .record_sheet import RecordedMotion, RecordFormat, RecordPlan
 from .recording import CutSnapshot, FrameChange, RecordingLength, record
 from .rendering.cut_frame import CutFrame
 from .shown_cut import ShownCut
@@ -55,8 +57,9 @@ def write_recording(requested: RecordingRequest, progress: Progress) -> Recordin
     Raises:
         HitofudeError: it cannot be painted, or not be written. Cancelled: nothing was written.
     """
+    turns = requested.plan.motion is RecordedMotion.TURNTABLE
     record(
-        _shots(requested, progress.part(0.0, 0.1)),
+        turntable(requested) if turns else _shots(requested, progress.part(0.0, 0.1)),
         requested.frame,
         requested.target,
         RecordingLength(requested.plan.count, requested.plan.per_second),
@@ -90,6 +93,16 @@ def _shots(requested: RecordingRequest, progress: Progress) -> Iterator[FrameCha
             wedges=frame.wedges,
         )
         yield replace(shot, tip=frame.tip) if frame.tip is not None else shot
+
+
+def turntable(requested: RecordingRequest) -> Iterator[FrameChange]:
+    """Yield the whole cut, turned once round its middle; the last picture is a step before the first."""
+    shown, count, camera = requested.shown, requested.plan.count, requested.frame.camera
+    colours = cell_colours(replace(shown.picture, values={}), requested.colour, requested.inks)
+    centre = middle(shown.picture)
+    for k in range(count):
+        whole = CutSnapshot(shown.picture, colours) if k == 0 else None
+        yield FrameChange(whole, camera=camera.orbited(2 * np.pi * k / count, 0.0, centre))
 
 
 def _drawn(tool: Tool | None, shown: ShownCut, drawn: dict[int, DrawnTool | None]) -> DrawnTool | None:

@@ -11,6 +11,8 @@ import numpy as np
 
 from ....core.progress import NO_PROGRESS, Progress
 from ....model.finding import Finding
+from ....model.motion import MotionKind
+from ....model.motion_part import place_on
 from ..nc.program_text import ProgramText
 from .cell_colours import CutColourBy, prepare
 from .cut_picture import CutMoves, CutPaths, CutPicture, Floats
@@ -21,11 +23,16 @@ from .user_setup import UserSetup
 if TYPE_CHECKING:
     from ....gcode.interpreter.program import NcProgram
     from ....usecases.cut import CutProgram
+    from ..nc.line_marks import LineMarks
+    from ..nc.motion_shapes import MotionShapes
 
 _STEP_RAD = 0.1
 """Turn of a straight piece of an arc's path."""
 
 _DEFAULT_TOLERANCE = 0.01
+
+_PIECES = 33
+"""Points along a bent motion that is pointed out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +50,7 @@ class ShownCut:
     Attributes:
         cut: the program, cut. picture: what is left, prepared for painting.
         names, texts: of its files, in the order of cutting. first: (files + 1,) where the motions of each file begin.
+        marks: what the lines of each file move.
         given: with which tools and stock a program was cut that is not the job's; None = the job's own.
         assumed: what nobody has told, and was taken to be so.
         histogram: how much of the area is how far from the part; None = there is no part.
@@ -53,6 +61,7 @@ class ShownCut:
     names: tuple[str, ...]
     texts: tuple[ProgramText, ...]
     first: tuple[int, ...]
+    marks: tuple[LineMarks, ...]
     given: UserSetup | None = None
     assumed: tuple[Finding, ...] = ()
     histogram: Histogram | None = None
@@ -60,6 +69,21 @@ class ShownCut:
     def file_of(self, motion: int) -> int:
         """Return the index of the file of a motion."""
         return int(np.searchsorted(self.first, motion, side="right")) - 1
+
+    def motion_at(self, file: int, row: int) -> int:
+        """Return the last motion of a line (0-based) of a file, or of the lines above it; -1 = nothing moves yet."""
+        assert self.picture.moves is not None
+        lines = self.picture.moves.line[self.first[file] : self.first[file + 1]]
+        own = np.flatnonzero(lines == row + 1)
+        before = own if len(own) else np.flatnonzero(lines <= row)
+        return self.first[file] + int(before[-1]) if len(before) else self.first[file] - 1
+
+    def way_of(self, motion: int) -> Floats:
+        """Return (n, 3) points along a motion, mm; none where it is not known where it begins."""
+        motions, row = self.cut.setup.programs[self.file_of(motion)].motions, self.row_in_file(motion)
+        count = 2 if motions.kind[row] in (MotionKind.RAPID, MotionKind.LINE) else _PIECES
+        points = np.array([place_on(motions, row, share) for share in np.linspace(0.0, 1.0, count)])
+        return points if bool(np.all(np.isfinite(points))) else points[:0]
 
     def row_in_file(self, motion: int) -> int:
         """Return the row of a motion among those of its own file."""
@@ -95,12 +119,20 @@ def shown_cut(
     Raises:
         Cancelled: the job was asked to stop.
     """
+    from ....gcode.interpreter.notes_operation import contour_motions
+    from ..nc.line_marks import line_marks
+    from ..nc.motion_shapes import shape_motions
     from ..nc.program_text import program_text
 
     progress.step(0.0, "Preparing the cut")
     setup = cut.setup
     moves = CutMoves(setup.lines(), setup.numbers(), np.zeros(0, np.int32))
-    pieces = [_pieces(program, file.data) for program, file in zip(setup.programs, files, strict=True)]
+    texts = tuple(program_text(file.data) for file in files)
+    shapes = [
+        shape_motions(program, contour_motions(file.data, program))
+        for program, file in zip(setup.programs, files, strict=True)
+    ]
+    pieces = [_pieces(program, each) for program, each in zip(setup.programs, shapes, strict=True)]
     starts, ends = (np.concatenate([each[column] for each in pieces]) for column in (0, 1))
     looks = np.concatenate([each[2] for each in pieces])
     picture = picture_of(cut, moves, CutPaths(starts, ends, looks))
@@ -111,8 +143,9 @@ def shown_cut(
         cut,
         picture,
         tuple(file.name for file in files),
-        tuple(program_text(file.data) for file in files),
+        texts,
         tuple(counts.tolist()),
+        tuple(line_marks(len(text), each) for text, each in zip(texts, shapes, strict=True)),
         histogram=histogram_of(picture, cut.judgement) if cut.judgement is not None else None,
     )
 
@@ -140,13 +173,10 @@ def picture_of(cut: CutProgram, moves: CutMoves, paths: CutPaths | None = None) 
     )
 
 
-def _pieces(program: NcProgram, data: bytes) -> tuple[Floats, Floats, Bytes]:
+def _pieces(program: NcProgram, shapes: MotionShapes) -> tuple[Floats, Floats, Bytes]:
     """Return start, end and look of straight pieces of the tool's way, in the order of going."""
-    from ....gcode.interpreter.notes_operation import contour_motions
     from ....model.motion_path import arc_paths
-    from ..nc.motion_shapes import shape_motions
 
-    shapes = shape_motions(program, contour_motions(data, program))
     motions, arcs = program.motions, arc_paths(program.motions)
     elsewhere = shapes.home.any(axis=1) | shapes.away.any(axis=1)
     straight = np.flatnonzero(~(elsewhere | np.isin(np.arange(len(motions)), arcs.rows)))

@@ -123,6 +123,7 @@ class CutView(QWidget):
         before, self.model.picture, self.model.detail = self.model.picture, picture, None
         self.overlay.show_probe(None)
         self.overlay.show_pin(None)
+        self.overlay.show_way(None)
         self.show_line(None)
         self.model.hit = None
         self.overlay.setVisible(picture is not None)
@@ -293,8 +294,9 @@ class CutView(QWidget):
             super().keyPressEvent(event)
         elif key == Qt.Key.Key_Escape and self.overlay.line is not None:
             self.show_line(None)
-        elif key == Qt.Key.Key_Escape and self.overlay.pin is not None:
+        elif key == Qt.Key.Key_Escape and (self.overlay.pin is not None or self.overlay.way is not None):
             self.overlay.show_pin(None)
+            self.overlay.show_way(None)
         elif key == Qt.Key.Key_F:
             self.fit()
         elif key in KEYS:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 INDENT = "  "
 _OPENS = frozenset({"repeat", "if", "define", "units"})
@@ -44,11 +45,25 @@ def family(lines: Sequence[str], row: int, column: int) -> tuple[Place, ...]:
     return tuple(here[0]) if here else ()
 
 
-def depth_change(line: str) -> tuple[int, bool]:
-    """Return how many blocks a line leaves open (less than 0: closes), and whether it begins with else or end."""
+class DepthChange(NamedTuple):
+    """How many blocks a line leaves open (less than 0: closes), and whether it begins with else or end."""
+
+    opened: int
+    closing: bool
+
+
+class KnownName(NamedTuple):
+    """A name of the drawing, or of a command."""
+
+    name: str
+    is_command: bool = False
+
+
+def depth_change(line: str) -> DepthChange:
+    """Return what a line does to the depth of blocks."""
     words = block_words(line)
     change = sum((word in _OPENS) - (word == "end") for _, word in words)
-    return change, bool(words) and words[0][1] in ("else", "end") and not line[: words[0][0]].strip()
+    return DepthChange(change, bool(words) and words[0][1] in ("else", "end") and not line[: words[0][0]].strip())
 
 
 def indent_after(line: str) -> str:
@@ -68,11 +83,11 @@ def switched_remarks(lines: Sequence[str]) -> list[str]:
     return [f"{line[:least]}# {line[least:]}" if line.strip() else line for line in lines]
 
 
-def names_in(text: str) -> Iterator[tuple[str, bool]]:
-    """Yield (name, whether it is a command) of everything that a text names."""
+def names_in(text: str) -> Iterator[KnownName]:
+    """Yield everything that a text names."""
     for found in _NAMED.finditer(text):
         let, label, command, parameters = found.groups()
-        yield from ((name, False) for name in (let, label) if name)
+        yield from (KnownName(name) for name in (let, label) if name)
         if command:
-            yield command, True
-            yield from ((name.strip(), False) for name in parameters.split(",") if name.strip())
+            yield KnownName(command, True)
+            yield from (KnownName(name.strip()) for name in parameters.split(",") if name.strip())

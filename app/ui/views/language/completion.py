@@ -10,7 +10,9 @@ from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPoint, QRect, QS
 from PySide6.QtGui import QFontMetrics, QPainter
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
+from ....drafting.commands.command import DraftingSession
 from ...framework.theme import LIGHT, Theme, mixed, mono_font, text_font
+from .blocks import KnownName
 from .usage import WordKind, usage_of, usages
 
 _ROW_PX, _MOST_ROWS = 24, 8
@@ -36,7 +38,12 @@ def word_before(line: str) -> str:
     return found[0] if found and not line[: found.start()].endswith((".", "_")) else ""
 
 
-def offers(line: str, names: Iterable[tuple[str, bool]]) -> list[CompletionItem]:
+def names_of(session: DraftingSession) -> list[KnownName]:
+    """Return the names that a session knows."""
+    return [*map(KnownName, session.names), *(KnownName(name, True) for name in session.commands)]
+
+
+def offers(line: str, names: Iterable[KnownName]) -> list[CompletionItem]:
     """Return what the word at the end of a line, cut at the cursor, could become, best first.
 
     Args:

@@ -20,7 +20,9 @@ from ...framework.commands import Commands
 from ...framework.controller import Controller
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
+from .blocks import KnownName
 from .command_runner import CommandRunner
+from .completion import names_of
 from .page import TextPage
 from .trial_runner import TextProblem, TextTrial, TrialRunner
 
@@ -168,9 +170,8 @@ class TextController(Controller):
         self.page.set_replaces(True)
         self.page.editor.setFocus()
 
-    def _names(self) -> list[tuple[str, bool]]:
-        session = self._document.session
-        return [*((name, False) for name in session.names), *((name, True) for name in session.commands)]
+    def _names(self) -> list[KnownName]:
+        return names_of(self._document.session)
 
     @property
     def _in_front(self) -> bool:

@@ -22,6 +22,7 @@ from PySide6.QtWidgets import QPlainTextEdit, QTextEdit
 
 from ...framework.theme import LIGHT, Theme, mixed, mono_font
 from . import blocks
+from .blocks import KnownName
 from .completion import CompletionItem, CompletionList, offers, word_before
 from .gutter import Gutter, blocks_in_sight
 from .highlight import ShapeHighlighter
@@ -33,7 +34,7 @@ _HINT = (
     "explains them."
 )
 
-Names = Callable[[], Iterable[tuple[str, bool]]]
+Names = Callable[[], Iterable[KnownName]]
 
 
 class ShapeEditor(QPlainTextEdit):

@@ -15,13 +15,15 @@ from ....core.errors import HitofudeError
 from ....gcode.interpreter.dialect import Dialect
 from ....gcode.interpreter.options import ToolOffset
 from ....gcode.interpreter.program import Severity
+from ....model.finding import Finding, FindingKind
 from ...framework.computation import ComputationState
-from ...framework.controller import Controller
-from ...framework.figures import counted
+from ...framework.controller import Controller, ShownDocument
+from ...framework.figures import clock, counted
+from ...framework.verdict import VerdictLevel, VerdictSummary
 from ...framework.workspace import Workspace
-from .jobs import ProjectedProgram, compared, framed, projected, restarted
+from .jobs import ComparedWith, ProjectedProgram, compared, framed, projected, restarted
 from .motion_shapes import ViewSide
-from .places import ComparedProgram, difference_places
+from .places import difference_places
 from .program_reader import FILTER, ProgramReader, ProgramSource, ShownProgram
 from .program_text import program_text
 from .view import NcView
@@ -88,6 +90,26 @@ class NcController(Controller):
         """Whether another program than the job's is shown."""
         return self._foreign is not None
 
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """Another program than the job's, and what reading it has shown; None = the job's."""
+        source, shown = self._foreign, self._view.shown
+        if source is None or shown is None:
+            return None
+        error = shown.program.error
+        if error is None:
+            tip = "It was read, and nothing else is known of it; Show cut cuts it out of a stock."
+            verdict = VerdictSummary(VerdictLevel.NONE, f"No error in the text · {clock(shown.times.total)}", tip)
+            return ShownDocument(source.name, source.path is None, verdict)
+        verdict = VerdictSummary(VerdictLevel.BAD, f"Error in line {error.line}", error.text)
+        finding = Finding(FindingKind.PROGRAM, f"Line {error.line}: {error.text}", line=error.line)
+        return ShownDocument(source.name, source.path is None, verdict, (finding,), self._look_at)
+
+    def _look_at(self, finding: Finding) -> None:
+        """Go to the line of an error."""
+        self.front_requested.emit()
+        self._view.pane.go_to_rows(finding.line - 1, finding.line - 1)
+
     def open(self, path: Path) -> None:
         """Show the program of a file; until it is read, what was there stays."""
         self._read(ProgramSource(path.name, path=path), remember=True)
@@ -151,11 +173,11 @@ class NcController(Controller):
         self._view.show_comparison(None)
         self.changed.emit()
 
-    def _on_compared(self, answer: tuple[ShownProgram, ComparedProgram]) -> None:
+    def _on_compared(self, answer: ComparedWith) -> None:
         shown, both = answer
         if shown is not self._view.shown:
             return
-        title = difference_places(both.differences)[0]
+        title = difference_places(both.differences).title
         self._log.note(f"compare {both.other.source.name}", title)
         self._view.other.head.show_dialect(both.other.guessed, both.other.source.dialect, free=False)
         self.front_requested.emit()

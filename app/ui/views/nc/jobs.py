@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ....core.progress import Progress
 from .motion_shapes import ViewSide
@@ -65,9 +65,14 @@ def restarted(shown: ShownProgram, line: int, side: ViewSide, progress: Progress
     return read_shown(source, side, progress.part(0.5, 1.0))
 
 
-def compared(
-    shown: ShownProgram, other: ProgramSource, side: ViewSide, progress: Progress
-) -> tuple[ShownProgram, ComparedProgram]:
+class ComparedWith(NamedTuple):
+    """The program that was shown, and a second one held against it."""
+
+    shown: ShownProgram
+    other: ComparedProgram
+
+
+def compared(shown: ShownProgram, other: ProgramSource, side: ViewSide, progress: Progress) -> ComparedWith:
     """Return the shown program as it was, and a second one held against it.
 
     Raises:
@@ -79,7 +84,9 @@ def compared(
     second = read_shown(other, side, progress.part(0.0, 0.5))
     progress.step(0.5, "Comparing")
     differences = compare(shown.program, second.program, progress=progress.part(0.5, 0.9))
-    return shown, ComparedProgram(second, differences, {side: drawn_apart(shown, second, differences, side)})
+    return ComparedWith(
+        shown, ComparedProgram(second, differences, {side: drawn_apart(shown, second, differences, side)})
+    )
 
 
 def projected(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum, IntEnum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -186,8 +187,16 @@ def _looks(program: NcProgram, contour: Bools | None) -> NDArray[np.uint8]:
     return np.where(motions.kind == MotionKind.RAPID, MotionLineStyle.RAPID, looks).astype(np.uint8)
 
 
-def _elements(program: NcProgram) -> tuple[NDArray[np.uint8], Floats, Ints]:
-    """Return kinds and points of all elements, and where each motion's begin."""
+class _PathElements(NamedTuple):
+    """Elements of painter's paths: kinds, points (n, 3), mm, and where each motion's begin."""
+
+    kinds: NDArray[np.uint8]
+    points: Floats
+    offset: Ints
+
+
+def _elements(program: NcProgram) -> _PathElements:
+    """Return the elements of all motions."""
     motions = program.motions
     arcs = arc_paths(motions)
     pieces = np.clip(np.ceil(np.abs(arcs.sweep) / PIECE - 1e-9), 1, _MOST_PIECES).astype(np.int64)
@@ -200,13 +209,13 @@ def _elements(program: NcProgram) -> tuple[NDArray[np.uint8], Floats, Ints]:
     for row, spline in motions.splines.items():
         points[offset[row] : offset[row + 1]] = spline_points(spline, _SPLINE_CHORDS + 1)[1:]
     if len(arcs):
-        _fill_arcs(program, (kinds, points), offset, pieces)
-    return kinds, points, offset
+        _fill_arcs(program, _PathElements(kinds, points, offset), pieces)
+    return _PathElements(kinds, points, offset)
 
 
-def _fill_arcs(program: NcProgram, elements: tuple[NDArray[np.uint8], Floats], offset: Ints, pieces: Ints) -> None:
+def _fill_arcs(program: NcProgram, elements: _PathElements, pieces: Ints) -> None:
     """Write the cubics of the arcs; along the normal they run evenly, so that helices are helices."""
-    kinds, points = elements
+    kinds, points, offset = elements
     arcs = arc_paths(program.motions)
     at_arc, number = np.repeat(np.arange(len(arcs)), pieces), _counted(pieces)
     whole = np.minimum(np.abs(arcs.sweep), PIECE * pieces) * np.sign(arcs.sweep)

@@ -8,24 +8,25 @@ from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPointF, QRectF, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPainterPath, QPen
 from PySide6.QtWidgets import QWidget
 
 from ....geometry.sample import Box, union
 from ....model.curves import Point
 from ...framework.theme import LIGHT, Theme, text_font
+from ..canvas.looking import LookingAnswers, LookingHand
 from ..canvas.painting import overlay
-from ..canvas.painting.grid import paint_origin, paint_paper, paint_ruler_marks, paint_rulers
+from ..canvas.painting.grid import paint_origin, paint_paper, paint_rulers
 from ..canvas.view_transform import ViewTransform, fitted
-from ..canvas.viewport import Viewport
+from ..canvas.viewport import Viewport, ViewportScene
 from .line_marks import Ints
 from .motion_hover import describe_motion, nearest_motion
 from .motion_shapes import ViewSide
 from .painting.motion_layer import MotionColourBy, MotionLayer, MotionPaint, paint_stock
 from .painting.path_key import KeyCorner, KeyRow, beside_key, cuts_within, key_place, key_size, paint_key
 
-_PICK_PX, _CLICK_PX, _BLEED_PX, _EDGE_PX = 6.0, 4.0, 8.0, 16.0
+_PICK_PX, _BLEED_PX, _EDGE_PX = 6.0, 8.0, 16.0
 _AT_ONCE_S = 0.012
 """So long a picture is painted that is shown for the first time before the window listens again."""
 
@@ -50,7 +51,8 @@ class PathView(Viewport):
     cursor_moved = Signal(float, float)
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        scene = ViewportScene(self._scene_steps, self._paint_margins, self._paint_overlay, room=self._room)
+        super().__init__(scene, parent)
         self._how = MotionPaint(LIGHT)
         self.picture: MotionLayer | None = None
         self.other: MotionLayer | None = None
@@ -64,10 +66,7 @@ class PathView(Viewport):
         self._band, self._band_other = _NONE, _NONE
         self._hover: int | None = None
         self._ends_at: Point | None = None
-        self._mouse: QPointF | None = None
-        self._pressed: QPointF | None = None
-        self.setMouseTracking(True)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self._hand = LookingHand(self, LookingAnswers(self._look, self._pick, self.fit))
         self.setMinimumSize(200, 150)
         self.setAccessibleName("Path of the NC program")
 
@@ -135,7 +134,7 @@ class PathView(Viewport):
         elif not (x0 <= box[0] and box[2] <= x1 and y0 <= box[1] and box[3] <= y1):
             self.glide_to(self.view.centred(((box[0] + box[2]) / 2, (box[1] + box[3]) / 2), self.area))
 
-    def paint_scene(self, painter: QPainter, area: QRectF) -> None:
+    def _scene_steps(self, painter: QPainter, area: QRectF) -> Iterator[None]:
         """Paint raster and motions within a screen rectangle."""
         theme = self._how.theme
         box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
@@ -145,6 +144,7 @@ class PathView(Viewport):
         self._rest = self._portions(box)
         self._paint_portions(painter, _AT_ONCE_S if self._fresh else math.inf)
         self._fresh = False
+        return iter(())
 
     def _portions(self, box: Box) -> Iterator[Callable[[QPainter], None]]:
         """Yield what is to be painted of the paths, then zero and axes over them."""
@@ -170,11 +170,11 @@ class PathView(Viewport):
         """Go on with painting a picture that is shown for the first time."""
         self.paint_more(lambda painter: self._paint_portions(painter, _AT_ONCE_S))
 
-    def paint_margins(self, painter: QPainter) -> None:
+    def _paint_margins(self, painter: QPainter) -> None:
         """Paint the rulers."""
         paint_rulers(painter, self.view, self.size(), self._how.theme, self.unit)
 
-    def paint_overlay(self, painter: QPainter) -> None:
+    def _paint_overlay(self, painter: QPainter) -> None:
         """Paint what is lit up, what is under the mouse, and where reading ended."""
         painter.setClipRect(self.area)
         theme = self._how.theme
@@ -191,57 +191,38 @@ class PathView(Viewport):
         key = self._key()
         paint_key(painter, key_place(key_size(key), self.area, self.corner), key, theme)
         painter.setClipping(False)
-        if self._mouse is not None and self.area.contains(self._mouse):
-            paint_ruler_marks(painter, self._mouse, theme)
+        self._hand.paint_marks(painter, theme)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Hold the picture; what is not dragged is a click."""
-        if event.button() in (Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton):
-            self._pressed = event.position() if event.button() is Qt.MouseButton.LeftButton else None
-            if self._pressed is None:
-                self.begin_pan(event.position())
+        self._hand.press(event)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Drag the picture, or look at what lies under the mouse."""
-        self._mouse = event.position()
-        if self._pressed is not None and (event.position() - self._pressed).manhattanLength() > _CLICK_PX:
-            self.begin_pan(self._pressed)
-            self._pressed = None
-        if not self.pan_to(event):
-            self._look(event.position())
+        self._hand.move(event)
         self.cursor_moved.emit(*self.view.to_world(event.position()))
-        self.update()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Let the picture go, or pick."""
-        if self.end_pan():
-            self.unsetCursor()
-        elif self._pressed is not None:
-            self._pressed = None
-            picked, other = (self._at(event.position(), picture) for picture in (self.picture, self.other))
-            if picked is not None:
-                self.motion_picked.emit(picked)
-            elif other is not None:
-                self.other_picked.emit(other)
+        self._hand.release(event)
 
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
         """Forget the mouse."""
-        self._mouse = None
+        self._hand.leave()
         self._show_hover(None)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
         """F and Home fit, + and - zoom."""
-        keys: dict[int, Callable[[], None]] = {
-            Qt.Key.Key_F: self.fit,
-            Qt.Key.Key_Home: self.fit,
-            Qt.Key.Key_Plus: lambda: self.zoom_by(1.5),
-            Qt.Key.Key_Minus: lambda: self.zoom_by(1 / 1.5),
-        }
-        act = keys.get(event.key())
-        if act is not None and not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
-            act()
-        else:
+        if not self._hand.key(event):
             super().keyPressEvent(event)
+
+    def _pick(self, position: QPointF) -> None:
+        """Say which motion was clicked."""
+        picked, other = (self._at(position, picture) for picture in (self.picture, self.other))
+        if picked is not None:
+            self.motion_picked.emit(picked)
+        elif other is not None:
+            self.other_picked.emit(other)
 
     def _whole(self) -> Box:
         return _union(picture.box for picture in (self.picture, self.other) if picture is not None) or _FRAME
@@ -250,7 +231,7 @@ class PathView(Viewport):
         side = self.picture.side if self.picture is not None else ViewSide.XY
         return (float(point[side.value[0]]), float(point[side.value[1]]))
 
-    def free_area(self, box: Box) -> QRectF:
+    def _room(self, box: Box) -> QRectF:
         """Return the part of the area that a box in mm is fitted into, the key in a corner of it or beside it."""
         corner = self._free_corner(fitted(box, self.area))
         self.corner = corner or KeyCorner.TOP_RIGHT

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -53,12 +54,19 @@ def in_order(problems: Sequence[ProgramProblem]) -> tuple[ProgramProblem, ...]:
     return tuple(sorted(problems, key=lambda problem: (problem.line, problem.column)))
 
 
-def problem_places(problems: Sequence[ProgramProblem]) -> tuple[str, list[ListedPlace]]:
-    """Return title and rows for problems."""
+class TitledPlaces(NamedTuple):
+    """Rows of a list, and its title."""
+
+    title: str
+    places: list[ListedPlace]
+
+
+def problem_places(problems: Sequence[ProgramProblem]) -> TitledPlaces:
+    """Return the list of problems."""
     errors = sum(problem.severity is Severity.ERROR for problem in problems)
     warnings = len(problems) - errors
     words = [counted(errors, "error") if errors else "", counted(warnings, "warning") if warnings else ""]
-    return ", ".join(filter(None, words)), [_problem_place(problem) for problem in problems]
+    return TitledPlaces(", ".join(filter(None, words)), [_problem_place(problem) for problem in problems])
 
 
 def _problem_place(problem: ProgramProblem) -> ListedPlace:
@@ -67,16 +75,16 @@ def _problem_place(problem: ProgramProblem) -> ListedPlace:
     return ListedPlace(f"{at}   {problem.word + ': ' if problem.word else ''}{problem.text}", problem.text, weight)
 
 
-def difference_places(differences: ProgramDifferences) -> tuple[str, list[ListedPlace]]:
-    """Return title and rows for differences."""
+def difference_places(differences: ProgramDifferences) -> TitledPlaces:
+    """Return the list of differences."""
     items = differences.items
     if not items:
         words = "No motion, feed, tool, length, work offset, spindle, coolant, path mode or dwell differs."
-        return "Both programs do the same.", [ListedPlace(words, "", PlaceWeight.REMARK)]
+        return TitledPlaces("Both programs do the same.", [ListedPlace(words, "", PlaceWeight.REMARK)])
     motion = (
         "the same motion" if differences.same_motion else f"paths up to {differences.largest_distance:.3f} mm apart"
     )
-    return f"{counted(len(items), 'difference')}, {motion}", [_difference_place(item) for item in items]
+    return TitledPlaces(f"{counted(len(items), 'difference')}, {motion}", [_difference_place(item) for item in items])
 
 
 def _difference_place(item: ProgramDifference) -> ListedPlace:

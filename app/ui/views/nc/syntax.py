@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from enum import Enum
+from typing import NamedTuple
 
 
 class SyntaxPart(Enum):
@@ -17,7 +18,13 @@ class SyntaxPart(Enum):
     FLOW = "flow"
 
 
-Span = tuple[int, int, SyntaxPart]
+class Span(NamedTuple):
+    """A part of a line, from its first character to behind its last."""
+
+    first: int
+    stop: int
+    part: SyntaxPart
+
 
 _FLOW_WORDS = (
     "sub|endsub|call|return|if|elseif|else|endif|while|endwhile|do|end\\d*|repeat|endrepeat|break|continue|goto|then"
@@ -40,15 +47,15 @@ _KINDS = {
 
 
 def spans(line: str) -> list[Span]:
-    """Return the parts of a line as (first, last + 1, part), in order and without gaps."""
+    """Return the parts of a line in order and without gaps."""
     found: list[Span] = []
     at = 0
     for match in _PARTS.finditer(line):
         first, last = match.start(), match.start() + len(match.group().rstrip())
         if first > at:
-            found.append((at, first, SyntaxPart.PLAIN))
-        found.append((first, last, _KINDS[match.lastgroup or ""]))
+            found.append(Span(at, first, SyntaxPart.PLAIN))
+        found.append(Span(first, last, _KINDS[match.lastgroup or ""]))
         at = last
     if at < len(line):
-        found.append((at, len(line), SyntaxPart.PLAIN))
+        found.append(Span(at, len(line), SyntaxPart.PLAIN))
     return found

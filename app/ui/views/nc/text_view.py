@@ -80,6 +80,10 @@ class NcTextView(QAbstractScrollArea):
         self.verticalScrollBar().setValue(0)
         self.horizontalScrollBar().setValue(0)
 
+    def clear(self) -> None:
+        """Show nothing."""
+        self.show_text(_NO_TEXT)
+
     def show_looks(self, lines: LineMarks) -> None:
         """Show what the lines move and what is wrong with them."""
         self._change(lines=lines)

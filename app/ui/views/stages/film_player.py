@@ -130,10 +130,6 @@ class FilmPlayer(QWidget):
         self._timer.stop()
         self.play.show_icon("play", "Play (Space)")
 
-    def set_speed(self, speed: int) -> None:
-        """Show so many stages a second, one of SPEEDS."""
-        self.speed.setCurrentIndex(SPEEDS.index(speed))
-
     def _restart(self, force: bool = False) -> None:
         """Count time anew from the stage that is shown."""
         if self.playing or force:

@@ -37,7 +37,7 @@ class FilmRequest:
 
     def same_paths(self, other: FilmRequest) -> bool:
         """Whether another wish has the same paths, and only its fill may be another."""
-        return self.job is other.job and self.size == other.size and self.pixels is other.pixels
+        return self.job.same_paths(other.job) and self.size == other.size and self.pixels is other.pixels
 
 
 @dataclass(frozen=True, eq=False)

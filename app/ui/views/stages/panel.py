@@ -182,9 +182,9 @@ def _place(still: FilmFrame) -> str:
 
 def _finding(reel: FilmSet) -> str:
     """Return what is wrong with the paths, the worst of it."""
-    if not reel.made.paths:
-        return "No operation is switched on, so there are no paths."
     counting = [finding for finding in reel.made.program.findings if finding.counts]
+    if not reel.made.paths and not counting:
+        return "On pixels only pockets, and contours inside the walls, are cut; no operation is one of them."
     more = f" {counted(len(counting) - 1, 'more finding')}." if len(counting) > 1 else ""
     return f"{counting[0].text}{more}" if counting else ""
 

@@ -4,7 +4,7 @@ is.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,11 +17,12 @@ from ....model.curves import Point
 from ....raster.frame import BitmapFrame
 from ....raster.trace import PixelChain
 from ...framework.theme import LIGHT, Theme
+from ..canvas.looking import LookingAnswers, LookingHand
 from ..canvas.painting.curve_path import curve_path
-from ..canvas.painting.grid import paint_ruler_marks, paint_rulers
+from ..canvas.painting.grid import paint_rulers
 from ..canvas.painting.overlay import paint_highlight, paint_place
 from ..canvas.painting.pens import screen_pen
-from ..canvas.viewport import Viewport
+from ..canvas.viewport import Viewport, ViewportScene
 from .painting.code_key import EDGE_PX, CodeRow, code_key_place, code_key_size, paint_code_key
 from .painting.pixel_painter import (
     PixelPaint,
@@ -33,7 +34,6 @@ from .painting.pixel_painter import (
     screen_rect,
 )
 
-_CLICK_PX = 4.0
 _FAINT, _LARGE_PX = 0.3, 5.0
 """How strong fitted lines are over pixels of one of the screen's, and how large pixels are under lines of full
 strength.
@@ -61,17 +61,14 @@ class PixelView(Viewport):
     clicked = Signal(int, int, float, float)
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        super().__init__(ViewportScene(self._scene_steps, self._paint_margins, self._paint_overlay), parent)
         self._theme = LIGHT
         self.pixels: PixelPaint | None = None
         self.key: tuple[CodeRow, ...] = ()
         self.marks: tuple[PixelMark, ...] = ()
         self.pixel: tuple[int, int] | None = None
         self._rows, self._lit, self._starts = QPainterPath(), QPainterPath(), QPainterPath()
-        self._mouse: QPointF | None = None
-        self._pressed: QPointF | None = None
-        self.setMouseTracking(True)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self._hand = LookingHand(self, LookingAnswers(self._look, self._click, self.fit, (Qt.Key.Key_F,)))
         self.setMinimumSize(220, 160)
         self.setAccessibleName("Display memory")
 
@@ -87,8 +84,8 @@ class PixelView(Viewport):
         if moved:
             self.fit_now()
         self.repaint_scene()
-        if self._mouse is not None:
-            self._look(self._mouse)
+        if self._hand.mouse is not None:
+            self._look(self._hand.mouse)
 
     def show_key(self, rows: tuple[CodeRow, ...]) -> None:
         """Explain other codes."""
@@ -141,24 +138,25 @@ class PixelView(Viewport):
             half = pixels * self.pixels.frame.pitch / 2
             self.glide_to_box((at[0] - half, at[1] - half, at[0] + half, at[1] + half))
 
-    def paint_scene(self, painter: QPainter, area: QRectF) -> None:
+    def _scene_steps(self, painter: QPainter, area: QRectF) -> Iterator[None]:
         """Paint the pixels within a screen rectangle."""
         theme = self._theme
         painter.fillRect(area, theme.paper)
         if self.pixels is None:
-            return
+            return iter(())
         paint_pixels(painter, self.view, area, self.pixels)
         paint_raster(painter, self.view, area, self.pixels.frame, theme.muted)
         paint_letters(painter, self.view, area, self.pixels)
         painter.setPen(screen_pen(painter, theme.muted, 1.0))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRect(_whole(self.pixels.frame, self).intersected(area.adjusted(-4, -4, 4, 4)))
+        return iter(())
 
-    def paint_margins(self, painter: QPainter) -> None:
+    def _paint_margins(self, painter: QPainter) -> None:
         """Paint the rulers."""
         paint_rulers(painter, self.view, self.size(), self._theme, self.unit)
 
-    def paint_overlay(self, painter: QPainter) -> None:
+    def _paint_overlay(self, painter: QPainter) -> None:
         """Paint fitted lines, what is lit up, marks, the key, and the pixel under the mouse."""
         theme = self._theme
         painter.setClipRect(self.area)
@@ -174,8 +172,7 @@ class PixelView(Viewport):
             self._paint_pixel(painter, self.pixels.frame, self.pixel)
         paint_code_key(painter, code_key_place(self.key, self.area), self.key, self._code(), theme)
         painter.setClipping(False)
-        if self._mouse is not None and self.area.contains(self._mouse):
-            paint_ruler_marks(painter, self._mouse, theme)
+        self._hand.paint_marks(painter, theme)
 
     def _row_pen(self) -> QPen:
         """Return the pen of fitted lines: fine and faint until pixels are large, so that their colours show beside
@@ -214,51 +211,33 @@ class PixelView(Viewport):
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Hold the picture; what is not dragged is a click."""
         self.setFocus(Qt.FocusReason.MouseFocusReason)
-        if event.button() is Qt.MouseButton.LeftButton:
-            self._pressed = event.position()
-        elif event.button() is Qt.MouseButton.MiddleButton:
-            self.begin_pan(event.position())
+        self._hand.press(event)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Drag the picture, or look at the pixel under the mouse."""
-        self._mouse = event.position()
-        if self._pressed is not None and (event.position() - self._pressed).manhattanLength() > _CLICK_PX:
-            self.begin_pan(self._pressed)
-            self._pressed = None
-        self.pan_to(event)
-        self._look(event.position())
+        self._hand.move(event)
         self.cursor_moved.emit(*self.view.to_world(event.position()))
-        self.update()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Let the picture go, or click a pixel."""
-        if self.end_pan():
-            self.unsetCursor()
-        elif self._pressed is not None:
-            self._pressed = None
-            at = self.view.to_world(event.position())
-            pixel = pixel_at(self.pixels.frame, at) if self.pixels is not None else None
-            if pixel is not None:
-                self.clicked.emit(*pixel, *at)
+        self._hand.release(event)
 
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
         """Forget the mouse."""
-        self._mouse = None
+        self._hand.leave()
         self._tell(None)
-        self.update()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
         """F fits, + and - zoom."""
-        keys: dict[int, Callable[[], None]] = {
-            Qt.Key.Key_F: self.fit,
-            Qt.Key.Key_Plus: lambda: self.zoom_by(1.5),
-            Qt.Key.Key_Minus: lambda: self.zoom_by(1 / 1.5),
-        }
-        act = keys.get(event.key())
-        if act is not None and not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
-            act()
-        else:
+        if not self._hand.key(event):
             super().keyPressEvent(event)
+
+    def _click(self, position: QPointF) -> None:
+        """Say which pixel was clicked."""
+        at = self.view.to_world(position)
+        pixel = pixel_at(self.pixels.frame, at) if self.pixels is not None else None
+        if pixel is not None:
+            self.clicked.emit(*pixel, *at)
 
     def _look(self, position: QPointF) -> None:
         inside = self.pixels is not None and self.area.contains(position)

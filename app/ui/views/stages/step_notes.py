@@ -33,13 +33,16 @@ NOTES: Mapping[int, str] = {
     "stripes.",
     130: "The screen is rewritten with the filled area. It is the pocket tool's field of work; the line round it is "
     "the contour tool's.",
-    301: "The same eight-direction tracing, now on the border of what is left. The average of five vectors keeps it "
-    "from turning into the area where the border is ragged.",
+    301: "The same eight-direction tracing, now on the border of what is left. What the averages of five vectors "
+    "come to "
+    "by formula I', and what it cannot tell, is computed under “Published”.",
     302: "All borders after the first one are only peeled off.",
     303: "Start pixel and chain code are stored. Nothing is taken from the area between here and step 306 but whole "
     "borders.",
-    304: "The text leaves pixels unmarked where the line runs back on itself, so that areas do not fall apart; step "
-    "307 takes them after all. A neck that is too narrow may part: the tool does not fit there.",
+    304: "The text leaves pixels unmarked where strands are nearer than two pixels, so that areas do not fall "
+    "apart: so "
+    "it is done under “Published”, with the pixels that differ; step 307 takes them after all. Settled, a neck that is "
+    "too narrow parts: the tool does not fit there.",
     305: "As many borders come off as the radius has pixels. What is left is exactly what is farther than that in "
     "city blocks, steps along rows and columns: aslant too little comes off, by a factor of 0.707.",
     306: "The frame that was stored in step 303 comes back, and the tool's centre is led along it.",
@@ -61,13 +64,16 @@ NOTES: Mapping[int, str] = {
     401: "The text's test, C = (x² + y²) / y, is constant only for circles that touch the axis at the origin. "
     "Settled: one fit to all pixels, with the half pixel that tracing takes off put back.",
     402: "If the whole path was one circle, smoothing ends here.",
-    403: "Long means ten tool diameters. They are found first, so that nothing shorter spoils them. Both sums of "
-    "distances, with sign and without, have to be small.",
-    404: "Averages of five vectors shift with the pixel they begin at. Settled: a corner is where two fitted pieces "
-    "cross.",
+    403: "Long means ten tool diameters. They are found first, so that nothing shorter spoils them. Settled: the "
+    "longest "
+    "fit within the tolerance. “Published”: both sums SA and SB, and a histogram of directions with one peak.",
+    404: "Averages of five vectors shift with the pixel they begin at; under “Published” five beginnings are tried, "
+    "and "
+    "the sharpest counts. Settled: a corner is where two fitted pieces cross.",
     405: "The same test as in 403, from corner to corner.",
-    406: "The centre comes from a fit to all pixels of the stretch, no longer from eight of them.",
-    407: "Fitted paths lie up to a pixel nearer to the walls than their pixels, as near as the pixels' squares allow, "
+    406: "Settled: the centre comes from a fit to all pixels of the stretch. “Published”: from eight of them.",
+    407: "“Published” lays a spline through what is left. Fitted paths lie up to a pixel nearer to the walls than "
+    "their pixels, as near as the pixels' squares allow, "
     "and never nearer than the tool does.",
 }
 """Two or three sentences for each step, as `note` fills them in."""

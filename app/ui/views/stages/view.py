@@ -1,4 +1,6 @@
-"""The Stages view: the steps at the left, the display memory in the middle, the player under it."""
+"""The Stages view: which of the five texts at its head, below its steps at the left, the display memory or a picture in
+the middle, the player under it.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +9,11 @@ from collections.abc import Callable
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
 
 from ....raster.codes import Plane
 from ....raster.frame import BitmapFrame
+from ...framework.fields import ChoiceField
 from ...framework.figures import counted
 from ...framework.theme import LIGHT, Theme
 from . import code_colours
@@ -20,6 +23,17 @@ from .painting.code_key import CodeRow
 from .painting.pixel_painter import PixelPaint
 from .pixel_view import PixelView
 from .step_list import StepList
+from .text_film_view import TextFilmView
+
+TEXTS = tuple((letter, letter) for letter in "ABCDE")
+TIPS = {
+    "A": "Tool paths from a line drawing",
+    "B": "Seeing the cut before cutting",
+    "C": "A compound surface, told apart by surface",
+    "D": "A smooth curve from approximate points",
+    "E": "A curve with a proven shape error",
+}
+HEAD_PX = 36
 
 
 class StagesView(QWidget):
@@ -28,9 +42,11 @@ class StagesView(QWidget):
     Signals:
         shown(): another stage is shown, or none. hovered(words): what the pixel under the mouse is, or "".
         chain_picked(index): a chain of the stage was clicked; -1 = none of them.
-        preview_clicked(x, y): a place of the preview was clicked, mm. theme_changed(Theme).
+        preview_clicked(x, y): a place of the preview was clicked, mm. theme_changed(Theme). text_chosen(letter): steps
+            of this text are wished for.
 
     Attributes:
+        films: what is shown of the texts B to E.
         film: what is shown, when no picture is; None = nothing. theme: in which it is painted.
     """
 
@@ -39,6 +55,7 @@ class StagesView(QWidget):
     chain_picked = Signal(int)
     preview_clicked = Signal(float, float)
     theme_changed = Signal(Theme)
+    text_chosen = Signal(str)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -48,8 +65,12 @@ class StagesView(QWidget):
         self._projector: Projector | None = None
         self._frame = BitmapFrame()
         self._preview: PixelPaint | None = None
+        self.texts, self.films, self._stack = ChoiceField("Published text", TEXTS), TextFilmView(), QStackedWidget()
+        self._head = QWidget()
+        self.texts.show_value("A")
         self._lay_out()
         self.setFocusProxy(self.pixels)
+        self.texts.chosen.connect(lambda letter: self.show_text(str(letter)))
         self.player.requested.connect(self.show_stage)
         self.player.part_requested.connect(self.go_part)
         self.rail.step_requested.connect(self.go_step)
@@ -64,12 +85,42 @@ class StagesView(QWidget):
         middle.setSpacing(0)
         middle.addWidget(self.pixels, 1)
         middle.addWidget(self.player)
-        row = QHBoxLayout(self)
+        bitmap = QWidget()
+        row = QHBoxLayout(bitmap)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(0)
         row.addWidget(self.rail)
         row.addWidget(line)
         row.addLayout(middle, 1)
+        for page in (bitmap, self.films):
+            self._stack.addWidget(page)
+        for letter, tip in TIPS.items():
+            self.texts.buttons[letter].setToolTip(tip)
+            self.texts.buttons[letter].setAccessibleName(tip)
+        self._head.setObjectName("ncBar")
+        self._head.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self._head.setFixedHeight(HEAD_PX)
+        head = QHBoxLayout(self._head)
+        head.setContentsMargins(12, 0, 8, 0)
+        head.addWidget(self.texts)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self._head)
+        column.addWidget(self._stack, 1)
+
+    @property
+    def text(self) -> str:
+        """Letter of the text whose steps are shown."""
+        return str(self.texts.value)
+
+    def show_text(self, letter: str) -> None:
+        """Show the steps of another text: of A the display memory."""
+        self.texts.show_value(letter)
+        self.player.pause()
+        self._stack.setCurrentIndex(0 if letter == "A" else 1)
+        self.setFocusProxy(self.films.picture if letter != "A" else self.pixels)
+        self.text_chosen.emit(letter)
 
     @property
     def at(self) -> int:
@@ -89,6 +140,8 @@ class StagesView(QWidget):
     @property
     def summary(self) -> str:
         """What there is to say about the film as a whole, or ""."""
+        if self.text != "A":
+            return self.films.summary
         return (
             f"{counted(len(self.film), 'stage')} of {counted(len(self.film.numbers), 'step')}"
             if self.film is not None
@@ -120,7 +173,9 @@ class StagesView(QWidget):
         """Show a picture in the place of the stages, or these again."""
         self.player.pause()
         self._preview = preview
-        for widget in (self.rail, self._line, self.player):
+        if preview is not None and self.text != "A":
+            self.show_text("A")
+        for widget in (self._head, self.rail, self._line, self.player):
             widget.setVisible(preview is None)
         self.pixels.light(())
         self.pixels.show_rows(np.zeros((0, 8)))

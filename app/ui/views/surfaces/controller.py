@@ -16,13 +16,15 @@ from ....core.errors import HitofudeError, InputError
 from ....core.resources import resource
 from ....formats.scene.edit import line_of, with_table
 from ....model.scene import Scene
-from ...framework.controller import Controller
+from ....usecases.solid_files import SOLIDS, STEPS
+from ....usecases.step_extra import fetch_step_reader, step_files_readable
+from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
-from ..nc.program_reader import ProgramSource
+from ..nc.program_reader import ProgramReader, ProgramSource
 from .new_parts import NEW_SCENE, Table, free_name, new_passes, new_surface, new_tool, surface_from_curves
 from .scene_computation import SceneComputation, SceneState
-from .scene_document import SceneDocument
+from .scene_document import UNTITLED, SceneDocument
 from .scene_fields import SHAPES
 from .scene_tabs import POINTS, TEXT, SceneTabs
 from .shown_scene import ShownScene, read_file
@@ -30,11 +32,12 @@ from .view import SurfacesView
 
 if TYPE_CHECKING:
     from ....gcode.interpreter.dialect import Dialect
+    from ....usecases.solid_scene import OpenedSolid
     from ....verify.parts import Part
 
 SAMPLES = ("compound", "spheres", "torus", "die")
 FILTER = "Scenes (*.toml)"
-_SOLIDS = "Meshes and STEP files (*.stl *.obj *.ply *.step *.stp)"
+_SOLIDS = f"Meshes and STEP files ({' '.join(f'*{suffix}' for suffix in SOLIDS)})"
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +73,9 @@ class SceneController(Controller):
         self._view, self._side, self.document, self._workspace = view, side, document, workspace
         self._preferences, self._log = workspace.preferences, workspace.log
         self.work = SceneComputation(self.document, self)
+        self._solids = ProgramReader(self)
+        self._solids.failed.connect(self.failed)
+        workspace.activity.follow(self._solids.worker)
         self._given_up = False
         self.choose_file: Callable[[Path], Path | None] = self._choose_file
         self.choose_mesh: Callable[[], Path | None] = self._choose_mesh
@@ -78,6 +84,8 @@ class SceneController(Controller):
 
     def _connect_work(self) -> None:
         work, activity = self.work, self._workspace.activity
+        work.began.connect(self._view.show_nothing)
+        work.began.connect(self.changed)
         work.read.connect(self._on_read)
         work.wrong.connect(self._on_wrong)
         work.computed.connect(self._on_computed)
@@ -102,9 +110,60 @@ class SceneController(Controller):
         self._view.point_picked.connect(self._on_point_picked)
         self._view.surface_picked.connect(lambda number: panel.choose(("surface", number)))
 
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """The open scene; None while none is."""
+        if not self.document.open:
+            return None
+        work = self.work
+        return ShownDocument(
+            self.document.name, self.document.modified, None if work.busy else work.verdict, work.findings
+        )
+
     def open(self, path: Path) -> None:
         """Open a scene file, after asking when changes to another one would be lost."""
         self.leave(f"Open {path.name}?", partial(self._open, path))
+
+    def open_solid(self, path: Path) -> None:
+        """Open a mesh or a STEP file as a scene of its own, after asking when changes to another one would be lost;
+        what reads STEP files is fetched first where it is missing.
+        """
+        if not path.name.lower().endswith(STEPS) or step_files_readable():
+            self.leave(f"Open {path.name}?", partial(self._read_solid, path))
+            return
+        self._workspace.notice.ask(
+            f"{path.name} is a STEP file. What reads these, Open CASCADE, is not installed yet; it takes some 150 MB.",
+            [("Fetch it and open", partial(self._fetch_for, path)), ("Not now", lambda: None)],
+            stays=True,
+        )
+
+    def _fetch_for(self, path: Path) -> None:
+        self._solids.start(lambda progress: fetch_step_reader(progress=progress), lambda _: self.open_solid(path))
+
+    def _read_solid(self, path: Path) -> None:
+        from ....formats.scene.toml import sources_of
+        from ....usecases.solid_scene import open_solid
+
+        whole = path.absolute()
+        sources = sources_of(lambda name: read_file(Path(name)))
+        self._solids.start(lambda progress: open_solid(path.name, str(whole), sources, progress), self._on_solid)
+
+    def _on_solid(self, solid: OpenedSolid) -> None:
+        """Show a solid, and ask about its units where its file does not tell."""
+        from ....usecases.solid_scene import INCH
+
+        stem = Path(solid.name).stem
+        self._preferences.add_recent(Path(solid.path))
+        self._begin(solid.text(), None, stem)
+        if question := solid.question():
+            self._workspace.notice.ask(
+                question,
+                [
+                    ("It is in inches", lambda: self._change(lambda _: solid.text(INCH))),
+                    ("It is in millimetres", lambda: None),
+                ],
+                stays=True,
+            )
 
     def new(self) -> None:
         """Begin a scene, after asking when changes to another one would be lost."""
@@ -237,11 +296,11 @@ class SceneController(Controller):
         self._preferences.add_recent(path)
         self._begin(text, path)
 
-    def _begin(self, text: str, path: Path | None) -> None:
+    def _begin(self, text: str, path: Path | None, stem: str = UNTITLED) -> None:
         self._workspace.notice.hide()
         self.front_requested.emit()
         self._side.panel.subject = ("scene", 0)
-        self.work.begin(text, path)
+        self.work.begin(text, path, stem)
         if self.work.state is SceneState.WRONG:
             self.failed.emit(self.work.problem)
 
@@ -312,10 +371,11 @@ class SceneController(Controller):
         self._side.panel.show_block(self._box)
         self._side.points.show_points(points)
         if not again:
-            self._log.note(f"open {shown.path.name}", self._view.summary)
+            self._log.note(f"open {shown.path.name}", _made_of(self.work.scene or shown.computed.scene))
         self.changed.emit()
 
     def _on_stands(self) -> None:
+        self._view.at_once = self.work.at_once
         self._view.show_standing(self.work.state, self.work.verdict, self.work.findings)
         self.changed.emit()
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFileDialog
@@ -20,6 +21,9 @@ from ...framework.workspace import Workspace
 from .scene_computation import ProvenScene
 from .shown_scene import ShownScene
 from .view import SurfacesView, ViewDirection
+
+if TYPE_CHECKING:
+    from ....usecases.surface_nc import WrittenScene
 
 FORMATS: Mapping[str, str] = {
     "NC program (*.ngc)": ".ngc",
@@ -48,7 +52,7 @@ class _ExportRequest:
 class _ExportedScene:
     paths: tuple[Path, ...]
     size: int
-    remarks: tuple[str, ...]
+    remark: str
 
 
 class SceneExportController(Controller):
@@ -95,49 +99,45 @@ class SceneExportController(Controller):
     def _on_done(self, answer: JobOutcome) -> None:
         exported = answer.value
         assert isinstance(exported, _ExportedScene)
-        first, said = exported.paths[0], " ".join(exported.remarks)
+        first, said = exported.paths[0], exported.remark
         self._log.note(
             f"export {first.name}", f"{grouped(exported.size / 1000, 1)} kB written to {first.parent}. {said}".strip()
         )
         self.said.emit(f"{first.name} is written.")
-        if exported.remarks:
+        if said:
             self._notice.ask(f"{first.name} is written. {said}")
         self.written.emit(first)
 
 
 def _export(request: _ExportRequest, path: Path, progress: Progress) -> _ExportedScene:
     """Write one file, or one a tool or sheet."""
-    remarks: list[str] = []
-    texts = dict(_texts(request, path, (progress, remarks)))
-    write_together(texts)
-    return _ExportedScene(tuple(texts), sum(len(data) for data in texts.values()), tuple(remarks))
-
-
-def _texts(request: _ExportRequest, path: Path, told: tuple[Progress, list[str]]) -> Iterator[tuple[Path, bytes]]:
-    """Yield what to write, by file; `told` is how far it is, and what the user has to know."""
     from ....formats.plot.surface_plot import VIEWS
+    from ....usecases.surface_files import plot_files, program_files
     from ....usecases.surface_nc import write_scene_nc
-    from ....usecases.surface_plot import PlotScene, PlottedPart, plot_surface
+    from ....usecases.surface_plot import PlotScene, PlottedPart
     from ....usecases.surface_points import scene_points_csv
     from ....usecases.surface_report import surface_report
 
-    (progress, remarks), computed, suffix = told, request.shown.computed, path.suffix.lower()
+    computed, suffix, remark = request.shown.computed, path.suffix.lower(), ""
     if suffix in _PLOTS:
-        sheets = plot_surface(computed, suffix, PlotScene(VIEWS[request.view], drawn=PlottedPart.PATHS))
-        for number, data in enumerate(sheets, 1):
-            yield path if len(sheets) == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}"), data
-        return
-    if suffix == ".csv":
-        yield path, scene_points_csv(computed)
-        return
-    written = request.proven.written if request.proven is not None else write_scene_nc(computed, progress)
+        texts = plot_files(computed, path, PlotScene(VIEWS[request.view], drawn=PlottedPart.PATHS))
+    elif suffix == ".csv":
+        texts = {path: scene_points_csv(computed)}
+    else:
+        written = request.proven.written if request.proven is not None else write_scene_nc(computed, progress)
+        report = suffix == ".json"
+        texts = {path: surface_report(computed, written).text().encode()} if report else program_files(written, path)
+        remark = _remark(written)
+    write_together(texts)
+    return _ExportedScene(tuple(texts), sum(len(data) for data in texts.values()), remark)
+
+
+def _remark(written: WrittenScene) -> str:
+    """Return what the user has to know of a program, or ""."""
+    findings = written.findings()
+    if not findings:
+        return ""
     unproven = f"{counted(len(written.unproven), 'move')} could not be proven. " if len(written.unproven) else ""
-    if findings := written.findings():
-        worst = next((each for each in findings if each.kind is FindingKind.GOUGE), findings[0])
-        more = f" ({counted(len(findings) - 1, 'more finding')})" if len(findings) > 1 and not unproven else ""
-        remarks.append(f"{unproven}{worst.text}{more}")
-    if suffix == ".json":
-        yield path, surface_report(computed, written).text().encode()
-        return
-    for file in written.files:
-        yield file.named(path), file.nc.text.encode()
+    worst = next((each for each in findings if each.kind is FindingKind.GOUGE), findings[0])
+    more = f" ({counted(len(findings) - 1, 'more finding')})" if len(findings) > 1 and not unproven else ""
+    return f"{unproven}{worst.text}{more}"

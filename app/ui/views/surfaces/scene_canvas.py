@@ -107,12 +107,15 @@ class SceneCanvas(QWidget):
         tools: dict[int, str] | None = None,
     ) -> None:
         """Show another picture; colours, names and line types of surfaces by number, names of tools. What is looked at
-        stays.
+        stays; as long as that was everything, it still is.
         """
         self._picture, self._colours, self._names, self._lines = picture, tuple(colours), tuple(names), tuple(lines)
         self._tools = tools or {}
         self.marked = -1
-        self._refresh()
+        if self._moved:
+            self._refresh()
+        else:
+            self.fit()
 
     def set_layers(self, layers: SceneLayer) -> None:
         """Show other layers."""
@@ -142,7 +145,7 @@ class SceneCanvas(QWidget):
     def fit(self) -> None:
         """Show everything."""
         self._moved = False
-        if self._picture is not None and self._picture.strands:
+        if self._picture is not None and self._picture.shows:
             self.camera = self.camera.fitted(*self._picture.box, self._size)
         self._refresh()
 

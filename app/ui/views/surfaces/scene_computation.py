@@ -20,7 +20,7 @@ from ....model.scene import Scene
 from ...framework.figures import clock, counted
 from ...framework.verdict import VerdictLevel, VerdictSummary
 from ..nc.program_reader import ProgramReader
-from .scene_document import SceneDocument
+from .scene_document import UNTITLED, SceneDocument
 from .shown_scene import ShownScene, shown_scene
 
 if TYPE_CHECKING:
@@ -56,6 +56,7 @@ class SceneComputation(QObject):
     """Reads, computes and proves the open scene, one job at a time; a newer text takes its place.
 
     Signals:
+        began(): another scene was taken, and nothing is shown of it yet.
         read(Scene): the text is right. wrong(line, sentence): it is not; line 0: in no line.
         computed(ShownScene, again): shown from now on; again: the same scene in another state.
         failed(sentence): it could not be computed. stands(): `state` changed.
@@ -65,6 +66,7 @@ class SceneComputation(QObject):
         proven: of what is shown; None until it is. state, problem: where it stands, and what is wrong, a sentence.
     """
 
+    began = Signal()
     read = Signal(object)
     wrong = Signal(int, str)
     computed = Signal(object, bool)
@@ -87,31 +89,56 @@ class SceneComputation(QObject):
         self.reading.failed.connect(self._on_failed)
         document.changed.connect(self._resting.start)
 
-    def begin(self, text: str, path: Path | None) -> None:
-        """Take another scene and compute it; what was shown stays until then."""
+    def begin(self, text: str, path: Path | None, stem: str = UNTITLED) -> None:
+        """Take another scene, show its surfaces as soon as they are made, then compute its passes.
+
+        Args:
+            text: of the scene. path: of its file; None = it is in none yet, and would be called `stem`.
+        """
         self.reading.worker.cancel()
         self._again = False
-        self.scene = None
-        self.document.load(text, path)
+        self.scene = self.shown = self.proven = None
+        self.document.load(text, path, stem)
         self._resting.stop()
+        self.began.emit()
         if self._read():
-            self.compute()
+            self._stand(SceneState.COMPUTING)
+            self.reading.start(partial(shown_scene, *self._source(), passes=False), self._on_surfaces)
+
+    def _source(self) -> tuple[Path, bytes]:
+        """Return where files of the scene are looked for, and its text."""
+        document = self.document
+        return document.path or Path.home() / document.name, document.text.encode()
+
+    def _on_surfaces(self, shown: ShownScene) -> None:
+        """Show the surfaces, and go on to the passes."""
+        self.shown = shown
+        self.computed.emit(shown, False)
+        self._again = True
+        self._start()
+
+    def _start(self) -> None:
+        """Compute what was read."""
+        self._began = time.monotonic()
+        self._stand(SceneState.COMPUTING)
+        self.reading.start(partial(shown_scene, *self._source()), self._on_computed)
 
     def compute(self) -> None:
         """Compute the text as it is now."""
         self._resting.stop()
         if self._read():
-            data, document = self.document.text.encode(), self.document
-            path = document.path or Path.home() / document.name
-            self._began = time.monotonic()
-            self._stand(SceneState.COMPUTING)
-            self.reading.start(partial(shown_scene, path, data), self._on_computed)
+            self._start()
 
     def cancel(self) -> None:
         """Leave the job on its way; what is shown stays."""
         if self.state in (SceneState.COMPUTING, SceneState.PROVING):
             self.reading.worker.cancel()
             self._stand(SceneState.CHANGED if self.scene is not None else SceneState.NONE)
+
+    @property
+    def at_once(self) -> bool:
+        """Whether a change is computed at once; a scene that takes long is when that is asked for."""
+        return self._took_s <= _AT_ONCE_S
 
     @property
     def busy(self) -> bool:
@@ -150,7 +177,7 @@ class SceneComputation(QObject):
         """Read a text that has rested; compute it if that is quick."""
         if not self._read():
             return
-        if self._took_s <= _AT_ONCE_S:
+        if self.at_once:
             self.compute()
         else:
             self.reading.worker.cancel()

@@ -11,6 +11,9 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QTextCursor, QTextDocument
 from PySide6.QtWidgets import QPlainTextDocumentLayout
 
+UNTITLED = "untitled"
+"""What a scene without a file is called."""
+
 
 class SceneDocument(QObject):
     """One text.
@@ -32,7 +35,7 @@ class SceneDocument(QObject):
         self.document.setDocumentLayout(QPlainTextDocumentLayout(self.document))
         self.path: Path | None = None
         self.open = False
-        self._told = ""
+        self._told, self._stem = "", UNTITLED
         self.document.contentsChanged.connect(self._on_contents)
         for signal in (self.document.modificationChanged, self.document.undoAvailable, self.document.redoAvailable):
             signal.connect(lambda _: self.standing_changed.emit())
@@ -45,16 +48,20 @@ class SceneDocument(QObject):
     @property
     def name(self) -> str:
         """Of the file, or what stands for it."""
-        return self.path.name if self.path is not None else "untitled.toml"
+        return self.path.name if self.path is not None else f"{self._stem}.toml"
 
     @property
     def modified(self) -> bool:
         """Whether something is not saved."""
         return self.open and self.document.isModified()
 
-    def load(self, text: str, path: Path | None) -> None:
-        """Take another scene; what was done to the one before cannot be undone any more."""
-        self.path, self.open = path, True
+    def load(self, text: str, path: Path | None, stem: str = UNTITLED) -> None:
+        """Take another scene; what was done to the one before cannot be undone any more.
+
+        Args:
+            text: of the scene. path: of its file; None = it is in none yet, and would be called `stem`.
+        """
+        self.path, self.open, self._stem = path, True, stem
         self._told = text
         self.document.setPlainText(text)
         self.document.clearUndoRedoStacks()

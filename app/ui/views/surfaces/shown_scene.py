@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.atomic import read_whole
-from ....core.errors import InputError
+from ....core.errors import Cancelled, HitofudeError, InputError
 from ....core.progress import NO_PROGRESS, Progress
 from ....usecases.scene_lines import LineRole, SceneLines, scene_lines
 
 if TYPE_CHECKING:
-    from ....model.scene import LineType
+    from ....model.scene import LineType, Scene
+    from ....model.scene_curves import SceneFiles
     from ....usecases.surface import ComputedFamily, ComputedScene
 
 Floats = NDArray[np.float64]
@@ -46,12 +48,17 @@ class ScenePicture:
     pitch: float = np.inf
 
     @property
+    def shows(self) -> bool:
+        """Whether there is anything to see."""
+        return bool(self.strands) or len(self.triangles) > 0
+
+    @property
     def box(self) -> tuple[Floats, Floats]:
         """Lowest and highest x, y, z of what is seen but for moves in the air, mm."""
         places = (
             [each.points for each in self.strands if each.role not in (LineRole.RAPID, LineRole.PLUNGE)]
             or [each.points for each in self.strands]
-            or [np.zeros((1, 3))]
+            or ([] if len(self.triangles) else [np.zeros((1, 3))])
         )
         every = np.concatenate([*places, self.triangles.reshape(-1, 3)])
         return every.min(axis=0), every.max(axis=0)
@@ -128,26 +135,31 @@ def is_scene(path: Path) -> bool:
         return False
 
 
-def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS) -> ShownScene:
+def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS, passes: bool = True) -> ShownScene:
     """Compute a scene's text and prepare what is shown of it.
 
     Args:
         path: of its file; files that it names are beside it. data: the text, UTF-8.
+        passes: False: the surfaces alone, which are soon there; those that cannot be made are left out, and are told of
+            when the passes are computed.
 
     Raises:
         HitofudeError: it cannot be read or computed. Cancelled: the job was asked to stop.
     """
     from ....formats.plot.surface_plot import colour_of, line_of
-    from ....formats.scene.toml import sources_of
+    from ....formats.scene.toml import read_scene, sources_of
     from ....model.scene import LineType
-    from ....usecases.surface import read_and_compute
+    from ....usecases.surface import compute
     from ....usecases.surface_picture import looked_at, move_lines
     from ....usecases.surface_plot import PlotScene, PlottedPart, by_surface
 
     progress.step(0.0, f"Computing {path.name}")
-    computed = read_and_compute(
-        path.name, data, sources_of(lambda name: read_file(path.parent / name)), progress.part(0.0, 0.9)
-    )
+    scene = read_scene(path.name, data)
+    sources = sources_of(lambda name: read_file(path.parent / name))
+    if passes:
+        computed = compute(scene, sources, progress.part(0.0, 0.9))
+    else:
+        computed = _surfaces_of(replace(scene, passes=()), sources, progress.part(0.0, 0.9))
     progress.step(0.9, "Preparing the picture")
     drawn = by_surface(computed, PlotScene(drawn=PlottedPart.SURFACE))
     colours = tuple(kind.colour or colour_of(number) for number, kind in enumerate(drawn.surfaces))
@@ -164,6 +176,30 @@ def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS) -> Sh
         _pitch(computed),
     )
     return ShownScene(path, computed, space, colours, lines)
+
+
+def _surfaces_of(scene: Scene, sources: SceneFiles, progress: Progress) -> ComputedScene:
+    """Return a scene without passes; surfaces that cannot be made are left out where others can.
+
+    Raises:
+        HitofudeError: none can be made. Cancelled: the job was asked to stop.
+    """
+    from ....surfaces.patches.build import build_surface
+    from ....usecases.surface import compute
+
+    try:
+        return compute(scene, sources, progress.part(0.0, 0.5))
+    except Cancelled:
+        raise
+    except HitofudeError:
+        made = []
+        for surface in scene.surfaces:
+            with suppress(HitofudeError):
+                build_surface(surface, sources)
+                made.append(surface)
+        if not made or len(made) == len(scene.surfaces):
+            raise
+    return compute(replace(scene, surfaces=tuple(made)), sources, progress.part(0.5, 1.0))
 
 
 def read_file(path: Path) -> bytes:

@@ -57,7 +57,7 @@ class SurfacesView(QWidget):
     Attributes:
         shown: the scene, or None. points: its boundary points. look: how it is looked at. plane: slider over all
             passes' planes.
-        state: where the scene stands. verdict, findings: on its program.
+        state: where the scene stands. verdict, findings: on its program. at_once: changes are computed at once.
     """
 
     point_picked = Signal(int)
@@ -69,7 +69,7 @@ class SurfacesView(QWidget):
         super().__init__()
         self.shown: ShownScene | None = None
         self.points: tuple[BoundaryPoint, ...] = ()
-        self.look, self.state = ViewDirection.SPACE, SceneState.NONE
+        self.look, self.state, self.at_once = ViewDirection.SPACE, SceneState.NONE, True
         self.verdict, self.findings = VerdictSummary(VerdictLevel.NONE, "Not computed"), tuple[Finding, ...]()
         self.canvas, self.looks = SceneCanvas(), ChoiceField("", _NAMES)
         self.looks.show_value(self.look)
@@ -142,6 +142,12 @@ class SurfacesView(QWidget):
             self._show()
         else:
             self.set_look(self.look)
+
+    def show_nothing(self) -> None:
+        """Show no scene until there is one."""
+        self.shown, self.points = None, ()
+        self.name.setText("")
+        self.canvas.show_picture(None)
 
     @property
     def computing(self) -> bool:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPolygonF
@@ -52,7 +53,7 @@ class AnnotationLayer:
         """Paint what is seen in a rectangle of the screen; the painter works in screen px."""
         for note in self.notes:
             quiet = theme.ink if isinstance(note.shape, Mark) else theme.muted
-            paint_note(painter, view, note, (QColor(self._colours.get(note.layer) or quiet), 1.2), area)
+            paint_note(painter, view, note, NoteLook(QColor(self._colours.get(note.layer) or quiet), 1.2), area)
 
     @property
     def box(self) -> Box | None:
@@ -86,19 +87,24 @@ def note_distance(note: Note, at: Point, reach: float) -> float:
     return min([to_figure, *(distance_to(curve, at) for curve in curves)])
 
 
-def paint_notes(
-    painter: QPainter, view: ViewTransform, notes: Iterable[Note], look: tuple[QColor, float], area: QRectF
-) -> None:
+class NoteLook(NamedTuple):
+    """How notes are painted: colour, and width of lines, px."""
+
+    colour: QColor
+    width: float
+
+
+def paint_notes(painter: QPainter, view: ViewTransform, notes: Iterable[Note], look: NoteLook, area: QRectF) -> None:
     """Paint notes in one colour and width: those that are selected, lit, or about to come."""
     for note in notes:
         paint_note(painter, view, note, look, area)
 
 
-def paint_note(painter: QPainter, view: ViewTransform, note: Note, look: tuple[QColor, float], area: QRectF) -> None:
+def paint_note(painter: QPainter, view: ViewTransform, note: Note, look: NoteLook, area: QRectF) -> None:
     """Paint one note.
 
     Args:
-        painter: works in screen px. look: colour, and width in px.
+        painter: works in screen px.
         area: what of the screen is seen.
     """
     painter.save()
@@ -112,15 +118,13 @@ def paint_note(painter: QPainter, view: ViewTransform, note: Note, look: tuple[Q
     painter.restore()
 
 
-def _paint_mark(painter: QPainter, at: QPointF, look: tuple[QColor, float]) -> None:
+def _paint_mark(painter: QPainter, at: QPointF, look: NoteLook) -> None:
     painter.setPen(screen_pen(painter, *look))
     painter.drawLine(at + QPointF(-_MARK_PX, -_MARK_PX), at + QPointF(_MARK_PX, _MARK_PX))
     painter.drawLine(at + QPointF(-_MARK_PX, _MARK_PX), at + QPointF(_MARK_PX, -_MARK_PX))
 
 
-def _paint_guide(
-    painter: QPainter, view: ViewTransform, guide: Guide, look: tuple[QColor, float], area: QRectF
-) -> None:
+def _paint_guide(painter: QPainter, view: ViewTransform, guide: Guide, look: NoteLook, area: QRectF) -> None:
     """Paint the piece that is seen; its dashes begin at the point it goes through, so that they stay while the view
     moves.
     """
@@ -139,7 +143,7 @@ def _paint_guide(
     painter.drawLine(start + way * first, start + way * (along + half))
 
 
-def _paint_dimension(painter: QPainter, view: ViewTransform, dimension: Dimension, look: tuple[QColor, float]) -> None:
+def _paint_dimension(painter: QPainter, view: ViewTransform, dimension: Dimension, look: NoteLook) -> None:
     colour, width = look
     made = dimension_lines(dimension, ARROW_PX / view.scale)
     painter.save()

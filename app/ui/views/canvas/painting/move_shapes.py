@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,12 +91,20 @@ def _elements(moves: Moves, start: Floats, sweep: Floats, heads: NDArray[np.bool
         elements["kind"][at] = kind
         elements["x"][at], elements["y"][at] = points[:, 0], points[:, 1]
     if arcs.any():
-        _fill_arcs(elements, moves, (start, sweep, pieces), body)
+        _fill_arcs(elements, moves, _ArcPieces(start, sweep, pieces), body)
     return elements, offset
 
 
-def _fill_arcs(elements: Elements, moves: Moves, shape: tuple[Floats, Floats, Ints], body: Ints) -> None:
-    start, sweep, pieces = shape
+class _ArcPieces(NamedTuple):
+    """Moves as arcs: where they start, their angles, radians, and the cubics that each becomes (0 = none)."""
+
+    start: Floats
+    sweep: Floats
+    pieces: Ints
+
+
+def _fill_arcs(elements: Elements, moves: Moves, arcs: _ArcPieces, body: Ints) -> None:
+    start, sweep, pieces = arcs
     rows = np.repeat(np.arange(len(moves)), pieces)
     number = np.arange(len(rows)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     step = sweep[rows] / pieces[rows]

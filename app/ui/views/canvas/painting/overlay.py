@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
@@ -14,7 +15,7 @@ from ....framework.theme import Theme
 from ..drawing_tool import ToolPreview
 from ..tracking import AcquiredPoint, TrackedPoint
 from ..view_transform import ViewTransform
-from .annotation_layer import paint_notes
+from .annotation_layer import NoteLook, paint_notes
 from .curve_path import MANY, curve_path
 from .pens import FINE, screen_pen
 
@@ -59,7 +60,7 @@ class TrialLayer:
 
     def paint(self, painter: QPainter, view: ViewTransform, trial: DrawingDifference, theme: Theme) -> None:
         """Paint what comes in the accent, what goes in the colour of errors."""
-        paint_notes(painter, view, trial.notes, (theme.accent, 1.4), QRectF(painter.viewport()))
+        paint_notes(painter, view, trial.notes, NoteLook(theme.accent, 1.4), QRectF(painter.viewport()))
         if not (trial.added or trial.gone):
             return
         painter.save()
@@ -108,17 +109,24 @@ def paint_grips(
         painter.drawRect(QRectF(at.x() - _GRIP_HALF, at.y() - _GRIP_HALF, 2 * _GRIP_HALF, 2 * _GRIP_HALF))
 
 
+class TrackingAids(NamedTuple):
+    """What draws the mouse: the rays that it is on, and the points that it has rested on."""
+
+    tracked: TrackedPoint | None
+    acquired: Sequence[AcquiredPoint]
+
+
 def paint_tracking(
     painter: QPainter,
     view: ViewTransform,
-    what: tuple[TrackedPoint | None, Sequence[AcquiredPoint]],
+    aids: TrackingAids,
     area: QRectF,
     theme: Theme,
 ) -> None:
     """Paint the rays that draw the mouse, dotted from edge to edge, and small crosses at the points that were rested
     on.
     """
-    tracked, acquired = what
+    tracked, acquired = aids
     painter.setPen(screen_pen(painter, theme.accent_text, 1.2))
     for known in acquired:
         at = view.to_screen(known.point)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +18,28 @@ from ....framework.theme import Theme
 from ..neighbour_snaps import distance_to
 from ..snap import Snap, snaps_of
 from ..view_transform import ViewTransform
-from .annotation_layer import AnnotationLayer, note_distance, paint_notes
+from .annotation_layer import AnnotationLayer, NoteLook, note_distance, paint_notes
 from .curve_path import MANY, curve_path
 from .part_chunks import EntityChunk, PartChunks
 from .pens import FINE, screen_pen
 
 PART_WIDTH, SELECTED_WIDTH, SELECTED_NOTE_WIDTH = 1.25, 2.6, 1.8
 _BATCH = 64
+
+
+class LayerPath(NamedTuple):
+    """Curves of a layer, mm."""
+
+    layer: str
+    path: QPainterPath
+
+
+class _NearThing(NamedTuple):
+    """What is near a point: how far, mm, and of equals which comes first."""
+
+    distance: float
+    order: int
+    thing: Entity | Note
 
 
 class PartLayer:
@@ -83,7 +99,7 @@ class PartLayer:
 
     def selected_steps(self, painter: QPainter, view: ViewTransform, colour: QColor, area: QRectF) -> Iterator[None]:
         """Paint what is selected in a rectangle of the screen, with pauses; the painter works in screen px."""
-        paint_notes(painter, view, self._selected_notes, (colour, SELECTED_NOTE_WIDTH), area)
+        paint_notes(painter, view, self._selected_notes, NoteLook(colour, SELECTED_NOTE_WIDTH), area)
         painter.save()
         try:
             painter.setTransform(view.transform(), True)
@@ -101,24 +117,27 @@ class PartLayer:
     ) -> Iterator[None]:
         """Paint what lies in a box in mm, but for some layers, with pauses; the painter works in screen px."""
         paths = [
-            (layer, path) for chunk in self._seen(box) for layer, path in chunk.paths.items() if layer not in without
+            LayerPath(layer, path)
+            for chunk in self._seen(box)
+            for layer, path in chunk.paths.items()
+            if layer not in without
         ]
-        yield from self._path_steps(painter, view, paths, (theme, FINE if self.fine else PART_WIDTH))
+        yield from self._path_steps(painter, view, paths, NoteLook(theme.ink, FINE if self.fine else PART_WIDTH))
 
     def coarse_steps(self, painter: QPainter, view: ViewTransform, theme: Theme) -> Iterator[None]:
         """Paint all curves with the finest pens, with pauses; the painter works in screen px."""
-        paths = [layered for chunk in self.lookup.chunks for layered in chunk.paths.items()]
-        yield from self._path_steps(painter, view, paths, (theme, FINE))
+        paths = [LayerPath(*layered) for chunk in self.lookup.chunks for layered in chunk.paths.items()]
+        yield from self._path_steps(painter, view, paths, NoteLook(theme.ink, FINE))
 
     def _path_steps(
-        self, painter: QPainter, view: ViewTransform, paths: list[tuple[str, QPainterPath]], look: tuple[Theme, float]
+        self, painter: QPainter, view: ViewTransform, paths: list[LayerPath], look: NoteLook
     ) -> Iterator[None]:
         painter.save()
         try:
             painter.setTransform(view.transform(), True)
             painter.setBrush(Qt.BrushStyle.NoBrush)
             for layer, path in paths:
-                painter.setPen(_round_pen(painter, QColor(self._colours.get(layer) or look[0].ink), look[1]))
+                painter.setPen(_round_pen(painter, QColor(self._colours.get(layer) or look.colour), look.width))
                 painter.drawPath(path)
                 yield
         finally:
@@ -139,14 +158,14 @@ class PartLayer:
         """Return everything within `reach` mm of a point that is not on a locked layer, nearest first, of equals the
         latest drawn.
         """
-        found: list[tuple[float, int, Entity | Note]] = []
+        found: list[_NearThing] = []
         for entity in self._near(at, reach):
             if entity.layer not in self._locked and (distance := distance_to(entity.curve, at)) <= reach:
-                found.append((distance, -entity.id, entity))
+                found.append(_NearThing(distance, -entity.id, entity))
         for note in self.notes.notes:
             if note.layer not in self._locked and (distance := note_distance(note, at, reach)) <= reach:
-                found.append((distance, -note.id, note))
-        return [thing for _, _, thing in sorted(found, key=lambda row: row[:2])]
+                found.append(_NearThing(distance, -note.id, note))
+        return [each.thing for each in sorted(found, key=lambda each: (each.distance, each.order))]
 
     def near_curves(self, at: Point, reach: float) -> list[Curve]:
         """Return the curves within `reach` mm of a point, nearest first."""

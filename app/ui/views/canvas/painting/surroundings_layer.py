@@ -80,9 +80,9 @@ class SurroundingsLayer:
         painter.drawPath(self._clamps)
         painter.restore()
 
-    def paint_copies(self, painter: QPainter, view: ViewTransform, picture: PartLayer, look: tuple[Box, Theme]) -> None:
+    def paint_copies(self, painter: QPainter, view: ViewTransform, picture: PartLayer, box: Box, theme: Theme) -> None:
         """Paint the copies of the drawing that come into a box in mm; the painter works in screen px."""
-        (x0, y0, x1, y1), theme = look
+        x0, y0, x1, y1 = box
         around = picture.lookup.box
         if around is None:
             return

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,14 +40,16 @@ def are_apart(points: SmoothedPoints, side: ViewSide, scale: float) -> bool:
     return _apart(points, side) * scale >= _APART_PX
 
 
-def paint_points(
-    painter: QPainter, points: SmoothedPoints, view: tuple[ViewSide, Box, Callable[[Floats], Floats]], theme: Theme
-) -> None:
-    """Paint the points that a box shows.
+class PointsInSight(NamedTuple):
+    """From which side points are seen, the box, mm, and where (k, 2) places of that side are on the screen, px."""
 
-    Args:
-        view: side, box, and where (k, 2) places of that side are on the screen, px.
-    """
+    side: ViewSide
+    box: Box
+    on_screen: Callable[[Floats], Floats]
+
+
+def paint_points(painter: QPainter, points: SmoothedPoints, view: PointsInSight, theme: Theme) -> None:
+    """Paint the points that a box shows."""
     side, box, on_screen = view
     was, places = points.was[:, list(side.value)], points.places[:, list(side.value)]
     near = _within(was, box) | _within(places, box)

@@ -194,6 +194,7 @@ class StockTextures:
             "halfway": tuple(_unit(light + axes[2])),
             "stock": look.stock,
             "hatch": look.hatch,
+            "edge": look.edge,
             "strength": look.strength,
         }
         for name, value in values.items():

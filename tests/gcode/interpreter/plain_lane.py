@@ -1,7 +1,4 @@
-"""The reader's fast lane: most lines of real programs are plain, and compiled code does those.
-
-The core calls it before every line; it does the plain lines that come next and leaves the first other one to the core.
-"""
+"""The fast lane's kernel for plain lines, called alone."""
 
 from __future__ import annotations
 
@@ -10,11 +7,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from .columns import MotionColumns
+from app.gcode.interpreter.columns import MotionColumns
+from app.gcode.interpreter.fast_lane import LONGEST
+from app.gcode.interpreter.plain_kernels import run_plain
 
 _PORTION = 8192
-LONGEST = 1000
-"""Bytes of a line that the lane reads; the core is for longer ones."""
 
 
 @dataclass(slots=True)
@@ -66,8 +63,6 @@ def plain_blocks(
         columns: where the motions go.
         most_lines: how many lines to do at most.
     """
-    from .plain_kernels import run_plain  # compiled: loaded where it is used
-
     offset, line = at
     while most_lines > 0 and offset < len(data):
         portion = min(most_lines, _PORTION)

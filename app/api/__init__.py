@@ -1,0 +1,90 @@
+"""The Python door: what the command line does, from a script or a notebook.
+
+`import hitofude` brings all of these names along, and loads what is behind them when one is first asked for.
+"""
+
+from __future__ import annotations
+
+from ..core.errors import Cancelled, HitofudeError
+from ..core.progress import Progress
+from ..gcode.interpreter.dialect import Dialect
+from ..model.chamfer_operation import ChamferOperation
+from ..model.curve_selectors import read_selectors
+from ..model.face_operation import FaceOperation
+from ..model.finding import Finding, FindingKind
+from ..model.hole_operations import BoreOperation, CountersinkOperation, ReamOperation, TapOperation, ThreadOperation
+from ..model.job import Job, Stock
+from ..model.operation import (
+    AdaptiveOperation,
+    ContourOperation,
+    CutParameters,
+    DrillOperation,
+    PocketOperation,
+    RestOperation,
+    Side,
+    VcarveOperation,
+)
+from ..model.part import Units
+from ..model.tool import Tool
+from ..model.tool_kind import ToolKind
+from ..usecases.cut import CutOptions
+from ..usecases.examine import ExamineOptions
+from ..usecases.machining import MachiningOptions
+from ..usecases.options import MakeOptions, Stepover
+from ..usecases.proposal.propose import ProposalOptions
+from ..usecases.setup import SetupRequest
+from ..usecases.setup_stock import box_stock
+from ..usecases.smooth_result import OutputForm, SmoothOptions
+from .calls import check, cut, make, read, smooth, surface
+from .results import CheckedProgram, CutMetal, MadeProgram, MadeSurface, SmoothedText
+
+__all__ = [
+    "AdaptiveOperation",
+    "BoreOperation",
+    "Cancelled",
+    "ChamferOperation",
+    "CheckedProgram",
+    "ContourOperation",
+    "CountersinkOperation",
+    "CutMetal",
+    "CutOptions",
+    "CutParameters",
+    "Dialect",
+    "DrillOperation",
+    "ExamineOptions",
+    "FaceOperation",
+    "Finding",
+    "FindingKind",
+    "HitofudeError",
+    "Job",
+    "MachiningOptions",
+    "MadeProgram",
+    "MadeSurface",
+    "MakeOptions",
+    "OutputForm",
+    "PocketOperation",
+    "Progress",
+    "ProposalOptions",
+    "ReamOperation",
+    "RestOperation",
+    "SetupRequest",
+    "Side",
+    "SmoothOptions",
+    "SmoothedText",
+    "Stepover",
+    "Stock",
+    "TapOperation",
+    "ThreadOperation",
+    "Tool",
+    "ToolKind",
+    "Units",
+    "VcarveOperation",
+    "box_stock",
+    "check",
+    "cut",
+    "make",
+    "read",
+    "read_selectors",
+    "smooth",
+    "surface",
+]

@@ -1,0 +1,146 @@
+"""The calls of the Python door: files or jobs in, frozen results out. No call writes a file; a result's `save` does."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from ..core.file_bytes import FileBytes
+from ..core.input_file import read_input
+from ..core.progress import NO_PROGRESS, Progress
+from ..formats.drawing import Drawing
+from ..formats.readers import read_drawing
+from ..model.job import Job
+from ..model.part import Units
+from ..model.read_options import AS_DRAWN, DrawingOptions
+from ..model.tool import Tool
+from ..usecases import make as usecase
+from ..usecases.cut import CutOptions
+from ..usecases.cut import cut as cut_programs
+from ..usecases.cut_report import cut_report
+from ..usecases.examine import ExamineOptions, examine
+from ..usecases.options import MakeOptions
+from ..usecases.setup import SetupRequest, setup_of
+from ..usecases.setup_tools import ToolSource
+from ..usecases.smooth import smooth as smooth_text
+from ..usecases.smooth_result import SmoothOptions
+from .results import CheckedProgram, CutMetal, MadeProgram, MadeSurface, SmoothedText
+
+FilePath = str | os.PathLike[str]
+
+
+def read(
+    drawing: FilePath, units: Units | None = None, layers: tuple[str, ...] = (), how: DrawingOptions = AS_DRAWN
+) -> Drawing:
+    """Return a drawing as it is read: its curves in mm, and what there is to say about the file.
+
+    Args:
+        drawing: a .dxf, .svg, .draw or .hito file.
+        units: of a drawing that names none. layers: to keep; empty = all. how: what else is said about reading it.
+
+    Raises:
+        InputError: it cannot be read, or something that is said has no effect on it.
+    """
+    path = Path(drawing)
+    return read_drawing(path.name, read_input(path), units, layers, how)
+
+
+def make(what: FilePath | Job, options: MakeOptions | None = None, progress: Progress = NO_PROGRESS) -> MadeProgram:
+    """Return the NC program of a drawing or a job, read back and proven.
+
+    Args:
+        what: a drawing or a picture, or a job with its part, tools and operations.
+        options: every one that is given overrides what the default job, or `options.job`, says; of a job, which says
+            everything itself, the machine alone counts.
+
+    Raises:
+        HitofudeError: it cannot be used, or nothing in it can be cut with these tools.
+        Cancelled: by progress.
+    """
+    if isinstance(what, Job):
+        return MadeProgram(usecase.export(what, progress, machine=options.machine if options else None))
+    path = Path(what)
+    return MadeProgram(usecase.make(path.name, read_input(path), options or MakeOptions(), progress))
+
+
+def check(program: FilePath, options: ExamineOptions | None = None, progress: Progress = NO_PROGRESS) -> CheckedProgram:
+    """Return what there is to know of an NC program, read as its control would.
+
+    Raises:
+        InputError: it cannot be read at all; what is wrong in it is among the problems.
+        Cancelled: by progress.
+    """
+    path = Path(program)
+    return CheckedProgram(examine(path.name, read_input(path), options or ExamineOptions(), progress))
+
+
+def cut(
+    *programs: FilePath,
+    against: FilePath | None = None,
+    tools: Mapping[int, Tool] | None = None,
+    request: SetupRequest | None = None,
+    options: CutOptions | None = None,
+    progress: Progress = NO_PROGRESS,
+) -> CutMetal:
+    """Return what NC programs, one after the other, leave of their stock.
+
+    Args:
+        programs: files, at least one.
+        against: the part that is wanted: a drawing, a solid (.stl), or a scene (.toml).
+        tools: by T number; those that are not here are as the programs tell.
+        request: what else is said of stock, depth, origin; `against` and `tools` are put into it.
+        options: how finely to look.
+
+    Raises:
+        HitofudeError: a file cannot be read, or a tool or the stock is not known.
+        Cancelled: by progress.
+    """
+    paths, request = [Path(program) for program in programs], request or SetupRequest()
+    if against is not None:
+        part = Path(against)
+        beside = lambda name: read_input(part.parent / name)  # noqa: E731 (files that a scene names)
+        request = replace(request, against=FileBytes(part.name, read_input(part)), beside=beside)
+    if tools:
+        request = replace(request, tools=(ToolSource("the script", dict(tools)), *request.tools))
+    shares = [progress.part(0.2 * k / len(paths), 0.2 * (k + 1) / len(paths)) for k in range(len(paths))]
+    examined = tuple(
+        examine(path.name, read_input(path), ExamineOptions(), share) for path, share in zip(paths, shares, strict=True)
+    )
+    ready = setup_of(examined, request, progress.part(0.2, 0.25))
+    done = cut_programs(ready.setup, options or CutOptions(), progress.part(0.25, 1.0))
+    return CutMetal(done, cut_report(done, ready), paths[0].name)
+
+
+def smooth(program: FilePath, options: SmoothOptions | None = None, progress: Progress = NO_PROGRESS) -> SmoothedText:
+    """Return an NC program with its short straight moves as fewer lines, arcs or splines, proven within a tolerance.
+
+    Raises:
+        HitofudeError: it cannot be read, or not be written for the control.
+        Cancelled: by progress.
+    """
+    path = Path(program)
+    return SmoothedText(smooth_text(path.name, read_input(path), options or SmoothOptions(), progress))
+
+
+def surface(scene: FilePath, progress: Progress = NO_PROGRESS) -> MadeSurface:
+    """Return the tool paths over the surfaces of a scene, written and proven.
+
+    Args:
+        scene: a .toml file; files that it names lie beside it.
+
+    Raises:
+        HitofudeError: it cannot be read, computed or written.
+        Cancelled: by progress.
+    """
+    from ..formats.scene.toml import read_scene, sources_of
+    from ..usecases.surface import compute
+    from ..usecases.surface_nc import write_scene_nc
+    from ..usecases.surface_report import surface_report
+
+    path = Path(scene)
+    sources = sources_of(lambda name: read_input(path.parent / name))
+    computed = compute(read_scene(path.name, read_input(path)), sources, progress.part(0.0, 0.6))
+    written = write_scene_nc(computed, progress.part(0.6, 1.0))
+    return MadeSurface(written, surface_report(computed, written))

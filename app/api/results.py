@@ -1,0 +1,283 @@
+"""What the calls of the Python door return: frozen values with arrays in them, that save themselves and show themselves
+in a notebook.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..core.atomic import write_together
+from ..gcode.interpreter.program import ProgramProblem
+from ..model.finding import Finding
+from ..model.job import Job
+from ..model.motion import Motions
+from ..model.moves import Moves
+from ..simulation.field.workpiece import Heights
+from ..usecases.cut import CutProgram
+from ..usecases.cut_report import CutReport
+from ..usecases.examine import ExaminedProgram
+from ..usecases.make import MakeResult
+from ..usecases.smooth_result import SmoothedProgram
+from ..usecases.surface_nc import WrittenScene
+from ..usecases.surface_report import SurfaceReport
+
+Report = dict[str, Any]
+
+
+@dataclass(frozen=True, eq=False)
+class MadeProgram:
+    """A program that was made, read back and proven.
+
+    Attributes:
+        result: all that is known of it.
+    """
+
+    result: MakeResult
+
+    @property
+    def job(self) -> Job:
+        """What it was computed from: tools, operations, stock."""
+        return self.result.job
+
+    @property
+    def text(self) -> str:
+        """Its NC text; of several files the first one's."""
+        return self.result.nc.text
+
+    @property
+    def moves(self) -> Moves:
+        """Arrays (n, ...) of its moves: start, end, centre, mm, part coordinates; kind, feed, tool, operation, line."""
+        return self.result.program.moves
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Everything there is to say, what counts first."""
+        return self.result.findings
+
+    @property
+    def clean(self) -> bool:
+        """True when no finding counts."""
+        return self.result.clean
+
+    @property
+    def report(self) -> Report:
+        """Every measured number, by the keys of `make --report`."""
+        return self.result.report.data
+
+    def save(self, path: str | os.PathLike[str]) -> tuple[Path, ...]:
+        """Write the program, all its files whole or none; return their paths: one a tool where the control
+        changes none.
+
+        Raises:
+            InputError: one cannot be written.
+        """
+        files = {file.named(Path(path)): file.nc.text.encode("ascii") for file in self.result.files}
+        write_together(files)
+        return tuple(files)
+
+    def svg(self) -> str:
+        """Return the picture of part and paths."""
+        from ..formats.plot.plot import plot
+        from ..usecases.picture import picture_of
+
+        picture = picture_of(self.job.part.name, self.result.program, self.result.coverage)
+        return plot(picture, ".svg").decode()
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+    def __str__(self) -> str:
+        return self.result.report.summary(self.job.part.name)
+
+
+@dataclass(frozen=True, eq=False)
+class CheckedProgram:
+    """An NC program as its control reads it.
+
+    Attributes:
+        result: all that is known of it.
+    """
+
+    result: ExaminedProgram
+
+    @property
+    def problems(self) -> tuple[ProgramProblem, ...]:
+        """What its control would refuse, or warn of."""
+        return self.result.problems
+
+    @property
+    def clean(self) -> bool:
+        """True when there is no problem."""
+        return not self.result.problems
+
+    @property
+    def motions(self) -> Motions:
+        """Arrays (n, ...) of its motions: start, end, centre, mm, program coordinates; kind, feed, line."""
+        return self.result.program.motions
+
+    @property
+    def time_s(self) -> float:
+        """How long it takes on the machine that it was timed on, s."""
+        return self.result.time.total
+
+    @property
+    def report(self) -> Report:
+        """Everything that was found, by the keys of `check --report`."""
+        return self.result.report()
+
+    def __str__(self) -> str:
+        lines = [problem.message(self.result.name) for problem in self.problems]
+        return "\n".join([f"{self.result.name}: {len(lines)} problems, {self.time_s / 60:.1f} min", *lines])
+
+
+@dataclass(frozen=True, eq=False)
+class CutMetal:
+    """What programs leave of their stock, and how near it is to the part.
+
+    Attributes:
+        result: all that is known of it. told: its report. name: of the first program.
+    """
+
+    result: CutProgram
+    told: CutReport
+    name: str
+
+    @property
+    def heights(self) -> Heights:
+        """Of what is left at the middles of cells, (rows, columns), mm, program coordinates; rows go along Y."""
+        return self.result.cut.heights
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What went wrong on the way and what is wrong with the result, what counts first."""
+        return self.told.findings
+
+    @property
+    def clean(self) -> bool:
+        """True when no finding counts."""
+        return not any(finding.counts for finding in self.findings)
+
+    @property
+    def report(self) -> Report:
+        """Every measured number, by the keys of `cut --report`."""
+        return self.told.data
+
+    def png(self) -> bytes:
+        """Return the picture of what is left: gouges red, metal left blue where it was compared with a part."""
+        from ..usecases.cut_files import picture_of
+
+        return picture_of(self.result, self.name)
+
+    def _repr_png_(self) -> bytes:
+        return self.png()
+
+    def __str__(self) -> str:
+        return self.told.summary()
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothedText:
+    """A program that was smoothed, read back and proven.
+
+    Attributes:
+        result: all that is known of it.
+    """
+
+    result: SmoothedProgram
+
+    @property
+    def text(self) -> str:
+        """Its NC text."""
+        return self.result.data.decode("latin-1")
+
+    @property
+    def bound(self) -> float:
+        """Proven: nowhere are curve and moves farther apart, mm."""
+        return self.result.bound
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Stretches that could not be proven and stayed as they were."""
+        from ..usecases.smooth_report import findings
+
+        return findings(self.result)
+
+    @property
+    def clean(self) -> bool:
+        """True when no finding counts."""
+        return not self.findings
+
+    @property
+    def report(self) -> Report:
+        """The certificate and every stretch, by the keys of `smooth --report`."""
+        from ..usecases.smooth_report import report
+
+        return report(self.result)
+
+    def save(self, path: str | os.PathLike[str]) -> tuple[Path, ...]:
+        """Write the program, whole or not at all.
+
+        Raises:
+            InputError: it cannot be written.
+        """
+        write_together({Path(path): self.result.data})
+        return (Path(path),)
+
+    def __str__(self) -> str:
+        from ..usecases.smooth_report import certificate
+
+        return "\n".join(certificate(self.result))
+
+
+@dataclass(frozen=True, eq=False)
+class MadeSurface:
+    """The program over the surfaces of a scene, proven.
+
+    Attributes:
+        result: all that is known of it. told: its report.
+    """
+
+    result: WrittenScene
+    told: SurfaceReport
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong, with its place."""
+        return self.told.findings
+
+    @property
+    def clean(self) -> bool:
+        """True when no finding counts."""
+        return not any(finding.counts for finding in self.findings)
+
+    @property
+    def report(self) -> Report:
+        """Every measured number, by the keys of `surface --report`."""
+        return self.told.data
+
+    def save(self, path: str | os.PathLike[str]) -> tuple[Path, ...]:
+        """Write the program, all its files whole or none; return their paths.
+
+        Raises:
+            InputError: one cannot be written.
+        """
+        from ..usecases.surface_files import program_files
+
+        files = program_files(self.result, Path(path))
+        write_together(files)
+        return tuple(files)
+
+    def svg(self) -> str:
+        """Return the paths in the order of cutting, by surface."""
+        from ..usecases.surface_plot import plot_surface
+
+        return plot_surface(self.result.computed, ".svg")[0].decode()
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+    def __str__(self) -> str:
+        return self.told.summary()

@@ -1,0 +1,63 @@
+"""What `check` prints: of a program, and of how another one differs."""
+
+from __future__ import annotations
+
+from ..core.durations import minutes_words
+from ..gcode.interpreter.program import ProgramProblem, Severity
+from ..gcode.rework.compare import ProgramDifferences
+from ..usecases.examine import CONTROLS, ExaminedProgram
+
+TOLD = 20
+"""Problems and differences that are printed; the report has all."""
+
+
+def examined_lines(examined: ExaminedProgram) -> list[str]:
+    """Return the problems, and what was measured, for people."""
+    lines = [f"  ! {_problem_words(problem, examined.name)}" for problem in examined.problems[:TOLD]]
+    if len(examined.problems) > TOLD:
+        lines.append(f"  - {len(examined.problems) - TOLD} more; --report R.json lists them all")
+    report = examined.report()
+    length, parts = report["length_mm"], report["time_parts_s"]
+    count = len(examined.problems)
+    what = "no problem" if not count else "1 problem" if count == 1 else f"{count} problems"
+    lines.insert(
+        0,
+        f"{examined.name}: {what} as {CONTROLS[report['control']]} reads it; {sum(report['moves'].values())} motions "
+        f"in {report['lines']} lines, {length['cut']:.1f} mm cut, {length['rapid']:.1f} mm rapid",
+    )
+    for title, box in (("cuts", examined.cut_box), ("all", examined.box)):
+        sides = (
+            f"{axis} {low:.3f} to {high:.3f}"
+            for axis, low, high in zip("XYZ", box.low, box.high, strict=True)
+            if low == low
+        )
+        lines.append(f"  {title}: {', '.join(sides) or 'nothing'} mm")
+    cut, rapid, wait = (minutes_words(parts[name]) for name in ("cut", "rapid", "wait"))
+    lines.append(
+        f"  time: {minutes_words(report['time_s'])} min (cut {cut}, rapid {rapid}, dwells and tool changes {wait}), "
+        f"machine: {examined.machine.title}"
+    )
+    lines += [f"  {_tool_words(tool)}: {minutes_words(tool['time_s'])} min" for tool in report["tools"]]
+    return lines
+
+
+def _problem_words(problem: ProgramProblem, file: str) -> str:
+    return f"{problem.message(file)}{' (a warning)' if problem.severity is Severity.WARNING else ''}"
+
+
+def _tool_words(tool: dict[str, object]) -> str:
+    if not tool["number"]:
+        return "a tool without a number"
+    diameter = f" {tool['diameter_mm']:g} mm" if tool["diameter_mm"] else ""
+    return f"T{tool['number']}{' ' if tool['kind'] else ''}{tool['kind']}{diameter}"
+
+
+def difference_lines(name: str, differences: ProgramDifferences) -> list[str]:
+    """Return what differs in another program, and whether its motion is the same."""
+    lines = [
+        f"  {'-' if differences.same_motion else '!'} line {item.a.first_line} and {name}:{item.b.first_line}: "
+        f"{item.kind.value}{': ' if item.text else ''}{item.text}"
+        for item in differences.items[:TOLD]
+    ]
+    more = [f"  - {len(differences.items) - TOLD} more differences"] if len(differences.items) > TOLD else []
+    return [f"{name}: {'the same motion' if differences.same_motion else 'other motion'}", *lines, *more]

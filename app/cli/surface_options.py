@@ -1,0 +1,88 @@
+"""The options of `surface`, and what they ask for."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..core.errors import InputError
+from ..formats.plot.surface_plot import VIEWS, PlotColouring
+from ..usecases.surface_plot import FORMATS, PlotScene, PlottedPart
+from .command import OptionParser
+from .files import check_outputs, named_files
+from .values import number
+
+EPILOG = """\
+The scene tells surfaces, stock, tools and families of passes; resources/docs/scene.md explains every key. On each
+cutting plane the topmost of all surfaces is followed; where the path passes from one to another, the boundary point is
+solved for. Every move of the written program is read back and proven to go nowhere deeper into a surface than 0.0001
+mm; it is cut out of the stock, and what the same tools reach and leave is told with its place. Files that the scene
+names are looked for beside it. Exit status 0: done and proven; 1: with findings, or a move could not be proven; 2: bad
+input; 130: cancelled.
+"""
+
+
+def add_surface_options(parser: OptionParser) -> None:
+    """Add the options of `hitofude surface`."""
+    parser.add_argument("scene", metavar="SCENE.toml", type=Path, help="surfaces, stock, tools and passes")
+    parser.add_argument(
+        "-o", "--output", metavar="OUT.ngc", type=Path, help="the NC program; one a tool where the control changes none"
+    )
+    parser.add_argument(
+        "--plot",
+        metavar="OUT.svg|pdf|hpgl",
+        type=Path,
+        help="the paths drawn in the order of generation, by surface; also .plt and .png",
+    )
+    parser.add_argument(
+        "--view", choices=list(VIEWS), default="isometric", help="from where the plot is seen (default isometric)"
+    )
+    parser.add_argument(
+        "--look",
+        choices=[look.value for look in PlotColouring],
+        default=PlotColouring.COLOURS.value,
+        help="what tells parts of the plot apart: colours of surfaces (default), line types of surfaces, or tools",
+    )
+    parser.add_argument(
+        "--draw",
+        choices=[drawn.value for drawn in PlottedPart],
+        default=PlottedPart.PATHS.value,
+        help="what is plotted: the cutters' paths (default), the compound surface, or both",
+    )
+    parser.add_argument(
+        "--points", metavar="OUT.csv", type=Path, help="the compound surface and its boundary points as a table"
+    )
+    parser.add_argument(
+        "--report", metavar="R.json", type=Path, help="everything that was computed and proven, as JSON"
+    )
+    parser.add_argument(
+        "--loop",
+        metavar="T",
+        type=number("loop"),
+        help="with --report: the program is cut, smoothed within T mm and cut again, all told in the report",
+    )
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+
+
+def surface_files(arguments: argparse.Namespace) -> dict[str, Path]:
+    """Return the files to write by their option, checked before any work is done.
+
+    Raises:
+        InputError: there is none, one cannot be written, or an option lacks the one that it goes with.
+    """
+    outputs = named_files(arguments, "output", "plot", "points", "report")
+    if not outputs:
+        raise InputError(
+            "surface has nothing to write; add -o OUT.ngc, --plot OUT.svg, --points OUT.csv or --report R.json"
+        )
+    if "plot" in outputs and outputs["plot"].suffix.lower() not in FORMATS:
+        raise InputError(f"--plot {outputs['plot']}: a plot is one of {', '.join(FORMATS)}; change the name")
+    if arguments.loop is not None and "report" not in outputs:
+        raise InputError("--loop tells what it finds in the report; add --report R.json")
+    check_outputs(outputs, [arguments.scene])
+    return outputs
+
+
+def plot_scene(arguments: argparse.Namespace) -> PlotScene:
+    """Return how the scene is to be plotted."""
+    return PlotScene(VIEWS[arguments.view], PlotColouring(arguments.look), PlottedPart(arguments.draw))

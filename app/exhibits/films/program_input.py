@@ -1,0 +1,27 @@
+"""An NC program made ready for the film of text B: its stock and its tools as its own head tells them."""
+
+from __future__ import annotations
+
+from ...core.progress import NO_PROGRESS, Progress
+from ...simulation.cutter import cutter_of
+from ...usecases.examine import ExamineOptions, examine
+from ...usecases.setup import SetupRequest, setup_of
+from ...verify.course import course_of
+from .dexels import CutFilmInput
+
+
+def program_input(name: str, data: bytes, facet: float | None = None, progress: Progress = NO_PROGRESS) -> CutFilmInput:
+    """Return what a film of a program cuts.
+
+    Args:
+        name, data: of the program. facet: size of the facets, mm; None: twice the distance of the dexels.
+
+    Raises:
+        HitofudeError: it cannot be read, or its head does not tell stock and tools.
+        Cancelled: the job was asked to stop.
+    """
+    ready = setup_of(
+        (examine(name, data, ExamineOptions(None), progress.part(0.0, 0.8)),), SetupRequest(), progress.part(0.8, 1.0)
+    )
+    cutters = {number: cutter_of(tool) for number, tool in ready.setup.tools.items()}
+    return CutFilmInput(name, course_of(ready.setup.programs[0]).course, cutters, ready.setup.stock, facet)

@@ -1,0 +1,28 @@
+"""The straight moves of an NC program that a film is made of: the longest stretch that may be written anew."""
+
+from __future__ import annotations
+
+from ...core.errors import InputError
+from ...core.progress import NO_PROGRESS, Progress
+from ...fitting.point_curves.effective_method import without_repeats
+from ...gcode.interpreter.text import ProgramBuffer
+from ...gcode.rework.stretches import find_stretches
+from ...model.motion import Floats
+from ...usecases.smooth_source import read_source
+
+MOST_POINTS = 400
+"""A film shows so many points at most: those from the longest stretch's first one on."""
+
+
+def points_of(name: str, data: bytes, progress: Progress = NO_PROGRESS) -> Floats:
+    """Return the points (n, 3), mm, of a program's longest stretch of straight feed moves, `MOST_POINTS` at most.
+
+    Raises:
+        InputError: it cannot be read, or has no four points in a row.
+    """
+    ready = read_source(name, data, None, None, progress.part(0.0, 0.7))
+    found = find_stretches(ready.program, ProgramBuffer(ready.data), progress.part(0.7, 1.0)).stretches
+    longest = max((without_repeats(each.points) for each in found), key=len, default=None)
+    if longest is None or len(longest) < 4:
+        raise InputError(f"{name} has no three straight feed moves one after the other; a film needs some.")
+    return longest[:MOST_POINTS]

@@ -1,0 +1,121 @@
+"""A quiet sheet in the upper right corner of a picture: what its lines and colours mean; it can be folded."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+
+from .icons import IconButton
+from .samples import LineSample, PathLineKind
+from .section import hairline
+from .theme import LIGHT, Theme
+
+_GAP_PX = 8
+
+
+class LegendRow(QToolButton):
+    """One kind of line; a click shows or hides it."""
+
+    def __init__(self, sample: PathLineKind) -> None:
+        super().__init__()
+        self.setCheckable(True)
+        self.setChecked(True)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setFixedHeight(24)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.line, self.label = LineSample(sample), QLabel(sample.value)
+        self.setAccessibleName(f"Show {sample.value.lower()}")
+        self.setToolTip(f"Show or hide: {sample.value.lower()}")
+        row = QHBoxLayout(self)
+        row.setContentsMargins(4, 0, 8, 0)
+        row.setSpacing(10)
+        row.addWidget(self.line)
+        row.addWidget(self.label)
+        row.addStretch(1)
+        for child in (self.line, self.label):
+            child.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.toggled.connect(self._show_state)
+
+    def _show_state(self, on: bool) -> None:
+        self.line.setEnabled(on)
+        self.line.update()
+        self.label.setProperty("role", "" if on else "muted")
+        self.label.style().unpolish(self.label)
+        self.label.style().polish(self.label)
+        font = self.label.font()
+        font.setStrikeOut(not on)
+        self.label.setFont(font)
+
+
+class LegendSheet(QFrame):
+    """A sheet with a title that folds, and a body below it.
+
+    Attributes:
+        title: over it. fold: the button that folds it. body: what is explained.
+    """
+
+    def __init__(self, parent: QWidget, title: QLabel, width: int) -> None:
+        """Make an empty one, `width` px wide."""
+        super().__init__(parent)
+        self._theme = LIGHT
+        self.setFixedWidth(width)
+        self.title, self.body = title, QWidget()
+        self.fold = IconButton("up", "Fold the legend")
+        self.fold.setCheckable(True)
+        self.fold.toggled.connect(self._fold)
+        head = QHBoxLayout()
+        head.addWidget(title)
+        head.addStretch(1)
+        head.addWidget(self.fold)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(12, 10, 12, 10)
+        column.setSpacing(0)
+        column.addLayout(head)
+        column.addWidget(self.body)
+        self._rows = QVBoxLayout(self.body)
+        self._rows.setContentsMargins(0, 4, 0, 0)
+        self._rows.setSpacing(0)
+
+    def add(self, *widgets: QWidget) -> None:
+        """Put widgets below what there is."""
+        for widget in widgets:
+            self._rows.addWidget(widget)
+
+    def add_gap(self, height: int) -> None:
+        """Leave some px free."""
+        self._rows.addSpacing(height)
+
+    def add_line(self) -> None:
+        """Draw a line between what is above and below."""
+        self.add_gap(_GAP_PX)
+        self.add(hairline())
+        self.add_gap(_GAP_PX)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+        self.update()
+
+    def fit_contents(self) -> None:
+        """Be as high as what is shown."""
+        for widget in (self.body, self):
+            layout = widget.layout()
+            if layout is not None:
+                layout.activate()
+        self.adjustSize()
+
+    def _fold(self, folded: bool) -> None:
+        self.body.setVisible(not folded)
+        self.fold.show_icon("down" if folded else "up", "Unfold the legend" if folded else "Fold the legend")
+        self.fit_contents()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Keep clicks beside a row from reaching the picture."""
+        event.accept()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint the sheet: the canvas' own colour, nearly covering."""
+        ground = QColor(self._theme.canvas)
+        ground.setAlphaF(0.92)
+        QPainter(self).fillRect(self.rect(), ground)

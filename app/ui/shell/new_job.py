@@ -1,0 +1,51 @@
+"""The job that a new part begins with. No Qt."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from ...formats.tools.library import load_libraries
+from ...model.job import Job, Stock
+from ...model.part import Part
+from ...model.tool import ToolKind
+from ..panels.changes import for_material
+
+MATERIALS = ("aluminium", "wood", "plastics", "steel")
+"""Those that the libraries of the program know feeds for."""
+
+_LIBRARY = "metric-mills"
+
+
+@dataclass(frozen=True, slots=True)
+class NewPart:
+    """What is asked for.
+
+    Attributes:
+        x, y, z: how large it is, mm, > 0; its stock is `z` thick.
+        material: for speeds and feeds. post: of the machine. outline: its rectangle is drawn.
+    """
+
+    x: float
+    y: float
+    z: float
+    material: str
+    post: str
+    outline: bool = True
+
+    def line(self) -> str:
+        """Return the line of the drawing language that draws it."""
+        return f"rect 0,0 {self.x:.12g},{self.y:.12g}"
+
+
+def new_job(part: NewPart) -> Job:
+    """Return the job: the default one with mills of the library, run as the material asks."""
+    job = Job(Part(), stock=Stock(thickness=part.z), post=part.post)
+    library = load_libraries()[0].get(_LIBRARY)
+    mills = {tool.diameter: tool for tool in library.tools if tool.kind is ToolKind.FLAT} if library else {}
+    tools = tuple(
+        replace(for_material(mills[tool.diameter], part.material), number=tool.number)
+        if tool.diameter in mills
+        else tool
+        for tool in job.tools
+    )
+    return replace(job, tools=tools)

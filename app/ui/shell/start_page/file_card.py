@@ -1,0 +1,87 @@
+"""A file as a picture with its name: one press opens it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QEnterEvent, QImage, QPainter, QPainterPath, QPaintEvent, QPen
+from PySide6.QtWidgets import QAbstractButton, QWidget
+
+from ...framework.catalogue import tr
+from ...framework.theme import LIGHT, Theme, text_font
+
+HEIGHT, WORDS_PX, LEAST_WIDTH = 176, 48, 150
+_RADIUS, _PAD_PX = 6, 12
+
+
+class FileCard(QAbstractButton):
+    """Shows what a file holds.
+
+    Attributes:
+        path: of the file. words: under its name.
+    """
+
+    def __init__(self, path: Path, title: str, words: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.path, self.words = path, words
+        self._theme, self._picture = LIGHT, QImage()
+        self.setText(title)
+        self.setAccessibleName(f"{title}, {words}")
+        self.setToolTip(str(path))
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setMinimumSize(LEAST_WIDTH, HEIGHT)
+        self.setFixedHeight(HEIGHT)
+
+    @property
+    def picture_size(self) -> QSize:
+        """How large its picture is, px of the screen."""
+        ratio = self.devicePixelRatioF()
+        return QSize(round((self.width() - 2) * ratio), round((HEIGHT - WORDS_PX - 2) * ratio))
+
+    def show_picture(self, picture: QImage) -> None:
+        """Show what the file holds."""
+        self._picture = picture
+        self.update()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+        self.update()
+
+    def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """As wide as four of them side by side usually are."""
+        return QSize(232, HEIGHT)
+
+    def enterEvent(self, event: QEnterEvent) -> None:  # noqa: N802 (Qt's name)
+        """Stand out under the mouse."""
+        self.update()
+        super().enterEvent(event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint the picture, a line, the name and what there is to say."""
+        theme, painter = self._theme, QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
+        whole = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
+        outline = QPainterPath()
+        outline.addRoundedRect(whole, _RADIUS, _RADIUS)
+        painter.fillPath(outline, theme.hover if self.underMouse() else theme.raised)
+        top = QRectF(1, 1, self.width() - 2, HEIGHT - WORDS_PX - 2)
+        painter.save()
+        painter.setClipPath(outline)
+        painter.fillRect(top, theme.canvas)
+        if not self._picture.isNull():
+            painter.drawImage(top, self._picture)
+        painter.restore()
+        painter.setPen(QPen(theme.hairline, 1))
+        painter.drawLine(top.bottomLeft(), top.bottomRight())
+        painter.setPen(QPen(theme.accent_text if self.hasFocus() or self.underMouse() else theme.hairline, 1))
+        painter.drawPath(outline)
+        rows = ((self.text(), text_font(semibold=True), theme.ink), (tr(self.words), text_font(12), theme.muted))
+        for row, (text, font, colour) in enumerate(rows):
+            painter.setFont(font)
+            painter.setPen(colour)
+            place = QRectF(_PAD_PX, top.bottom() + 6 + 19 * row, self.width() - 2 * _PAD_PX, 18)
+            elided = painter.fontMetrics().elidedText(text, Qt.TextElideMode.ElideMiddle, int(place.width()))
+            painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, elided)

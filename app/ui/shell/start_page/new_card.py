@@ -1,0 +1,82 @@
+"""What a new part is to be: how big, of which material, on which machine."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QPushButton, QVBoxLayout
+
+from ...framework.fields import ListField, NumberField, NumberSpec
+from ...framework.labels import muted
+from ...framework.section import heading
+from ..new_job import MATERIALS, NewPart
+from .file_card import HEIGHT
+
+_LENGTHS = (("Along X", 80.0), ("Along Y", 50.0), ("Thickness", 10.0))
+
+
+class NewCard(QFrame):
+    """Three lengths, two lists, one button.
+
+    Signals:
+        begun(NewPart): this is to be made.
+
+    Attributes:
+        lengths: along X, Y and Z, mm. material, machine: what of, and what writes the NC text.
+        outline: whether the part's rectangle is drawn.
+    """
+
+    begun = Signal(NewPart)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setObjectName("startCard")
+        self.lengths = [
+            NumberField(NumberSpec(name, low=0.1, high=10_000, tip="Of the part; the stock is as thick as it."))
+            for name, _ in _LENGTHS
+        ]
+        for field, (_, value) in zip(self.lengths, _LENGTHS, strict=True):
+            field.show_value(value)
+        self.material = ListField("Material", [(name, name.capitalize()) for name in MATERIALS])
+        self.machine = ListField("Machine", [])
+        self.outline, self.begin = QCheckBox("Draw its outline"), QPushButton("Begin")
+        self.outline.setChecked(True)
+        self.begin.setProperty("role", "primary")
+        self.begin.clicked.connect(self._begin)
+        for field in self.lengths:
+            field.edit.returnPressed.connect(self._begin)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        left, right = QVBoxLayout(), QVBoxLayout()
+        for column, widgets in ((left, self.lengths), (right, (self.material, self.machine, self.outline))):
+            column.setSpacing(4)
+            for widget in widgets:
+                column.addWidget(widget)
+            column.addStretch(1)
+        both = QHBoxLayout()
+        both.setSpacing(16)
+        both.addLayout(left, 1)
+        both.addLayout(right, 1)
+        foot = QHBoxLayout()
+        foot.addWidget(muted("or just draw: pick a tool, type  80 Tab 50 Enter"), 1)
+        foot.addWidget(self.begin, 0, Qt.AlignmentFlag.AlignRight)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(16, 12, 16, 12)
+        column.setSpacing(8)
+        column.addWidget(heading("New"))
+        column.addLayout(both, 1)
+        column.addLayout(foot)
+        self.setMinimumHeight(HEIGHT)
+
+    def show_machines(self, machines: list[tuple[object, str]], chosen: str) -> None:
+        """Offer machines by the name of their post."""
+        self.machine.set_choices(machines)
+        self.machine.show_value(chosen)
+
+    def _begin(self) -> None:
+        values = [field.value for field in self.lengths]
+        if all(value is not None for value in values):
+            x, y, z = (float(value or 0.0) for value in values)
+            self.begun.emit(
+                NewPart(x, y, z, str(self.material.value), str(self.machine.value), self.outline.isChecked())
+            )

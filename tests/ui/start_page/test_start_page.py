@@ -1,0 +1,137 @@
+"""The page that the window begins with, in the real window."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QSize, Qt
+
+from app.core.progress import NO_PROGRESS
+from app.core.resources import resource
+from app.model.part import Part
+from app.ui.framework.computation import ComputationState
+from app.ui.framework.theme import DARK, LIGHT
+from app.ui.framework.view import View
+from app.ui.shell.new_job import MATERIALS, NewPart, new_job
+from app.ui.shell.start import begin
+from app.ui.shell.start_page.thumbnail import thumbnail
+from app.ui.views.canvas.modes import CanvasTool
+from tests.ui.conftest import WAIT_MS
+
+
+@pytest.fixture
+def started(qtbot, wiring, tmp_path):
+    """A window that begins, with two files that were opened lately, of which one is gone."""
+    path = tmp_path / "lid.draw"
+    path.write_text("rect 0,0 60,40\ncircle 30,20 8\n")
+    for each in (tmp_path / "gone.dxf", path):
+        wiring.workspace.preferences.add_recent(each)
+    begin(wiring, None)
+    qtbot.waitUntil(lambda: wiring.window_.views.starting, timeout=WAIT_MS)
+    return wiring
+
+
+def painted(qtbot, wiring):
+    control = wiring.start_controller
+    qtbot.waitUntil(lambda: not control._left and not control.worker.busy, timeout=60_000)
+
+
+def test_the_last_files_and_four_samples_are_offered_as_pictures(qtbot, started):
+    window, page = started.window_, started.window_.views.start
+    assert [card.text() for card in page.files] == ["lid.draw"] and page.files[0].words == "today"
+    assert [card.text() for card in page.samples] == ["A plate", "A sign", "A mould", "Fig. 2 of 1986"]
+    assert window.status.badge.text() == "Nothing open" and window.file_label.text() == "Start here"
+    assert not window.side.isVisible() and not window.tool_strip.isVisible()
+    painted(qtbot, started)
+    for card in (*page.files, *page.samples):
+        colours = {card._picture.pixel(x, y) for x in range(0, 200, 3) for y in range(0, 120, 3)}
+        assert len(colours) > 2, card.text()
+
+
+def test_a_press_opens_a_file(qtbot, started):
+    page = started.window_.views.start
+    qtbot.mouseClick(page.files[0], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: len(started.document.part.entities) == 5, timeout=WAIT_MS)
+    assert not started.window_.views.starting and started.window_.file_label.text() == "lid.draw"
+
+
+def test_the_plate_comes_with_operations_for_what_is_drawn(qtbot, started):
+    page = started.window_.views.start
+    qtbot.mouseClick(page.samples[0], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: started.window_.notice.text.text().startswith("Proposed: "), timeout=WAIT_MS)
+    words = [operation.WORD for operation in started.document.job.operations]
+    assert words[-1] == "contour" and "pocket" in words
+    assert str(resource("samples", "plate.draw")) not in started.window_.preferences.settings.recent_files
+
+
+def test_figure_2_is_computed_at_once(qtbot, started):
+    qtbot.mouseClick(started.window_.views.start.samples[3], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: started.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
+    assert started.display_controller.view is View.PATHS
+
+
+def test_a_new_part_has_its_size_its_machine_and_its_material(qtbot, started):
+    card = started.window_.views.start.new
+    assert card.lengths[0].edit.hasFocus()
+    for field, typed in zip(card.lengths, ("100", "2in", "6"), strict=True):
+        field.edit.setFocus()
+        field.edit.selectAll()
+        qtbot.keyClicks(field.edit, typed)
+        qtbot.keyClick(field.edit, Qt.Key.Key_Tab)
+    card.material.show_value("wood")
+    card.machine.show_value("grbl")
+    qtbot.mouseClick(card.begin, Qt.MouseButton.LeftButton)
+    job = started.document.job
+    assert (job.post, job.stock.thickness) == ("grbl", 6.0)
+    assert started.display_controller.part_size() == pytest.approx((100.0, 50.8))
+    assert job.tool(1).feeds and job.tool(1).feed_rate != new_job(NewPart(1, 1, 1, "steel", "grbl")).tool(1).feed_rate
+    assert not started.window_.views.starting and started.display_controller.view is View.DRAW
+    started.document.undo()
+    assert not started.document.part.entities, "its outline is a step that can be undone"
+
+
+def test_escape_a_tool_a_view_or_a_typed_line_lead_to_the_drawing(qtbot, started):
+    window, views = started.window_, started.window_.views
+    qtbot.keyClick(views.start, Qt.Key.Key_Escape)
+    assert not views.starting and window.tool_strip.isVisible()
+    started.open_start()
+    window.actions_["tool_line"].trigger()
+    assert not views.starting and window.canvas.tool is CanvasTool.LINE
+    window.canvas.cancel()
+    started.open_start()
+    window.actions_["view_nc"].trigger()
+    assert not views.starting and started.display_controller.view is View.NC
+    started.open_start()
+    started.run("circle 0,0 5")
+    assert not views.starting and len(started.document.part.entities) == 1
+
+
+def test_file_new_asks_what_it_is_to_be(wiring):
+    wiring.window_.actions_["new"].trigger()
+    assert wiring.window_.views.starting and wiring.window_.views.start.new.lengths[0].edit.hasFocus()
+
+
+@pytest.mark.parametrize("material", MATERIALS)
+def test_every_material_has_feeds_for_the_first_tools(material):
+    job = new_job(NewPart(80, 50, 10, material, "linuxcnc"))
+    assert job.part == Part() and [tool.diameter for tool in job.tools] == [6.0, 3.0]
+    assert all(any(row.material == material for row in tool.feeds) for tool in job.tools)
+
+
+@pytest.mark.parametrize("name", ["fig2.dxf", "plate.draw", "torus.toml"])
+def test_a_picture_fills_its_room_by_day_and_by_night(qapp, name):
+    for theme in (LIGHT, DARK):
+        image = thumbnail(resource("samples", name), QSize(200, 120), theme, NO_PROGRESS)
+        inked = [(x, y) for x in range(200) for y in range(120) if image.pixelColor(x, y).rgb() != theme.canvas.rgb()]
+        xs, ys = {x for x, _ in inked}, {y for _, y in inked}
+        assert max(max(xs) - min(xs) - 120, max(ys) - min(ys) - 75) > 0, "it is too small"
+        assert min(xs) > 2 and max(xs) < 197 and min(ys) > 2 and max(ys) < 117
+
+
+def test_a_program_is_drawn_by_its_cuts(qapp, tmp_path):
+    path = Path(tmp_path / "slot.ngc")
+    path.write_text("G21 G90\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX30\nY20\nG0 Z5\nX90\nM30\n")
+    image = thumbnail(path, QSize(200, 120), LIGHT, NO_PROGRESS)
+    inked = [(x, y) for x in range(200) for y in range(120) if image.pixelColor(x, y).rgb() != LIGHT.canvas.rgb()]
+    assert max(x for x, _ in inked) - min(x for x, _ in inked) == pytest.approx(1.5 * 92, abs=4)
