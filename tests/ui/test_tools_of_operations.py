@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QLabel
 
 from app.core.errors import ParameterError
 from app.drafting.document import Document
-from app.model.job import Job
+from app.model.job import Job, Stock
 from app.model.operation import CutParameters
 from app.model.operation_kinds import OPERATION_KINDS
 from app.model.tool import Tool, ToolKind
@@ -44,9 +44,7 @@ NO_CONE = (
     "tip_angle."
 )
 OTHER_TOOL = "T1 {} is a {}; a {} operation needs a {}: choose another tool, or give it another kind."
-NOTHING_ABOVE = (
-    "Nothing of the stock stands above Z 0, so there is nothing to face; say how much does: above in [stock]."
-)
+NO_LEVEL = "T1 {} leaves no level floor; take a flat or a bull-nose mill to face with."
 
 
 def refused(word: str, tool: Tool) -> str:
@@ -62,14 +60,15 @@ def refused(word: str, tool: Tool) -> str:
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: tool.kind.value)
 @pytest.mark.parametrize("word", OPERATION_KINDS)
 def test_it_is_computed_or_refused(qtbot, word, tool, way):
-    job = Job(PART, (tool,), (OPERATION_KINDS[word](CutParameters(1)),))
+    job = Job(PART, (tool,), (OPERATION_KINDS[word](CutParameters(1)),), stock=Stock(above=0.5 * (word == "face")))
     computation = Computation(Document(job), worker := Worker(), lambda made: None)
     if way == "pixels":
         computation.pixels = job.part, drawn_job(job, BitmapSize(100)).part
     computation.start()
     qtbot.waitUntil(lambda: computation.state is not ComputationState.RUNNING, timeout=20_000)
     worker.finish()
-    assert computation.error == refused(word, tool)
+    cannot_face = way == "exact" and word == "face" and not tool.kind.level and not tool.kind.drills
+    assert computation.error == (NO_LEVEL.format(tool.label) if cannot_face else refused(word, tool))
     assert computation.state is (ComputationState.FAILED if computation.error else ComputationState.CURRENT)
 
 
