@@ -51,8 +51,24 @@ class ToolProfile:
     cone: float = 0.0
 
 
+class _KindsAtHand(Keyword):
+    """The kinds that come with the program, as names of their class; no field of a kind, as which they would hold one
+    another.
+    """
+
+    FLAT: ClassVar[ToolKind]
+    BALL: ClassVar[ToolKind]
+    BULL: ClassVar[ToolKind]
+    V: ClassVar[ToolKind]
+    DRILL: ClassVar[ToolKind]
+    TAPER: ClassVar[ToolKind]
+    REAMER: ClassVar[ToolKind]
+    TAP: ClassVar[ToolKind]
+    THREAD_MILL: ClassVar[ToolKind]
+
+
 @dataclass(frozen=True, eq=False)
-class ToolKind(Keyword):
+class ToolKind(_KindsAtHand):
     """Shape of a cutter's end.
 
     Attributes:
@@ -89,16 +105,6 @@ class ToolKind(Keyword):
     usual_angle: float = 0.0
     short_title: str = ""
     aliases: tuple[str, ...] = ()
-
-    FLAT: ClassVar[ToolKind]
-    BALL: ClassVar[ToolKind]
-    BULL: ClassVar[ToolKind]
-    V: ClassVar[ToolKind]
-    DRILL: ClassVar[ToolKind]
-    TAPER: ClassVar[ToolKind]
-    REAMER: ClassVar[ToolKind]
-    TAP: ClassVar[ToolKind]
-    THREAD_MILL: ClassVar[ToolKind]
 
     @classmethod
     def words(cls) -> Mapping[str, ToolKind]:

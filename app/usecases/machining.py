@@ -135,7 +135,7 @@ def _lacking(placed: ParameterPlace, kinds: tuple[type[Operation], ...]) -> str:
     """Return what a job lacks that a parameter has no effect on."""
     needs = placed.parameter.needs
     mills = {kind for kind in OPERATION_KINDS.values() if kind.LEVELS and not kind.HOLES}
-    what = "operation that mills" if set(kinds) == mills else f"{' or '.join(kind.WORD for kind in kinds)} operation"
+    what = "operation that mills" if mills <= set(kinds) else f"{' or '.join(kind.WORD for kind in kinds)} operation"
     added = "; --drill D adds one" if DrillOperation in kinds and all(kind.HOLES for kind in kinds) else ""
     with_ = f" with {needs.with_}{'; ' * bool(needs.option)}{needs.option}" if needs else ""
     return f"no {what}{with_}{added}"

@@ -46,7 +46,7 @@ WRONG: dict[str, Callable[[], object]] = {
     "A loft's sections are 1; give 2 or more": lambda: LoftShape((LINE,)),
     "A loft's sections are 2; give 3 or more": lambda: LoftShape((LINE, LINE), closed=True),
     "A turn goes from 0 to 361 degrees": lambda: RevolvedShape(LINE, turn_deg=(0.0, 361.0)),
-    "file is 'a.doc'; it must be an .stl, .obj or .ply file": lambda: MeshShape("a.doc"),
+    "file is 'a.doc'; it must be an .stl, .obj, .ply or .3mf file": lambda: MeshShape("a.doc"),
     "centre holds a number that is too large": lambda: SphereShape((1e7, 0.0, 0.0), 1.0),
     "A sphere's radius holds a number that is too large": lambda: SphereShape(ZERO, math.inf),
     "A sphere's centre holds a number": lambda: SphereShape((math.nan, 0.0, 0.0), 1.0),

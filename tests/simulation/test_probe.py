@@ -7,6 +7,7 @@ from app.model.motion import Motions
 from app.model.stock_box import StockBox
 from app.simulation.field.workpiece import BoxStock, Grid
 from app.simulation.sweeps.course import Course, TrimOptions
+from app.simulation.sweeps.pieces import helix_chord
 from app.simulation.sweeps.probe import PathProbe
 from app.simulation.sweeps.trim import trim
 from tests.simulation.courses import CUTTERS, arc, joined, polyline
@@ -48,7 +49,9 @@ def test_the_cells_of_the_engine_are_met(name: str) -> None:
     points = np.column_stack([each.ravel() for each in np.meshgrid(grid.xs(), grid.ys())])
     heights, rows = PathProbe.of([course], {1: CUTTERS[name]}).lowest(points)
     heights = np.minimum(heights, 0.0).reshape(cut.heights.shape)
-    assert np.count_nonzero(np.abs(heights - cut.heights) > 2e-4) <= 3
+    slope = CUTTERS[name].slope if np.isfinite(CUTTERS[name].slope) else 0.0
+    off = 2e-4 + (1.0 + slope) * helix_chord(grid.pitch)  # the engine's helices are as fine as its cells
+    assert np.count_nonzero(np.abs(heights - cut.heights) > off) <= 3
     assert np.all((rows >= 0).reshape(cut.heights.shape)[cut.heights < -1e-3])
 
 

@@ -22,6 +22,9 @@ SHAPES = {
     ToolKind.V: {"tip_angle": 1.2, "tip_diameter": 0.4},
     ToolKind.DRILL: {"tip_angle": 2.0},
     ToolKind.TAPER: {"tip_angle": 0.3, "tip_diameter": 1.5},
+    ToolKind.REAMER: {},
+    ToolKind.TAP: {"tip_diameter": 4.2},
+    ToolKind.THREAD_MILL: {},
 }
 
 
@@ -33,7 +36,7 @@ def parts(outline):
     return {stretch.part: stretch.points for stretch in outline.stretches}
 
 
-@pytest.mark.parametrize("kind", tool_kinds())
+@pytest.mark.parametrize("kind", [kind for kind in tool_kinds() if not kind.threads])
 def test_the_end_is_the_cutter_that_the_engine_cuts_with(kind):
     tool = made(kind, flute_length=30.0)
     points, cutter = parts(outline_of(tool))[ToolPart.CUTTING], cutter_of(tool)
@@ -46,6 +49,13 @@ def test_the_end_is_the_cutter_that_the_engine_cuts_with(kind):
     at = np.interp(cutter.heights(between), points[:, 0], points[:, 1])
     inside = between > points[points[:, 0] == 0.0, 1].max()
     assert np.max(np.abs(at - between)[inside], initial=0.0) < 0.02 * tool.radius
+
+
+@pytest.mark.parametrize("kind", [ToolKind.TAP, ToolKind.THREAD_MILL])
+def test_teeth_that_cut_a_thread_stand_out_of_the_core_that_clears(kind):
+    tool = made(kind, flute_length=30.0)
+    points = parts(outline_of(tool))[ToolPart.CUTTING]
+    assert cutter_of(tool).radius == pytest.approx(2.1) and points[:, 1].max() == pytest.approx(3.0)
 
 
 def test_flutes_shank_and_holder_are_where_the_tool_says():

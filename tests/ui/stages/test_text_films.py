@@ -53,7 +53,7 @@ def test_all_steps_are_written(qtbot, wiring, tmp_path):
     wiring.film_controller.save(tmp_path / "nowhere")
     qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
     assert stages.films.film is not None, "what was shown stays"
-    assert "is no folder" in wiring.window_.status.message.text()
+    assert "is no folder" in wiring.window_.notice.text.text()
 
 
 @pytest.mark.exhaustive
