@@ -31,7 +31,7 @@ from app.simulation.cutter import Cutter
 from app.simulation.field.workpiece import BoxStock, Grid
 from app.simulation.sweeps.course import Course, Rapids, TrimOptions
 from app.simulation.sweeps.trim import trim
-from app.usecases.smooth import SmoothedProgram, SmoothOptions, smooth
+from app.usecases.smooth import OutputForm, SmoothedProgram, SmoothOptions, smooth
 from app.verify.course import course_of, picked
 from tests.simulation.courses import joined
 from tests.usecases.test_smooth_oracle import WAYS, program
@@ -82,7 +82,8 @@ JOBS = [
 
 def smoothed(text: bytes, way: str, tolerance: float) -> SmoothedProgram:
     form, post = WAYS[way]
-    return smooth("part.nc", text, SmoothOptions(tolerance, form, post=load_post(post)))
+    insist = form is OutputForm.NURBS  # else arcs stand wherever they take fewer blocks
+    return smooth("part.nc", text, SmoothOptions(tolerance, form, post=load_post(post), insist=insist))
 
 
 def course(text: bytes, way: str) -> Course:
