@@ -184,7 +184,7 @@ def test_bad_input_is_told_in_a_line_and_nothing_is_written(tmp_path: Path, caps
     "embodiment",
     [
         ["--embodiment", "1", "--ends", "ratio:0.1", "--nearness", "0.03"],
-        ["--embodiment", "2", "--before", "2", "--after", "3"],
+        ["--embodiment", "2", "--before", "2", "--after", "3", "--nearness", "0.003"],
     ],
 )
 def test_points_within_facets_are_left_out_or_moved_within_the_tolerance(tmp_path: Path, embodiment: list[str]) -> None:
@@ -203,7 +203,7 @@ def test_points_within_facets_are_left_out_or_moved_within_the_tolerance(tmp_pat
     effective = 61 if inner else 61 + 2 * 60
     told = {"effective": effective, "corrected": inner, "left_out": 721 - effective - inner, "all": 721}
     assert told.items() <= report["points"].items()  # type: ignore[union-attr]
-    nearness = 4e-4 if inner else 0.03
+    nearness = 0.003 if inner else 0.03  # a cubic by six points, least squares, is 1.3 um off this circle
     assert report["points"]["farthest_mm"] <= report["points"]["nearness_mm"] == nearness  # type: ignore[index]
     assert f"effective points: {report['points']['effective']} of 721, {inner} corrected" in text
     after = read_program(text.encode()).motions
