@@ -143,6 +143,10 @@ def test_a_spiral_is_engaged_by_the_limit_all_the_way_and_clears_its_disc() -> N
     assert np.abs(rows[1:, :2] - rows[:-1, 2:4]).max() < 1e-12
 
 
+TIPS = {"acute": LIMIT.least_turn * (1 / math.sin(math.atan2(16, 37) / 2) - 1) / 2 + 1e-4}
+"""mm; half of what stands in the tip: digits allow no smaller circle there, and the report tells what is left."""
+
+
 @pytest.mark.parametrize("name", EACH)
 def test_a_whole_area_is_cleared_within_the_limit(name: str) -> None:
     contours = SHAPES[name]
@@ -154,7 +158,7 @@ def test_a_whole_area_is_cleared_within_the_limit(name: str) -> None:
     assert max((float(each.max()) for each, free in zip(seen, clear, strict=True) if free), default=0.0) == 0.0
     area, cut = area_of(contours), swept(rows, R)
     left = area.buffer(-R, quad_segs=64).buffer(R - 1e-3, quad_segs=64).difference(cut)
-    assert left.buffer(-0.006).is_empty
+    assert left.buffer(-TIPS.get(name, 0.006)).is_empty
     assert cut.difference(area).buffer(-2e-3).is_empty
 
 

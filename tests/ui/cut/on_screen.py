@@ -46,6 +46,7 @@ def metal_share(window, view):
 def look_closer(window, view):
     """Zoom into a real cut until its cells are fine, and out again."""
     shown, zooming = real_shown(), ZoomController(view.model, view.render_scheduler, view)
+    zooming.found.connect(view.show_detail)
     zooming.follow(ZoomTarget(shown.cut))
     view.show_cut(shown.picture)
     view.fit()
