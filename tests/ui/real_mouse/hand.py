@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from PySide6.QtCore import QObject, QPoint, QPointF, Qt, Signal
-from PySide6.QtWidgets import QApplication, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QLineEdit, QToolButton, QWidget
 
 from app.model.curves import Point
 from app.ui.shell.window_controller import WindowController
@@ -94,6 +94,13 @@ class Hand(QObject):
         _xdotool("type", "--delay", "8", text)
         self.press("Return")
 
+    def type_seen_line(self, text: str) -> None:
+        """Type something, and Enter once the field that has the keys shows it: a busy one shows it late."""
+        self.typed += 1
+        _xdotool("type", "--delay", "8", text)
+        self.wait_until(lambda: _shown_in_field() == text, "what was typed")
+        self.press("Return")
+
     def press(self, keys: str) -> None:
         """Press a key, such as F5 or ctrl+e."""
         _xdotool("key", keys)
@@ -118,6 +125,11 @@ class Hand(QObject):
         canvas = self.window.canvas
         at: QPointF = canvas.view.to_screen(place)
         return canvas.mapToGlobal(at.toPoint())
+
+
+def _shown_in_field() -> str:
+    field = QApplication.focusWidget()
+    return field.text() if isinstance(field, QLineEdit) else ""
 
 
 def _xdotool(*words: str) -> None:
