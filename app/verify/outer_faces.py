@@ -10,8 +10,6 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from shapely import (
     Polygon,
     STRtree,
@@ -139,6 +137,9 @@ class _Faces:
 
 def _bodies(triangles: Floats) -> Ints:
     """Return the number of the body of each triangle: those hang together by edges of two triangles."""
+    from scipy.sparse import coo_array  # an eighth of a second, for several bodies alone
+    from scipy.sparse.csgraph import connected_components
+
     edges = MeshEdges.of(triangles)
     order = np.argsort(edges.edge, kind="stable")
     pairs = order[edges.count[edges.edge[order]] == 2].reshape(-1, 2) // 3
