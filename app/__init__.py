@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .api import *  # noqa: F403
+    from .api import *  # noqa: F403 (the names themselves stand in its `__all__`)
 
 __version__ = "0.1.0"
 """Its number."""

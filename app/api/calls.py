@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -100,8 +100,7 @@ def cut(
     paths, request = [Path(program) for program in programs], request or SetupRequest()
     if against is not None:
         part = Path(against)
-        beside = lambda name: read_input(part.parent / name)  # noqa: E731 (files that a scene names)
-        request = replace(request, against=FileBytes(part.name, read_input(part)), beside=beside)
+        request = replace(request, against=FileBytes(part.name, read_input(part)), beside=_reader_beside(part))
     if tools:
         request = replace(request, tools=(ToolSource("the script", dict(tools)), *request.tools))
     shares = [progress.part(0.2 * k / len(paths), 0.2 * (k + 1) / len(paths)) for k in range(len(paths))]
@@ -110,7 +109,7 @@ def cut(
     )
     ready = setup_of(examined, request, progress.part(0.2, 0.25))
     done = cut_programs(ready.setup, options or CutOptions(), progress.part(0.25, 1.0))
-    return CutMetal(done, cut_report(done, ready), paths[0].name)
+    return CutMetal(cut_report(done, ready), done, paths[0].name)
 
 
 def smooth(program: FilePath, options: SmoothOptions | None = None, progress: Progress = NO_PROGRESS) -> SmoothedText:
@@ -140,7 +139,12 @@ def surface(scene: FilePath, progress: Progress = NO_PROGRESS) -> MadeSurface:
     from ..usecases.surface_report import surface_report
 
     path = Path(scene)
-    sources = sources_of(lambda name: read_input(path.parent / name))
+    sources = sources_of(_reader_beside(path))
     computed = compute(read_scene(path.name, read_input(path)), sources, progress.part(0.0, 0.6))
     written = write_scene_nc(computed, progress.part(0.6, 1.0))
-    return MadeSurface(written, surface_report(computed, written))
+    return MadeSurface(surface_report(computed, written), written)
+
+
+def _reader_beside(path: Path) -> Callable[[str], bytes]:
+    """Return what reads the files that one names, which lie beside it."""
+    return lambda name: read_input(path.parent / name)

@@ -134,25 +134,18 @@ class CheckedProgram:
 
 
 @dataclass(frozen=True, eq=False)
-class CutMetal:
-    """What programs leave of their stock, and how near it is to the part.
+class _Reported:
+    """What a report has been made of.
 
     Attributes:
-        result: all that is known of it. told: its report. name: of the first program.
+        told: its report.
     """
 
-    result: CutProgram
-    told: CutReport
-    name: str
-
-    @property
-    def heights(self) -> Heights:
-        """Of what is left at the middles of cells, (rows, columns), mm, program coordinates; rows go along Y."""
-        return self.result.cut.heights
+    told: CutReport | SurfaceReport
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What went wrong on the way and what is wrong with the result, what counts first."""
+        """Everything that is wrong, with its place; of a cut also what went wrong on the way, what counts first."""
         return self.told.findings
 
     @property
@@ -162,8 +155,28 @@ class CutMetal:
 
     @property
     def report(self) -> Report:
-        """Every measured number, by the keys of `cut --report`."""
+        """Every measured number, by the keys of `--report` of the command of the same name."""
         return self.told.data
+
+    def __str__(self) -> str:
+        return self.told.summary()
+
+
+@dataclass(frozen=True, eq=False)
+class CutMetal(_Reported):
+    """What programs leave of their stock, and how near it is to the part.
+
+    Attributes:
+        result: all that is known of it. name: of the first program.
+    """
+
+    result: CutProgram
+    name: str
+
+    @property
+    def heights(self) -> Heights:
+        """Of what is left at the middles of cells, (rows, columns), mm, program coordinates; rows go along Y."""
+        return self.result.cut.heights
 
     def png(self) -> bytes:
         """Return the picture of what is left: gouges red, metal left blue where it was compared with a part."""
@@ -173,9 +186,6 @@ class CutMetal:
 
     def _repr_png_(self) -> bytes:
         return self.png()
-
-    def __str__(self) -> str:
-        return self.told.summary()
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,30 +243,14 @@ class SmoothedText:
 
 
 @dataclass(frozen=True, eq=False)
-class MadeSurface:
+class MadeSurface(_Reported):
     """The program over the surfaces of a scene, proven.
 
     Attributes:
-        result: all that is known of it. told: its report.
+        result: all that is known of it.
     """
 
     result: WrittenScene
-    told: SurfaceReport
-
-    @property
-    def findings(self) -> tuple[Finding, ...]:
-        """What is wrong, with its place."""
-        return self.told.findings
-
-    @property
-    def clean(self) -> bool:
-        """True when no finding counts."""
-        return not any(finding.counts for finding in self.findings)
-
-    @property
-    def report(self) -> Report:
-        """Every measured number, by the keys of `surface --report`."""
-        return self.told.data
 
     def save(self, path: str | os.PathLike[str]) -> tuple[Path, ...]:
         """Write the program, all its files whole or none; return their paths.
@@ -278,6 +272,3 @@ class MadeSurface:
 
     def _repr_svg_(self) -> str:
         return self.svg()
-
-    def __str__(self) -> str:
-        return self.told.summary()
