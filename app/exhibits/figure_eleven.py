@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from enum import Enum
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -293,7 +294,7 @@ def _trials(
     for facet in options.facets:
         engine = DepthBuffer(context, replace(usual, facet=facet))
         try:
-            run = lambda reported, engine=engine: engine.heights(piece, program.course, program.cutters, reported)  # noqa: E731 (one run of this engine)
+            run = partial(engine.heights, piece, program.course, program.cutters)
             seconds, heights = _best(run, options.repeat, NO_PROGRESS)
         finally:
             engine.release()

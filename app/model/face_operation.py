@@ -35,6 +35,7 @@ class FaceOperation(Operation):
 
     WORD = "face"
     LEVELS = False
+    FACES = True
     UNUSED = frozenset(
         {"depth", "stock_to_leave", "finish_depth", "floor_to_leave", "entry", "entry_angle", "curves", "direction"}
     )

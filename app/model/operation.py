@@ -206,6 +206,7 @@ class Operation:
         COARSE: whether its tool is the wide one, that goes over the area before others follow.
         FOLLOWS_WALLS: whether its path runs along the walls, or on the lines, and not over an area.
         CARVES: whether its cutter's cone makes slanted walls that end at the drawn lines, and no floor.
+        FACES: whether it works on all of the stock's top, whatever is drawn.
     """
 
     cut: CutParameters = required_part(CutParameters)
@@ -221,6 +222,7 @@ class Operation:
     COARSE: ClassVar[bool] = False
     FOLLOWS_WALLS: ClassVar[bool] = False
     CARVES: ClassVar[bool] = False
+    FACES: ClassVar[bool] = False
 
     @property
     def wall_side(self) -> Side | None:

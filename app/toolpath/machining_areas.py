@@ -19,7 +19,6 @@ from ..geometry.primitives import Primitives, contour_rows, pack, points_at
 from ..geometry.region import nested, polygon_contour
 from ..model.curve_selectors import Selector
 from ..model.entry import Lead
-from ..model.face_operation import FaceOperation
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.moves import Area
@@ -113,8 +112,8 @@ class MachiningAreas:
         return tuple(self._area(operation) for operation in self.job.operations)
 
     def _area(self, operation: Operation) -> Area:
-        if isinstance(operation, FaceOperation):
-            return Area()  # all of the stock's top, whatever is drawn
+        if operation.FACES:
+            return Area()
         if isinstance(operation, HoleOperation):
             regions = hole_regions(self.job, self.drawn, operation) if operation.cut.enabled else ()
             return Area(regions, whole=operation.CLEARS)

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import shapely
 
-from ..model.face_operation import FaceOperation
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.motion import MotionKind
@@ -54,7 +53,7 @@ class FaceProof:
 
 def face_proofs(program: Program, job: Job, motions: WrittenMotions) -> dict[int, FaceProof]:
     """Return what is proven, by index of the operation, of those that face."""
-    facing = [k for k, each in enumerate(job.operations) if isinstance(each, FaceOperation) and each.cut.enabled]
+    facing = [k for k, each in enumerate(job.operations) if each.FACES and each.cut.enabled]
     if not motions.files or not facing:
         return {}
     box = stock_box(job, program.regions, program.lines)

@@ -51,7 +51,7 @@ class TextFilmController(Controller):
         self._view, self._panel, self._own, self._preferences = view, panel, own, workspace.preferences
         self.worker = Worker(self)
         self.error = ""
-        self._asked: tuple[str, FilmSource | None] | None = None
+        self._asked: TextFilmRequest | None = None
         self._seen = False
         workspace.activity.follow(self.worker)
         self.worker.done.connect(self._on_done)
@@ -109,8 +109,8 @@ class TextFilmController(Controller):
             self._asked, self.error = None, _NO_OWN.get(letter, _NO_OWN[""])
             self._show(None)
             return
-        asked = letter, source
-        if self._asked is not None and _alike(self._asked, asked):
+        asked = TextFilmRequest(letter, source)
+        if self._asked is not None and asked.is_alike(self._asked):
             return
         self._asked, self.error = asked, ""
         self._show(None)
@@ -156,6 +156,22 @@ class TextFilmController(Controller):
 
 
 @dataclass(frozen=True, slots=True)
+class TextFilmRequest:
+    """What film was asked for: of which text, by its letter, and of which file; None = the text's sample."""
+
+    letter: str
+    source: FilmSource | None
+
+    def is_alike(self, other: TextFilmRequest) -> bool:
+        """Tell whether another request comes to the same film: of files, names and bytes count."""
+        return (self.letter, *self._file) == (other.letter, *other._file)
+
+    @property
+    def _file(self) -> tuple[str, bytes]:
+        return ("", b"") if self.source is None else (self.source.name, self.source.data)
+
+
+@dataclass(frozen=True, slots=True)
 class WrittenFilm:
     """What was written: how many steps, and where."""
 
@@ -187,9 +203,3 @@ def _made(letter: str, source: FilmSource | None, progress: Progress) -> TextFil
     if letter == "B" and source is not None:
         cutting = program_input(source.name, source.data, None, progress.part(0.0, 0.1))
     return make_film(text, source, progress=progress.part(0.1, 1.0), cutting=cutting)
-
-
-def _alike(a: tuple[str, FilmSource | None], b: tuple[str, FilmSource | None]) -> bool:
-    if a[0] != b[0] or (a[1] is None) != (b[1] is None):
-        return False
-    return a[1] is None or b[1] is None or (a[1].name, a[1].data) == (b[1].name, b[1].data)
