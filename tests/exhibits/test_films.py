@@ -23,7 +23,7 @@ from app.exhibits.films.effective import EffectiveFilmOptions, effective_film, r
 from app.exhibits.films.making import film_files, make_film
 from app.exhibits.films.measures import distances_to_polyline
 from app.exhibits.films.programs import points_of
-from app.exhibits.films.proven import intervals_in_cylinder, proven_film, surface_witness
+from app.exhibits.films.proven import ChordAxis, intervals_in_cylinder, proven_film, surface_witness
 from app.exhibits.films.step import TEXTS, FilmStep, PublishedText, TextFilm
 from app.fitting.point_curves.effective_points import EffectiveOptions, effective_points
 from app.fitting.point_curves.region_profile import profile_of_formula
@@ -162,7 +162,7 @@ def test_where_a_curve_passes_a_cylinder_is_found_to_the_last_digit() -> None:
         [[0, -0.1, 0], [1, 0.4, 0.1], [2, -0.5, 0], [3, 0.1, 0]], [[3, 0.1, 0], [4, 0.7, 0], [5, -0.6, 0.2], [6, 0, 0]]
     )
     axis = (np.zeros(3), np.array([6.0, 0, 0]))
-    cuts, held = intervals_in_cylinder(curve, axis, 0.05, (0.0, 2.0))
+    cuts, held = intervals_in_cylinder(curve, ChordAxis(*axis), 0.05, (0.0, 2.0))
     off = np.linalg.norm(curve.at(np.array(cuts))[:, 1:], axis=1)
     assert len(cuts) >= 4 and np.allclose(off, 0.05, atol=1e-9)
     u = np.linspace(0, 2, 100_001)
@@ -176,7 +176,7 @@ def test_where_a_curve_passes_a_cylinder_is_found_to_the_last_digit() -> None:
 def test_no_way_by_the_surface_is_shorter_and_no_curve_longer() -> None:
     curve = bezier([[0, 0.0, 0], [1, 0.04, 0.01], [2, 0.04, 0], [3, 0.01, 0]])
     axis, profile = (np.zeros(3), np.array([3.0, 0, 0])), profile_of_formula("0.02 + 0.06*sin(pi*z)")
-    seen = surface_witness(curve, axis, profile, (0.0, 1.0))
+    seen = surface_witness(curve, ChordAxis(*axis), profile, (0.0, 1.0))
     rng = np.random.default_rng(0)
     z, turn = rng.uniform(0, 1, 200_000), rng.uniform(0, 2 * math.pi, 200_000)
     r = 0.02 + 0.06 * np.sin(math.pi * z)

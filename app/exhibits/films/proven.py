@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -231,7 +232,9 @@ class _ProvenSteps:
             return np.zeros(len(self.points) - 1)
         off = []
         for i in range(len(self.points) - 1):
-            _, r = _about(self.final.at(np.linspace(feet[i], feet[i + 1], 65)), self.points[i], self.points[i + 1])
+            _, r = _about(
+                self.final.at(np.linspace(feet[i], feet[i + 1], 65)), ChordAxis(self.points[i], self.points[i + 1])
+            )
             off.append(float(r.max()))
         return np.array(off)
 
@@ -241,13 +244,13 @@ class _ProvenSteps:
     def _crossings(self, seen: SeenRound) -> list[FilmStep]:
         """Return figures 5 and 6: the parameters at which a curve passes a cylinder's surface."""
         chord, radius = seen.judgement.chord, self.profile.radius
-        a, b = self.points[chord], self.points[chord + 1]
+        axis = ChordAxis(self.points[chord], self.points[chord + 1])
         low, high = float(seen.fit.feet[chord]), float(seen.fit.feet[chord + 1])
-        cuts, held = intervals_in_cylinder(seen.curve, (a, b), radius, (low, high))
-        length = float(np.linalg.norm(b - a))
+        cuts, held = intervals_in_cylinder(seen.curve, axis, radius, (low, high))
+        length = float(np.linalg.norm(axis.end - axis.start))
         scale = self._exaggeration(length)
-        z, r = _about(seen.curve.at(np.linspace(low, high, 400)), a, b)
-        at = _about(seen.curve.at(np.array(cuts)), a, b) if cuts else (np.zeros(0), np.zeros(0))
+        z, r = _about(seen.curve.at(np.linspace(low, high, 400)), axis)
+        at = _about(seen.curve.at(np.array(cuts)), axis) if cuts else (np.zeros(0), np.zeros(0))
         pictures = []
         for only_outside in (False, True):
             sketch = StepDrawing()
@@ -293,7 +296,7 @@ class _ProvenSteps:
             return None
         a, b = self.points[chord], self.points[chord + 1]
         found = [
-            surface_witness(self.final, (a, b), self.profile, (low, high))
+            surface_witness(self.final, ChordAxis(a, b), self.profile, (low, high))
             for low, high in _by_pieces(float(feet[chord]), float(feet[chord + 1]))
         ]
         return min(found, key=lambda each: each.way - each.length, default=None)
@@ -303,7 +306,7 @@ class _ProvenSteps:
         a, b = self.points[chord], self.points[chord + 1]
         length = float(np.linalg.norm(b - a))
         scale = self._exaggeration(length)
-        frame = _frame(a, b, seen.x)
+        plane = _SectionPlane.through(ChordAxis(a, b), seen.x)
         span = float(np.linalg.norm(seen.q - seen.p))
         half, width = seen.length / 2, math.sqrt(max(seen.length**2 - span**2, 0.0)) / 2
         angle = np.linspace(0, 2 * math.pi, 200)
@@ -318,17 +321,17 @@ class _ProvenSteps:
             both = np.concatenate([r, -r[::-1]]) * scale
             sketch.area(np.column_stack([np.concatenate([z, z[::-1]]) * length, both]), AREA)
             sketch.line(np.array([[0, 0], [length, 0]]), FAINT, LINE)
-            sketch.line(_in_frame(rim, a, frame) * [1, scale], AMBER, LINE)
+            sketch.line(plane.seen(rim) * [1, scale], AMBER, LINE)
             feet = self._feet()
             if feet is not None:
                 places = self.final.at(np.linspace(feet[chord], feet[chord + 1], 300))
-                sketch.line(_in_frame(places, a, frame) * [1, scale], GREEN, BOLD)
-            ends = _in_frame(np.vstack([seen.p, seen.q]), a, frame) * [1, scale]
+                sketch.line(plane.seen(places) * [1, scale], GREEN, BOLD)
+            ends = plane.seen(np.vstack([seen.p, seen.q])) * [1, scale]
             sketch.dots(ends, BLUE, 1.0)
             for name, place in zip("PQ", ends, strict=True):
                 sketch.word(name, place, BLUE)
             if with_way:
-                x = _in_frame(seen.x[None], a, frame) * [1, scale]
+                x = plane.seen(seen.x[None]) * [1, scale]
                 sketch.line(np.vstack([ends[:1], x, ends[1:]]), RED, LINE, DASHED)
                 sketch.dots(x, RED, 1.1)
                 sketch.word("X", x[0], RED)
@@ -390,13 +393,31 @@ class _ProvenSteps:
         )
 
 
+class ChordAxis(NamedTuple):
+    """The axis of a chord's region: both ends of the chord, mm; it goes on beyond them."""
+
+    start: Floats
+    end: Floats
+
+    @property
+    def direction(self) -> Floats:
+        """The unit vector along it."""
+        way: Floats = self.end - self.start
+        return way / max(float(np.linalg.norm(way)), 1e-300)
+
+    def parts(self, places: Floats) -> tuple[Floats, Floats]:
+        """Return how far along the axis places (n, 3) are, (n,) mm, and the vectors (n, 3) from it to them, mm."""
+        z = (places - self.start) @ self.direction
+        return z, places - self.start - z[:, None] * self.direction
+
+
 def intervals_in_cylinder(
-    curve: SpaceCurve, axis: tuple[Floats, Floats], radius: float, between: tuple[float, float]
+    curve: SpaceCurve, axis: ChordAxis, radius: float, between: tuple[float, float]
 ) -> tuple[list[float], list[tuple[float, float]]]:
     """Return where a stretch of a curve passes the surface of a cylinder, and the intervals in which it is inside.
 
     Args:
-        axis: both ends of the cylinder's axis, which goes on beyond them, mm. radius: mm.
+        axis: of the cylinder. radius: mm.
         between: first and last parameter of the stretch.
 
     References:
@@ -405,7 +426,7 @@ def intervals_in_cylinder(
     cuts: list[float] = []
     for low, high in _by_pieces(*between):
         piece = min(int(low), len(curve) - 1)
-        _, off = _frame_parts(curve.control[piece], axis)
+        _, off = axis.parts(curve.control[piece])
         square = np.zeros(2 * len(off) - 1)
         for k in range(3):
             square += np.convolve(_power(off[:, k]), _power(off[:, k]))
@@ -413,7 +434,7 @@ def intervals_in_cylinder(
         cuts += [u for root in _real_roots(square) if low < (u := root + piece) < high]
     edges = [between[0], *cuts, between[1]]
     middles = curve.at(np.array([(a + b) / 2 for a, b in pairwise(edges)]))
-    _, r = _about(middles, *axis)
+    _, r = _about(middles, axis)
     held = [(edges[k], edges[k + 1]) for k in np.flatnonzero(r <= radius).tolist()]
     return cuts, held
 
@@ -436,14 +457,6 @@ def _real_roots(polynomial: Floats) -> list[float]:
     return sorted(real.tolist())
 
 
-def _frame_parts(control: Floats, axis: tuple[Floats, Floats]) -> tuple[Floats, Floats]:
-    """Return control points along an axis and off it."""
-    way = axis[1] - axis[0]
-    way = way / max(float(np.linalg.norm(way)), 1e-300)
-    z = (control - axis[0]) @ way
-    return z, control - axis[0] - z[:, None] * way
-
-
 def _power(bernstein: Floats) -> Floats:
     """Return the coefficients of a polynomial in Bernstein form by powers of its parameter."""
     n = len(bernstein) - 1
@@ -456,7 +469,7 @@ def _power(bernstein: Floats) -> Floats:
 
 
 def surface_witness(
-    curve: SpaceCurve, axis: tuple[Floats, Floats], profile: RegionProfile, between: tuple[float, float]
+    curve: SpaceCurve, axis: ChordAxis, profile: RegionProfile, between: tuple[float, float]
 ) -> SurfaceWitness:
     """Return the shortest way by the surface of a chord's region from one end of an interval to the other.
 
@@ -477,11 +490,10 @@ def surface_witness(
     return SurfaceWitness(control[0], control[-1], x, length, way)
 
 
-def _shortest_way(p: Floats, q: Floats, axis: tuple[Floats, Floats], profile: RegionProfile) -> tuple[float, Floats]:
+def _shortest_way(p: Floats, q: Floats, axis: ChordAxis, profile: RegionProfile) -> tuple[float, Floats]:
     """Return the length of the shortest way P, X, Q over all X of the outline turned about the axis, and X."""
-    a, b = axis
-    length = float(np.linalg.norm(b - a))
-    way = (b - a) / max(length, 1e-300)
+    a, way = axis.start, axis.direction
+    length = float(np.linalg.norm(axis.end - a))
     across = np.cross(way, [1.0, 0, 0] if abs(way[0]) < 0.9 else [0, 1.0, 0])
     across /= np.linalg.norm(across)
     other = np.cross(way, across)
@@ -509,23 +521,28 @@ def _by_pieces(low: float, high: float) -> list[tuple[float, float]]:
     return [(a, b) for a, b in pairwise(edges) if b > a]
 
 
-def _about(places: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+def _about(places: Floats, axis: ChordAxis) -> tuple[Floats, Floats]:
     """Return how far along an axis and off it places are, mm."""
-    way = (b - a) / max(float(np.linalg.norm(b - a)), 1e-300)
-    z = (places - a) @ way
-    return z, np.linalg.norm(places - a - z[:, None] * way, axis=1)
+    z, off = axis.parts(places)
+    return z, np.linalg.norm(off, axis=1)
 
 
-def _frame(a: Floats, b: Floats, x: Floats) -> tuple[Floats, Floats]:
-    """Return the unit vectors along an axis and from it to a place."""
-    way = (b - a) / max(float(np.linalg.norm(b - a)), 1e-300)
-    out = x - a - ((x - a) @ way) * way
-    return way, out / max(float(np.linalg.norm(out)), 1e-300)
+class _SectionPlane(NamedTuple):
+    """A plane through an axis, in which a region is drawn: where it begins, and unit vectors along and square to it."""
 
+    origin: Floats
+    along: Floats
+    across: Floats
 
-def _in_frame(places: Floats, a: Floats, frame: tuple[Floats, Floats]) -> Floats:
-    """Return places (n, 3) as seen along the axis and square to it, (n, 2) mm."""
-    return np.column_stack([(places - a) @ frame[0], (places - a) @ frame[1]])
+    @staticmethod
+    def through(axis: ChordAxis, x: Floats) -> _SectionPlane:
+        """Return the plane through an axis and a place."""
+        out = axis.parts(x[None])[1][0]
+        return _SectionPlane(axis.start, axis.direction, out / max(float(np.linalg.norm(out)), 1e-300))
+
+    def seen(self, places: Floats) -> Floats:
+        """Return places (n, 3) as seen along the axis and square to it, (n, 2) mm."""
+        return np.column_stack([(places - self.origin) @ self.along, (places - self.origin) @ self.across])
 
 
 def _unmasked(z: Floats, r: Floats) -> list[Floats]:
