@@ -65,7 +65,7 @@ class StagesView(QWidget):
         self._projector: Projector | None = None
         self._frame = BitmapFrame()
         self._preview: PixelPaint | None = None
-        self.texts, self.films, self._stack = ChoiceField("Published text", TEXTS), TextFilmView(), QStackedWidget()
+        self.texts, self.films, self._stack = ChoiceField("Text", TEXTS, 60), TextFilmView(), QStackedWidget()
         self._head = QWidget()
         self.texts.show_value("A")
         self._lay_out()

@@ -92,7 +92,8 @@ def paint_pixels(painter: QPainter, view: ViewTransform, area: QRectF, pixels: P
     if window.empty:
         return
     size = pixels.frame.pitch * view.scale
-    group = 1 if pixels.ranks is None else max(math.floor(1 / size), 1)
+    # as large as a screen pixel at the least: of smaller ones rows would be passed over, and lines with them
+    group = 1 if pixels.ranks is None else max(math.ceil(1 / size - 1e-9), 1)
     window = _whole_groups(window, group)
     part = np.ascontiguousarray(pixels.plane[window.row0 : window.row1, window.col0 : window.col1])
     if group > 1 and pixels.ranks is not None:
