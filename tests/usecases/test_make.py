@@ -48,6 +48,7 @@ DRAWINGS = {
     "complex.dxf": MakeOptions(pocket_diameter=1, contour_diameter=0.5),
 }
 
+
 def drawing(name: str) -> Path:
     """A drawing that travels with the project, or lies in the shared collection."""
     for folder in FOLDERS:
