@@ -8,7 +8,7 @@ from typing import Any
 
 
 @dataclass(frozen=True, slots=True)
-class TextColumns:
+class LetterColumns:
     """Columns beside one another, all of one width.
 
     Attributes:
@@ -24,12 +24,12 @@ class TextColumns:
     reversed: bool = False
 
     @staticmethod
-    def of(columns: Any) -> TextColumns:
+    def of(columns: Any) -> LetterColumns:
         """Return what the drawing says; columns without a height are one that has no end."""
         manual = bool(columns.heights) and not columns.auto_height
         heights = columns.heights if manual else [columns.defined_height] * max(int(columns.count), 1)
         heights = tuple(abs(float(height)) for height in heights)
-        return TextColumns(
+        return LetterColumns(
             heights if all(heights) else (),
             columns.has_dynamic_auto_height,
             abs(float(columns.width)),
@@ -55,4 +55,4 @@ class TextColumns:
         return starts[::-1] if self.reversed else starts
 
 
-ONE_COLUMN = TextColumns()
+ONE_COLUMN = LetterColumns()

@@ -10,12 +10,12 @@ from typing import Any
 from ...geometry.affine import Affine
 from ...model.curves import Curve
 from .codes import TextBar, legible, numbered_signs
-from .columns import ONE_COLUMN, TextColumns
+from .columns import ONE_COLUMN, LetterColumns
 from .curves import NoLengthError
 from .fonts import FontName, Fonts, style_font
+from .letter_boxes import LetterBox, LetterLine
 from .letters import LeftOutError, LetterStyle, TextCurves, lettered, run_of
 from .text import MOST_LETTERS
-from .text_boxes import TextBox, TextLine
 from .vertical import PlacedBox, is_vertical, stacked
 
 _APART = 5 / 3
@@ -56,7 +56,7 @@ def mtext_lettering(entity: Any, fonts: Fonts) -> TextCurves:
     """
     dxf, style = entity.dxf, fonts.style(entity.dxf.style)
     at = (float(dxf.insert.x), float(dxf.insert.y))
-    columns = TextColumns.of(entity.columns) if entity.has_columns and not _linked(entity) else ONE_COLUMN
+    columns = LetterColumns.of(entity.columns) if entity.has_columns and not _linked(entity) else ONE_COLUMN
     flow = dxf.get("flow_direction", 1)
     down = flow == _DOWNWARD or (flow == _AS_STYLED and is_vertical(style))
     if down and columns is not ONE_COLUMN:
@@ -102,12 +102,12 @@ class _TextPage:
         look: LetterStyle,
         attachment: int,
         width: float = 0.0,
-        columns: TextColumns = ONE_COLUMN,
+        columns: LetterColumns = ONE_COLUMN,
     ) -> None:
-        self.lines: list[TextLine] = []
+        self.lines: list[LetterLine] = []
         self._fonts, self._look, self._width, self._columns = fonts, look, width, columns
         self._across, self._down = (attachment - 1) % 3, (attachment - 1) // 3
-        self._words: list[TextBox] = []  # that nothing may part, for no blank stands between them
+        self._words: list[LetterBox] = []  # that nothing may part, for no blank stands between them
         self._blank = 0.0  # before them
         self._fresh = True  # the next line is the first of its paragraph
         self._opens = False  # and of its column
@@ -124,7 +124,7 @@ class _TextPage:
             context = token.ctx
             look = self._seen(context, styled)
             if token.type == TokenType.WORD:
-                self._words.append(TextBox.of(run_of(legible(token.data), look, self._fonts), _lift(context)))
+                self._words.append(LetterBox.of(run_of(legible(token.data), look, self._fonts), _lift(context)))
             elif token.type == TokenType.STACK:
                 self._words.append(self._fraction(token.data, look))
             elif token.type in (TokenType.NEW_PARAGRAPH, TokenType.NEW_COLUMN):
@@ -159,7 +159,7 @@ class _TextPage:
             frozenset(bar for bar, requested in flags if requested),
         )
 
-    def _fraction(self, data: tuple[str, str, str], look: LetterStyle) -> TextBox:
+    def _fraction(self, data: tuple[str, str, str], look: LetterStyle) -> LetterBox:
         """Return a fraction: one row over the other, about the middle of the capitals beside it, or both beside a
         stroke.
         """
@@ -173,20 +173,22 @@ class _TextPage:
                 (slash, over.advance, 0.0),
                 (under, over.advance + slash.advance, 0.0),
             )
-            return TextBox(rows, sum(run.advance for run, _, _ in rows), over.advance + slash.advance + under.ink, look)
+            return LetterBox(
+                rows, sum(run.advance for run, _, _ in rows), over.advance + slash.advance + under.ink, look
+            )
         ink, gap = max(over.ink, under.ink), look.height * _BETWEEN / 2
         middle = look.height / 2
         rows2 = (
             (over, (ink - over.ink) / 2, middle + gap),
             (under, (ink - under.ink) / 2, middle - gap - small.height),
         )
-        return TextBox(rows2, max(over.advance, under.advance), ink, look, bar=sort == "/")
+        return LetterBox(rows2, max(over.advance, under.advance), ink, look, bar=sort == "/")
 
     def _space(self, kind: Any, look: LetterStyle, context: Any) -> None:
         from ezdxf.tools.text import TokenType
 
         if kind == TokenType.NBSP:
-            self._words.append(TextBox.of(run_of(" ", look, self._fonts)))
+            self._words.append(LetterBox.of(run_of(" ", look, self._fonts)))
             return
         self._put(context)
         if kind == TokenType.SPACE:
@@ -222,10 +224,10 @@ class _TextPage:
             at += box.advance
         self._words, self._blank = [], 0.0
 
-    def _open(self, context: Any) -> TextLine:
+    def _open(self, context: Any) -> LetterLine:
         return self._line(context) if self._fresh else self.lines[-1]
 
-    def _line(self, context: Any, follows: bool = False) -> TextLine:
+    def _line(self, context: Any, follows: bool = False) -> LetterLine:
         """Return a new line: the first of a paragraph, unless it `follows` one that is full or the paragraph has one
         already.
         """
@@ -235,7 +237,7 @@ class _TextPage:
         begin = requested.left * unit + (0.0 if follows else requested.indent * unit)
         end = self._width - requested.right * unit if self._width > 0 else 0.0
         align = {"DEFAULT": "lcr"[self._across], "CENTER": "c", "RIGHT": "r"}.get(requested.align.name, "l")
-        self.lines.append(TextLine(context.cap_height or unit, begin, end, align, opens=self._opens))
+        self.lines.append(LetterLine(context.cap_height or unit, begin, end, align, opens=self._opens))
         self._fresh = self._opens = False
         return self.lines[-1]
 
@@ -254,9 +256,9 @@ class _TextPage:
                 line.x -= (max(starts) + wide) * self._across / 2
                 line.y -= low * self._down / 2
 
-    def _set_columns(self, spacing: float, exact: bool) -> list[list[TextLine]]:
+    def _set_columns(self, spacing: float, exact: bool) -> list[list[LetterLine]]:
         """Return the lines of each column, their baselines apart, from its top."""
-        columns: list[list[TextLine]] = []
+        columns: list[list[LetterLine]] = []
         y = 0.0
         for line in self.lines:
             y -= spacing * _APART * (self._look.height if exact else line.height)
@@ -283,7 +285,7 @@ class _DownPage(_TextPage):
     _cells: list[PlacedBox]
 
     def _space(self, kind: Any, look: LetterStyle, context: Any) -> None:
-        self._words.append(TextBox.of(run_of(" ", look, self._fonts)))
+        self._words.append(LetterBox.of(run_of(" ", look, self._fonts)))
 
     def set_lines(self, spacing: float, exact: bool) -> None:
         """Give every letter its place: lines apart, each from the top, all of it about the insertion point."""

@@ -13,8 +13,8 @@ from ...model.curves import Point
 from .codes import stretches
 from .curves import NoLengthError, plane_of
 from .fonts import Fonts, style_font
+from .letter_boxes import LetterBox
 from .letters import LeftOutError, LetterRun, LetterStyle, TextCurves, lettered, run_of
-from .text_boxes import TextBox
 from .vertical import is_vertical, stacked
 
 MOST_LETTERS = 10_000
@@ -45,7 +45,7 @@ def text_lettering(entity: Any, fonts: Fonts) -> TextCurves:
     if is_vertical(style):
         if place.length:
             raise LeftOutError(f"{kind} (vertical, to fill a length)")
-        cells = stacked([TextBox.of(run) for run in runs], fonts)
+        cells = stacked([LetterBox.of(run) for run in runs], fonts)
         drawn = [pair for cell in cells for pair in cell.box.curves(cell.x, cell.y)]
         frame = _frame_down(place, min((cell.y for cell in cells), default=0.0), flags)
     else:

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from .fonts import Fonts
+from .letter_boxes import LetterBox
 from .letters import run_of
-from .text_boxes import TextBox
 
 _APART = 1.5
 _VERTICAL = 4
@@ -27,12 +27,12 @@ def is_vertical(style: Any) -> bool:
 class PlacedBox:
     """A box and where it begins, on its baseline, drawing units."""
 
-    box: TextBox
+    box: LetterBox
     x: float
     y: float
 
 
-def stacked(boxes: Sequence[TextBox], fonts: Fonts, x: float = 0.0) -> list[PlacedBox]:
+def stacked(boxes: Sequence[LetterBox], fonts: Fonts, x: float = 0.0) -> list[PlacedBox]:
     """Return the letters of a line that runs down from the height 0, each with its middle at `x`."""
     y, placed = 0.0, list[PlacedBox]()
     for box in boxes:
@@ -42,10 +42,10 @@ def stacked(boxes: Sequence[TextBox], fonts: Fonts, x: float = 0.0) -> list[Plac
     return placed
 
 
-def _cells(box: TextBox, fonts: Fonts) -> Iterator[TextBox]:
+def _cells(box: LetterBox, fonts: Fonts) -> Iterator[LetterBox]:
     """Yield the letters of words one by one; a fraction stays whole."""
     if len(box.rows) > 1:
         yield box
         return
     for run, _, _ in box.rows:
-        yield from (TextBox.of(run_of(letter, run.look, fonts)) for letter in run.words)
+        yield from (LetterBox.of(run_of(letter, run.look, fonts)) for letter in run.words)

@@ -10,7 +10,7 @@ from .letters import LetterRun, LetterStyle, bar_curves
 
 
 @dataclass(frozen=True)
-class TextBox:
+class LetterBox:
     """Something that stands in a line: words, or a fraction of two rows.
 
     Attributes:
@@ -28,9 +28,9 @@ class TextBox:
     bar: bool = False
 
     @staticmethod
-    def of(run: LetterRun, lift: float = 0.0) -> TextBox:
+    def of(run: LetterRun, lift: float = 0.0) -> LetterBox:
         """Return the box of words alone."""
-        return TextBox(((run, 0.0, 0.0),), run.advance, run.ink, run.look, lift)
+        return LetterBox(((run, 0.0, 0.0),), run.advance, run.ink, run.look, lift)
 
     def curves(self, x: float, y: float) -> Iterator[tuple[Curve, bool]]:
         """Yield its curves, begun at (x, y) on the baseline, and whether each is a stroke."""
@@ -42,7 +42,7 @@ class TextBox:
 
 
 @dataclass
-class TextLine:
+class LetterLine:
     """A line of boxes.
 
     Attributes:
@@ -56,7 +56,7 @@ class TextLine:
     begin: float = 0.0
     end: float = 0.0
     align: str = "l"
-    boxes: list[tuple[TextBox, float]] = field(default_factory=list)
+    boxes: list[tuple[LetterBox, float]] = field(default_factory=list)
     x: float = 0.0
     y: float = 0.0
     opens: bool = False
