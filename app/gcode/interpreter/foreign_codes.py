@@ -10,6 +10,7 @@ from .block import Block
 from .block_fault import BlockFault
 from .codes import ROTARY, ModalGroup
 from .control import Control
+from .dialect import Dialect
 from .expression import whole
 from .flow import Flow
 from .macro import subroutine
@@ -33,6 +34,9 @@ _CYCLES = {
     "G43.4": "a tool that tilts",
     "G43.5": "a tool that tilts",
 }
+_UNITS_OF_MACH3 = {"G70": "G20", "G71": "G21"}
+"""Its older names of the units."""
+
 _ARGUMENTS: dict[str, int] = {
     letter: number for number, letter in enumerate("abcijkdef.h.m...qrstuvwxyz", 1) if letter != "."
 }
@@ -44,7 +48,8 @@ _BLOCK_TEXT = re.compile(
     rb"^[ \t]*(?:/[ \t]*)?(?:[:o][ \t]*[0-9]|[a-z#][ \t]*[-+.]?[0-9])", re.IGNORECASE | re.MULTILINE
 )
 _WHOLE_LENGTH = re.compile(rb"^[^(;\n]*[xyzijr][ \t]*[-+]?[0-9]*[1-9][0-9]*(?![0-9.])", re.IGNORECASE | re.MULTILINE)
-_UNITS = re.compile(rb"g[ \t]*2[01](?![0-9.])", re.IGNORECASE)
+_UNITS = re.compile(rb"g[ \t]*[27][01](?![0-9.])", re.IGNORECASE)
+"""G70 and G71 too: what they are on other controls than Mach3 is refused there."""
 
 
 def is_leader(text: bytes) -> bool:
@@ -84,7 +89,10 @@ def adapt(control: Control, block: Block) -> None:
         _drop(block, "pqr")
         control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
     for code in list(block.unknown):
-        if code in _CYCLES:
+        if control.options.dialect is Dialect.MACH3 and code in _UNITS_OF_MACH3:
+            block.unknown.remove(code)
+            _set_units(block, _UNITS_OF_MACH3[code])
+        elif code in _CYCLES:
             raise BlockFault(f"{code} is {_CYCLES[code]}, which is not followed; the reader stops here.", letter="g")
         if code == "G154" or (code.startswith("G") and 110 <= float(code[1:]) <= 129):
             block.unknown.remove(code)
@@ -96,6 +104,16 @@ def adapt(control: Control, block: Block) -> None:
             block.unknown.remove(code)
             _drop(block, "pq")
             control.warn(f"{code} ({_PASSED[code]}) is passed over.", "g")
+
+
+def _set_units(block: Block, code: str) -> None:
+    """Take a unit by another name.
+
+    Raises:
+        Fault: the block has both units.
+    """
+    if block.codes.setdefault(ModalGroup.UNITS, code) != code:
+        raise BlockFault("the block says both inch and mm; keep one of G20, G21, G70 and G71.", letter="g")
 
 
 def _drop(block: Block, letters: str) -> None:

@@ -129,3 +129,20 @@ def test_linuxcnc_wants_a_feed_behind_every_feed_mode() -> None:
 def test_a_program_without_an_end_is_told() -> None:
     assert any("no end" in text for text in warnings("G0 X1\nG0 X2\n"))
     assert not warnings("%\nG0 X1\n%\n") + warnings("G0 X1\nM30\n") + warnings("G0 X1\n", Dialect.GRBL)
+
+
+VECTRIC = "( for Mach2/3 from Vectric )\nN120G00{}G17G90G40G49G80\n{}G91.1\nG00X1.000Y2.000\nM30\n%\n"
+
+
+@pytest.mark.parametrize(("unit", "older", "x"), [("G21", "G71", 1.0), ("G20", "G70", 25.4), ("", "G70", 25.4)])
+def test_older_names_of_the_units_on_mach3(unit: str, older: str, x: float) -> None:
+    text = VECTRIC.format(unit, older)
+    assert guess_dialect(text.encode()) is Dialect.MACH3
+    assert ends(read(text, Dialect.MACH3))[-1] == pytest.approx((x, 2 * x, 0.0))
+    assert not any("units" in warning for warning in warnings(text, Dialect.MACH3))
+
+
+def test_older_names_of_the_units_are_refused_beside_others_and_elsewhere() -> None:
+    assert "both inch and mm" in told("G21 G70\n", Dialect.MACH3)
+    assert "say --dialect" in told("G71 G91.1\n")
+    assert "an arc of holes" in told("G71\n", Dialect.HAAS)
