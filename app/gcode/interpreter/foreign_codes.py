@@ -34,7 +34,7 @@ _CYCLES = {
     "G43.4": "a tool that tilts",
     "G43.5": "a tool that tilts",
 }
-_UNITS_OF_MACH3 = {"G70": "G20", "G71": "G21"}
+UNITS_OF_MACH3 = {"G70": "G20", "G71": "G21"}
 """Its older names of the units."""
 
 _ARGUMENTS: dict[str, int] = {
@@ -89,9 +89,9 @@ def adapt(control: Control, block: Block) -> None:
         _drop(block, "pqr")
         control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
     for code in list(block.unknown):
-        if control.options.dialect is Dialect.MACH3 and code in _UNITS_OF_MACH3:
+        if control.options.dialect is Dialect.MACH3 and code in UNITS_OF_MACH3:
             block.unknown.remove(code)
-            _set_units(block, _UNITS_OF_MACH3[code])
+            _set_units(block, UNITS_OF_MACH3[code])
         elif code in _CYCLES:
             raise BlockFault(f"{code} is {_CYCLES[code]}, which is not followed; the reader stops here.", letter="g")
         if code == "G154" or (code.startswith("G") and 110 <= float(code[1:]) <= 129):

@@ -12,6 +12,7 @@ from ...model.motion import Plane
 from ..interpreter.block import ALWAYS, POLAR
 from ..interpreter.codes import ROTARY, TAKES, ModalGroup
 from ..interpreter.dialect import DIALECT_RULES, Dialect
+from ..interpreter.foreign_codes import UNITS_OF_MACH3
 from ..interpreter.program import ProgramProblem
 from ..interpreter.steps import BlockStep
 from ..interpreter.text import column_of
@@ -120,7 +121,7 @@ def _missing(code: str, step: BlockStep, source: TranslationSource) -> str:
         return _untapped(code, step, source)
     if code in _BY_HAND:
         return _BY_HAND[code].format(code, post.title)
-    if code in WRITTEN_OUT or code in SPLINES:
+    if code in WRITTEN_OUT or code in SPLINES or (source.dialect is Dialect.MACH3 and code in UNITS_OF_MACH3):
         return ""
     if code in rules.missing and code not in _SAID_OTHERWISE and code not in WRITTEN_AS_MOTIONS:
         return f"{post.title} has no {code}"
