@@ -538,3 +538,16 @@ def test_older_names_of_units_are_written_as_the_others_have_them() -> None:
 
 def test_what_dos_puts_behind_a_text_is_nothing() -> None:
     assert len(into("haas", "G21 G90\nG0 X1.\nM30\n\x1a").program.motions) == 1
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "haas"])
+def test_repeats_by_k_and_dwells_by_u_go_across(control: str) -> None:
+    text = "G21 G90 G0 X0. Y0. Z10.\nG4 U1.5\nG91 G99 G81 X5. Z-8. R-7. K3 F100.\nG80 G90\nG0 Z20.\nM30\n"
+    after = into(control, text, "fanuc").program
+    lowest = after.motions.end[after.motions.end[:, 2] == -5.0]
+    assert lowest[:, 0].tolist() == [5, 10, 15]
+    assert [event.value for event in after.events if event.kind is EventKind.DWELL] == [1.5]
+
+
+def test_commands_of_the_control_itself_are_refused_as_such() -> None:
+    assert "a command of the control itself ($)" in told("linuxcnc", "$H\nG21 G90 G0 X1\nM2\n", "grbl")

@@ -16,10 +16,23 @@ from .flow import Flow
 from .macro import subroutine
 from .parameters import Key
 
+REMEDY = "write out the moves that it makes: the reader stops here."
+"""What to do about a code that is known and not followed."""
+
 _MODES = {"G5", "G5.1"}
 """High-speed machining (G5 P10000, G5.1 Q1): how exactly the control follows the path, not which."""
 
-_PASSED = {"G8": "look-ahead", "G103": "look-ahead", "G107": "a cylinder", "G108": "look-ahead"}
+ENDS_NOTHING = frozenset({"G50.1", "G67"})
+"""Ends of mirroring and of calls, which are never in force in a program that can be read."""
+
+_PASSED = {
+    "G8": "look-ahead",
+    "G22": "a zone of the machine",
+    "G23": "a zone of the machine",
+    "G103": "look-ahead",
+    "G107": "a cylinder",
+    "G108": "look-ahead",
+}
 _RIGID = "M29"
 """The spindle of the next tapping cycle follows the axis: how it turns, not where the tool goes."""
 
@@ -30,6 +43,13 @@ _CYCLES = {
     "G70": "a circle of holes",
     "G71": "an arc of holes",
     "G72": "a line of holes",
+    "G31": "a move until a probe touches",
+    "G36": "a tool that is measured",
+    "G37": "a tool that is measured",
+    "G51.1": "mirroring",
+    "G66": "a program that is called behind each move",
+    "G76": "a bore that the tool leaves beside its wall",
+    "G77": "a bore from behind",
     "G150": "a pocket of the control's own",
     "G43.4": "a tool that tilts",
     "G43.5": "a tool that tilts",
@@ -93,11 +113,14 @@ def adapt(control: Control, block: Block) -> None:
             block.unknown.remove(code)
             _set_units(block, UNITS_OF_MACH3[code])
         elif code in _CYCLES:
-            raise BlockFault(f"{code} is {_CYCLES[code]}, which is not followed; the reader stops here.", letter="g")
+            raise BlockFault(f"{code} is {_CYCLES[code]}, which is not followed; {REMEDY}", letter="g")
         if code == "G154" or (code.startswith("G") and 110 <= float(code[1:]) <= 129):
             block.unknown.remove(code)
             block.codes[ModalGroup.OFFSET] = "G54.1"
             block.values.setdefault("p", float(code[1:]) - 109)
+        elif code in ENDS_NOTHING:
+            block.unknown.remove(code)
+            _drop(block, "xyz" if code == "G50.1" else "")
         elif code == _RIGID:
             block.unknown.remove(code)
         elif code in _PASSED:

@@ -139,7 +139,7 @@ class InterpreterRun:
 
     def _miss_end(self) -> None:
         """Tell that the text has no end, if the control wants one."""
-        if self._options.dialect is Dialect.LINUXCNC and self._control.row:
+        if self._options.dialect is Dialect.LINUXCNC and self._text.line_count:
             self._control.line = self._text.line_count
             self._control.warn("the program has no end; LinuxCNC wants M2, M30 or % behind it.")
 

@@ -284,6 +284,8 @@ def _check_rest(source: TranslationSource, line: int, ends: bool) -> None:
         or (NUMBER.match(text) and not ends and DIALECT_RULES[source.dialect].fanuc_flow)
     ):
         return
+    if text.startswith("$"):
+        raise source.refusal(line, f"a command of the control itself ($) has no counterpart on {title}")
     raise source.refusal(line, f"what stands behind the end is not read, so it cannot be written for {title}")
 
 

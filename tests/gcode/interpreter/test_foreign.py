@@ -7,6 +7,7 @@ from app.gcode.interpreter.dialect_guess import guess_dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from tests.gcode.interpreter.programs import ends, read, told, warnings
+from tests.gcode.interpreter.rs274_motions import rs274
 
 OTHERS = [Dialect.FANUC, Dialect.HAAS, Dialect.MACH3]
 
@@ -146,3 +147,19 @@ def test_older_names_of_the_units_are_refused_beside_others_and_elsewhere() -> N
     assert "both inch and mm" in told("G21 G70\n", Dialect.MACH3)
     assert "say --dialect" in told("G71 G91.1\n")
     assert "an arc of holes" in told("G71\n", Dialect.HAAS)
+
+
+@pytest.mark.parametrize("line", ["G67", "G50.1 X0. Y0.", "G17 G40 G49 G50 G67 G69 G80 G90"])
+def test_ends_of_what_is_never_in_force_are_nothing(line: str) -> None:
+    text = f"G21\n{line}\nG0 X1.\nM30\n"
+    assert ends(read(text, Dialect.FANUC)) == [(1, 0, 0)] and not warnings(text, Dialect.FANUC)
+
+
+@pytest.mark.parametrize("code", ["G31 Z-5. F50.", "G51.1 X0.", "G76 X1. Z-5. R2. Q0.5 F100.", "G66 P9100", "G68 R90."])
+def test_what_is_not_followed_is_told_with_what_to_do(code: str) -> None:
+    assert "is not followed; write out the moves that it makes" in told(f"G21\nG0 X1.\n{code}\n", Dialect.FANUC)
+
+
+@pytest.mark.parametrize("text", ["(only a comment)\n", "G21\nG90\n"])
+def test_a_program_without_moves_has_no_end_either(text: str) -> None:
+    assert rs274(text.encode())[1] and any("has no end" in warning for warning in warnings(text))
