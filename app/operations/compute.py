@@ -28,8 +28,8 @@ from ..toolpath.operation_context import OperationContext
 from ..toolpath.selected import selected, selection_findings
 from ..toolpath.witness import region_findings
 from . import builtin  # noqa: F401 (registers the kinds)
+from .preparing import carry_out
 from .reckoning import job_effort
-from .registry import method_of
 
 
 def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | None = None) -> Program:
@@ -54,9 +54,7 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     context.findings.extend(under_clamps(job, parts, context.regions))
     operations = in_order(job)
     context.findings.extend(unfaced(job, operations))
-    for k, index in enumerate(operations):
-        begins, ends = (0.05 + 0.95 * at / len(operations) for at in (k, k + 1))
-        method_of(job.operations[index]).paths(context, index, progress.part(begins, ends))
+    carry_out(context, operations, progress.part(0.05, 1.0))
     if job.order is Order.PATENT_1986:
         context.findings.extend(slotting(job))
     areas = context.areas.areas()

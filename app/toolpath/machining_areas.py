@@ -4,6 +4,7 @@ the clamps.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -65,18 +66,21 @@ class MachiningArea:
     lines: tuple[Contour, ...] = ()
     outlines: tuple[Contour, ...] = ()
     _frames: dict[float, OffsetLevel] = field(default_factory=dict, repr=False)
+    _making: threading.Lock = field(default_factory=threading.Lock, repr=False)
 
     def frame(self, distance: float, progress: Progress = NO_PROGRESS) -> OffsetLevel:
         """Return the outermost frame of a cutter, its centre at a distance from the walls, mm, see `offset_levels`.
 
-        What is left is looked for along the frame that contours follow later: it is made once.
+        What is left is looked for along the frame that contours follow later, or are prepared along meanwhile: it is
+        made once.
 
         Raises:
             Cancelled: by progress.
         """
-        if distance not in self._frames:
-            (self._frames[distance],) = offset_levels(self.primitives, [distance], progress, frame=True)
-        return self._frames[distance]
+        with self._making:
+            if distance not in self._frames:
+                (self._frames[distance],) = offset_levels(self.primitives, [distance], progress, frame=True)
+            return self._frames[distance]
 
     def follows_bare(self, rows: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return for each row (n, 8) of a ring whether what it follows at its middle is bare."""

@@ -58,9 +58,31 @@ class OperationContext:
     dog_bones: list[DogBone] = field(default_factory=list)
     at: tuple[float, float] = (0.0, 0.0)
 
+    def apart(self) -> OperationContext:
+        """Return a context of the same job that collects for itself, for an operation that is prepared beside
+        others.
+        """
+        return OperationContext(self.job, self.regions, self.areas, observer=self.observer)
+
+    def take(self, prepared: OperationContext) -> None:
+        """Put what was collected apart behind what there is."""
+        self.findings += prepared.findings
+        self.tabs += prepared.tabs
+        self.dog_bones += prepared.dog_bones
+        self.polyline_rings += prepared.polyline_rings
+        self.on_bitmap = prepared.on_bitmap or self.on_bitmap
+
     def note(self, levels: Sequence[OffsetLevel]) -> None:
         """Count rings that are polylines."""
         self.polyline_rings += sum(ring.polyline for level in levels for ring in level.rings)
+
+
+@dataclass(frozen=True, eq=False)
+class PreparedStrokes:
+    """What an operation cuts: the area that it keeps within, and the strokes, not yet in order."""
+
+    area: MachiningArea
+    strokes: Sequence[Stroke]
 
 
 def emit(
