@@ -159,6 +159,7 @@ def test_every_scene_is_written_as_it_is_read(name: str) -> None:
     assert read_scene("again.toml", scene_text(scene).encode()) == scene
 
 
+@pytest.mark.exhaustive
 def test_what_is_cut_deeper_later_is_no_part_of_the_surface() -> None:
     """Roughing passes of the same ball, half a millimetre higher, come first; their points are left out, no other."""
     rows = made.rows(wide=12.0, deep=8.0, pitch=1.0)
