@@ -37,6 +37,9 @@ SUMMARIES = {
     "smooth": CommandSummary(
         "smooth PROGRAM.ngc -o OUT", "any NC program's chords into lines, arcs or splines, proven"
     ),
+    "better": CommandSummary(
+        "better PROGRAM.ngc -o OUT", "passes over a surface made anew, smooth; cut again, compared"
+    ),
     "surface": CommandSummary("surface SCENE.toml -o OUT", "tool paths over compound surfaces, each move proven"),
     "stages": CommandSummary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
     "figure11": CommandSummary("figure11", "how long software and depth buffer take for the cuts of 1999"),

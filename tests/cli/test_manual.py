@@ -68,7 +68,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_the_manual_shows_commands() -> None:
     shown = {call[0] for page in PAGES for call in commands(page)}
-    assert {"make", "tools", "check", "cut", "smooth", "surface", "stages", "figure11"} <= shown
+    assert {"make", "tools", "check", "cut", "smooth", "better", "surface", "stages", "figure11"} <= shown
 
 
 @pytest.mark.exhaustive

@@ -19,6 +19,7 @@ from ..framework.view import View, views
 from ..framework.workspace import Workspace
 from ..panels.changes import Subject, SubjectKind
 from ..views.canvas.modes import CanvasTool
+from ..views.curves.better_controller import BetterController
 from ..views.curves.controller import SmoothingController
 from ..views.cut.controller import CutController
 from ..views.cut.image_controller import ImageController
@@ -133,6 +134,7 @@ class WindowController(QObject):
         self.film_controller = TextFilmController(views.stages, window.film_panel, own.of, workspace)
         self.import_controller = ImportController(views.stages, window.import_panel, workspace)
         self.smoothing_controller = SmoothingController(views.curves, window.curves_panel, self.nc, workspace)
+        self.better_controller = BetterController(views.curves, window.curves_panel, self.nc, workspace)
         self.scenes = SceneController(views.surfaces, window.scene_side, window.scene, workspace)
         self.scene_export = SceneExportController(views.surfaces, lambda: self.scenes.work.proven, workspace)
         self.plot_controller = PlotController(views.plot, window.plot_panel, workspace)
@@ -201,6 +203,7 @@ class WindowController(QObject):
         self._connect_controller(self.image_controller, View.CUT)
         self._connect_controller(self.recorder, View.CUT)
         self._connect_controller(self.smoothing_controller, View.CURVES)
+        self._connect_controller(self.better_controller, View.CURVES)
         self._connect_controller(self.scenes, View.SURFACES)
         self._connect_controller(self.scene_export, View.SURFACES)
         self._connect_controller(self.nc, View.NC)
