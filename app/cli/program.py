@@ -38,6 +38,7 @@ SUMMARIES = {
         "smooth PROGRAM.ngc -o OUT", "any NC program's chords into lines, arcs or splines, proven"
     ),
     "surface": CommandSummary("surface SCENE.toml -o OUT", "tool paths over compound surfaces, each move proven"),
+    "batch": CommandSummary("batch FOLDER -o OUT", "many parts made, checked or smoothed, and a table of them"),
     "stages": CommandSummary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
     "figure11": CommandSummary("figure11", "how long software and depth buffer take for the cuts of 1999"),
 }
