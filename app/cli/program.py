@@ -41,6 +41,7 @@ SUMMARIES = {
         "better PROGRAM.ngc -o OUT", "passes over a surface made anew, smooth; cut again, compared"
     ),
     "surface": CommandSummary("surface SCENE.toml -o OUT", "tool paths over compound surfaces, each move proven"),
+    "batch": CommandSummary("batch FOLDER -o OUT", "many parts made, checked or smoothed, and a table of them"),
     "stages": CommandSummary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
     "figure11": CommandSummary("figure11", "how long software and depth buffer take for the cuts of 1999"),
 }
