@@ -171,6 +171,15 @@ def _tool_options(group: argparse._ArgumentGroup) -> None:
         type=number("spindle speed", unit="rpm"),
         help="spindle speed, rpm (default 12000, contour 18000)",
     )
+    group.add_argument(
+        "--material", metavar="NAME", help="what the stock is made of, such as aluminium (hitofude feeds --help)"
+    )
+    group.add_argument(
+        "--feeds",
+        choices=["tools", "proposed"],
+        help="proposed: speed and feeds for the material, tools, engagement and machine; --speed, --feed and --plunge "
+        "go before them (default: as the job says, else those of the tools)",
+    )
     side = group.add_mutually_exclusive_group()
     side.add_argument(
         "--climb", action="store_const", dest="direction", const=Direction.CLIMB, help="metal right of travel (default)"
@@ -249,6 +258,8 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         machining=machining(arguments, bitmap is not None),
         reading=reading(arguments),
         propose=ProposalOptions(thickness=arguments.thickness) if arguments.propose else None,
+        material=arguments.material,
+        propose_feeds=arguments.feeds == "proposed",
     )
 
 
@@ -258,7 +269,8 @@ def read_make_options(arguments: argparse.Namespace) -> MakeOptions:
     Raises:
         HitofudeError: an option cannot be used, or a file cannot be read.
     """
-    return _with_tools(_with_job(make_options(arguments), arguments.job), arguments.tools)
+    options = _with_tools(_with_job(make_options(arguments), arguments.job), arguments.tools)
+    return replace(options, propose_feeds=False) if arguments.feeds == "tools" else options
 
 
 def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
@@ -268,7 +280,12 @@ def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
     from ..formats.job.toml import read_job
 
     file = read_job(path.name, read_input(path))
-    return replace(options, job=file.job, units=options.units or file.units)
+    return replace(
+        options,
+        job=file.job,
+        units=options.units or file.units,
+        propose_feeds=options.propose_feeds or file.proposes_feeds,
+    )
 
 
 def _with_tools(options: MakeOptions, path: Path | None) -> MakeOptions:
