@@ -203,7 +203,7 @@ def with_line(message: str, text: str) -> str:
     return f"{text.count(chr(10)) + 1}: {message.removesuffix(' (at end of document)')}"
 
 
-_BESIDE = {"drawing": ("units",), "stock": ("feeds",)}
+_BEFORE, _BEHIND = {"drawing": ("units",)}, {"stock": ("feeds",)}
 """Keys that stand beside the job's parameters in its tables: what is asked for when a job is made of the file."""
 
 
@@ -266,7 +266,7 @@ class _JobReader:
         for key, placed in declared.items():
             known = WORDS.get(placed.key)
             table.take(key, word(known.words, known.what) if known else reader_of(placed), placed.key)
-        table.done(", ".join((*_BESIDE.get(path, ()), *declared)))
+        table.done(", ".join((*_BEFORE.get(path, ()), *declared, *_BEHIND.get(path, ()))))
         return table
 
     def _check_drawing(self, table: JobTable) -> None:

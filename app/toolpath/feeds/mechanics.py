@@ -90,7 +90,7 @@ def milling_power(chip: Chip, tool: Tool, material: StockMaterial) -> float:
         section = chip.depth * engaged_width(tool.diameter, chip.angle)
         thickness = mean_chip(chip.feed_per_tooth, chip.angle)
     removed = section * feed_rate(chip.rpm, tool.flutes, chip.feed_per_tooth)  # mm3/min
-    return removed * material.cutting_force * thickness**-material.force_exponent / 60e3
+    return removed * material.cutting_force * math.pow(thickness, -material.force_exponent) / 60e3
 
 
 def side_force(chip: Chip, tool: Tool, material: StockMaterial) -> float:
@@ -99,7 +99,7 @@ def side_force(chip: Chip, tool: Tool, material: StockMaterial) -> float:
     """
     edges = min(tool.flutes, math.floor(tool.flutes * chip.angle / (2 * math.pi)) + 1)
     thickest = chip.feed_per_tooth / chip_thinning(chip.angle)
-    along = edges * material.cutting_force * chip.depth * thickest ** (1 - material.force_exponent)
+    along = edges * material.cutting_force * chip.depth * math.pow(thickest, 1 - material.force_exponent)
     return along * math.hypot(1.0, RADIAL_SHARE)
 
 

@@ -168,7 +168,7 @@ class _Reckoning:
         """Return surface speed and chip load: the tool's own, else those of the material's table."""
         tool, material = self._tool, self._material
         own = next((each for each in tool.feeds if each.material.casefold() == material.word.casefold()), None)
-        if own is not None:
+        if own is not None and own != self._of_table():
             self._say(
                 "surface_speed", f"Surface speed {own.surface_speed:g} m/min: the tool's own row for {material.word}."
             )
@@ -177,25 +177,37 @@ class _Reckoning:
                 f"Chip load {own.feed_per_tooth:g} mm a tooth: the tool's own row for {material.word}.",
             )
             return own
-        base, slowed = material.surface_speed(tool.edges), _SLOWED.get(tool.kind.value, _AS_MILLS)
-        speed = base * slowed.speed
+        row, slowed = self._of_table(), _SLOWED.get(tool.kind.value, _AS_MILLS)
         taken = "" if tool.tool_material is not ToolMaterial.UNKNOWN else ", as the tool is taken to be"
         share = f", {slowed.speed:g} of it for a {tool.kind.value}" if slowed.speed != 1 else ""
         self._say(
             "surface_speed",
-            f"Surface speed {speed:.4g} m/min: {material.word} with {_EDGES[tool.edges]}{taken}, {base:g}{share}"
-            f"{_of(material.speed_source)}.",
+            f"Surface speed {row.surface_speed:.4g} m/min: {material.word} with {_EDGES[tool.edges]}{taken}, "
+            f"{material.surface_speed(tool.edges):g}{share}{_of(material.speed_source)}.",
         )
-        width = tool.tip_diameter if tool.kind is ToolKind.TAPER and tool.tip_diameter else tool.diameter
-        load = max(material.chip_share * slowed.chip * width, LEAST_CHIP)
         kind = f" times {slowed.chip:g} for a {tool.kind.value}" if slowed.chip != 1 else ""
         self._say(
             "feed_per_tooth",
-            f"Chip load {load:.4g} mm a tooth: {100 * material.chip_share:g} % of {width:g} mm in {material.word}{kind}"
-            f"{_of(material.chip_source)}.",
+            f"Chip load {row.feed_per_tooth:.4g} mm a tooth: {100 * material.chip_share:g} % of {self._width:g} mm in "
+            f"{material.word}{kind}{_of(material.chip_source)}.",
         )
-        plunge = 1.0 if tool.kind.drills else material.plunge_share
-        return FeedRow(material.word, speed, load, plunge)
+        return row
+
+    @property
+    def _width(self) -> float:
+        """The diameter that the chip load is a part of, mm: of a tapered mill, that of its tip."""
+        tool = self._tool
+        return tool.tip_diameter if tool.kind is ToolKind.TAPER and tool.tip_diameter else tool.diameter
+
+    def _of_table(self) -> FeedRow:
+        """Return surface speed and chip load as the material's figures have them for a tool of this kind and size."""
+        tool, material, slowed = self._tool, self._material, _SLOWED.get(self._tool.kind.value, _AS_MILLS)
+        return FeedRow(
+            material.word,
+            material.surface_speed(tool.edges) * slowed.speed,
+            max(material.chip_share * slowed.chip * self._width, LEAST_CHIP),
+            1.0 if tool.kind.drills else material.plunge_share,
+        )
 
     def _speed(self, row: FeedRow) -> float:
         """Return the spindle's speed within its range, in tens of rpm."""
@@ -293,7 +305,7 @@ class _Reckoning:
                 "power", f"Power {needs:.3g} W{cut}{force}: within {100 * POWER_SHARE:g} % of the spindle's {has:g} W."
             )
             return load
-        kept = load * (most / needs) ** (1 / (1 - self._material.force_exponent))
+        kept = load * math.pow(most / needs, 1 / (1 - self._material.force_exponent))
         self._say(
             "power",
             f"Power would be {needs:.3g} W{cut}, more than {100 * POWER_SHARE:g} % of the spindle's {has:g} W: chip "
@@ -321,7 +333,7 @@ class _Reckoning:
                 "deflection", f"The tip gives way by at most {bent:.3f} mm, {whole}; {MOST_DEFLECTION:g} is allowed."
             )
             return load
-        kept = load * (MOST_DEFLECTION / bent) ** (1 / (1 - self._material.force_exponent))
+        kept = load * math.pow(MOST_DEFLECTION / bent, 1 / (1 - self._material.force_exponent))
         self._say(
             "deflection",
             f"The tip would give way by up to {bent:.3f} mm, {whole}, and {MOST_DEFLECTION:g} is allowed: chip load "
