@@ -8,9 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..core.errors import InputError
-from ..core.input_file import read_input
 from ..drafting.expressions.numbers import angle
-from ..formats.tools.files import read_tools
+from ..formats.tools.at_path import tools_at
 from ..formats.tools.library import ToolLibrary
 from ..formats.tools.materials import stock_material, stock_materials
 from ..model.operation import LEAST_LENGTH
@@ -19,7 +18,7 @@ from ..toolpath.feeds.proposal import CutEngagement
 from ..usecases.feeds import FeedsOptions, engagement_asked
 from .command import OptionParser
 from .cut_options import tool_given
-from .values import MACHINE_HELP, machine_named, number, typed
+from .values import MACHINE_HELP, TOOLS_HELP, machine_named, number, typed
 
 EPILOG = """\
 Prints speed and feeds of each tool, and below them a line for each number: where it comes from, and which limit of
@@ -38,7 +37,12 @@ def add_feeds_options(parser: OptionParser) -> None:
     which.add_argument(
         "--tool", metavar="SHAPE", type=typed(_tool), help="a tool, such as flat:6 or ball:3 (kind:diameter)"
     )
-    which.add_argument("--tools", metavar="FILE", type=Path, help="all tools of a file")
+    which.add_argument(
+        "--tools",
+        metavar="FILE",
+        type=Path,
+        help=f"all tools of a file: {TOOLS_HELP}",
+    )
     parser.add_argument("--flutes", metavar="N", type=typed(_flutes), help="of --tool (default 2)")
     parser.add_argument("--edges", choices=["hss", "carbide"], help="what the edges of --tool are made of")
     parser.add_argument("--stick-out", metavar="MM", type=number("stick-out"), help="of --tool, from the tip up")
@@ -98,7 +102,7 @@ def asked_tools(arguments: argparse.Namespace) -> ToolLibrary:
         InputError: a file cannot be read, or there is no tool in it.
     """
     if arguments.tools is not None:
-        return read_tools(arguments.tools.name, read_input(arguments.tools)).library
+        return tools_at(arguments.tools).library
     tool: Tool = arguments.tool
     made = replace(
         tool,

@@ -18,7 +18,7 @@ from ..usecases.proposal.propose import ProposalOptions
 from .command import OptionParser
 from .files import check_outputs, named_files
 from .reading_options import add_reading_options, reading
-from .values import MACHINE_HELP, join_tolerance, machine_named, number, typed
+from .values import MACHINE_HELP, TOOLS_HELP, join_tolerance, machine_named, number, typed
 
 EPILOG = """\
 D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. With one tool given it does both jobs;
@@ -111,8 +111,8 @@ def _proposal_options(group: argparse._ArgumentGroup) -> None:
         "--tools",
         metavar="FILE",
         type=Path,
-        help="tools to choose from, .toml, .csv or .tbl (default: those of the job, else the mills and drills that "
-        "come with the program)",
+        help=f"tools to choose from: {TOOLS_HELP} (default: those of the job, else the mills and drills that come with "
+        "the program)",
     )
     group.add_argument(
         "--thickness",
@@ -292,10 +292,10 @@ def _with_tools(options: MakeOptions, path: Path | None) -> MakeOptions:
     """Return the options with the tools that a proposal chooses from: of a library, else of the job file."""
     if options.propose is None or (path is None and options.job is None):
         return options
-    from ..formats.tools.files import read_tools
+    from ..formats.tools.at_path import tools_at
 
     own = options.job.tools if options.job is not None else ()
-    tools = own if path is None else read_tools(path.name, read_input(path)).library.tools
+    tools = own if path is None else tools_at(path).library.tools
     return replace(options, propose=replace(options.propose, tools=tuple(tools)))
 
 
