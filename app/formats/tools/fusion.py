@@ -98,7 +98,7 @@ def _entry(entry: Any, at: int) -> ForeignTool | Unreadable:
     number = whole_in(_table(entry, "post-process"), "number")
     label = label_of(entry.get("description"), number)
     try:
-        return _Reader(entry).tool(label, number)
+        return _FusionEntry(entry).tool(label, number)
     except NotUnderstoodError as error:
         return Unreadable(label, str(error))
 
@@ -115,7 +115,7 @@ class _Preset(NamedTuple):
     rates: Rates
 
 
-class _Reader:
+class _FusionEntry:
     """Reads one entry."""
 
     def __init__(self, entry: Json) -> None:

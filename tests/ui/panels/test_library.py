@@ -271,11 +271,11 @@ def test_every_kind_has_its_fields_and_can_be_cut_with(document, panel, kind):
     cutter_of(tool)
 
 
-def test_tools_of_another_program_come_in_by_the_same_door(tmp_path, exchange, workspace, panel):
+def test_tools_of_another_program_come_in_by_the_same_door(tmp_path, exchange, workspace):
     entries = [fusion_tool(number=3), fusion_tool("dovetail mill", 4)]
     (tmp_path / "shop.tools").write_bytes(fusion_archive(entries))
     assert all(suffix in IN for suffix in ("*.tools", "*.json", "*.fctb", "*.fctl", "*.vtdb", "*.tbl"))
     exchange.take(tmp_path / "shop.tools")
     assert "1 tool of shop.tools in the library" in workspace.notice.text.text()
     assert "dovetail mill 4 is left out" in workspace.notice.text.text()
-    assert any(tool.name == "flat end mill 3" and tool.stick_out == 25.0 for tool in panel.library.shown)
+    assert any(tool.name == "flat end mill 3" and tool.stick_out == 25.0 for tool in exchange._panel.library.shown)
