@@ -215,7 +215,12 @@ def _program_options(group: argparse._ArgumentGroup) -> None:
         "repeat",
     )
     group.add_argument("--job", metavar="J.toml", type=Path, help="tools, operations, stock and origin, as for make")
-    group.add_argument("--tools", metavar="FILE", type=Path, help="tools: LinuxCNC's .tbl, or a library .toml or .csv")
+    group.add_argument(
+        "--tools",
+        metavar="FILE",
+        type=Path,
+        help="tools: LinuxCNC's .tbl, a library .toml or .csv, or one of another program",
+    )
     group.add_argument("--tool-units", choices=["mm", "in"], default="mm", help="of the lengths in a .tbl (default mm)")
     group.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
     group.add_argument(

@@ -18,7 +18,7 @@ from ..usecases.proposal.propose import ProposalOptions
 from .command import OptionParser
 from .files import check_outputs, named_files
 from .reading_options import add_reading_options, reading
-from .values import MACHINE_HELP, join_tolerance, machine_named, number, typed
+from .values import MACHINE_HELP, TOOLS_HELP, join_tolerance, machine_named, number, typed
 
 EPILOG = """\
 D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. With one tool given it does both jobs;
@@ -111,8 +111,8 @@ def _proposal_options(group: argparse._ArgumentGroup) -> None:
         "--tools",
         metavar="FILE",
         type=Path,
-        help="tools to choose from, .toml, .csv or .tbl (default: those of the job, else the mills and drills that "
-        "come with the program)",
+        help=f"tools to choose from: {TOOLS_HELP} (default: those of the job, else the mills and drills that come with "
+        "the program)",
     )
     group.add_argument(
         "--thickness",
@@ -170,6 +170,15 @@ def _tool_options(group: argparse._ArgumentGroup) -> None:
         metavar="S",
         type=number("spindle speed", unit="rpm"),
         help="spindle speed, rpm (default 12000, contour 18000)",
+    )
+    group.add_argument(
+        "--material", metavar="NAME", help="what the stock is made of, such as aluminium (hitofude feeds --help)"
+    )
+    group.add_argument(
+        "--feeds",
+        choices=["tools", "proposed"],
+        help="proposed: speed and feeds for the material, tools, engagement and machine; --speed, --feed and --plunge "
+        "go before them (default: as the job says, else those of the tools)",
     )
     side = group.add_mutually_exclusive_group()
     side.add_argument(
@@ -249,6 +258,8 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         machining=machining(arguments, bitmap is not None),
         reading=reading(arguments),
         propose=ProposalOptions(thickness=arguments.thickness) if arguments.propose else None,
+        material=arguments.material,
+        propose_feeds=arguments.feeds == "proposed",
     )
 
 
@@ -258,7 +269,8 @@ def read_make_options(arguments: argparse.Namespace) -> MakeOptions:
     Raises:
         HitofudeError: an option cannot be used, or a file cannot be read.
     """
-    return _with_tools(_with_job(make_options(arguments), arguments.job), arguments.tools)
+    options = _with_tools(_with_job(make_options(arguments), arguments.job), arguments.tools)
+    return replace(options, propose_feeds=False) if arguments.feeds == "tools" else options
 
 
 def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
@@ -268,17 +280,22 @@ def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
     from ..formats.job.toml import read_job
 
     file = read_job(path.name, read_input(path))
-    return replace(options, job=file.job, units=options.units or file.units)
+    return replace(
+        options,
+        job=file.job,
+        units=options.units or file.units,
+        propose_feeds=options.propose_feeds or file.proposes_feeds,
+    )
 
 
 def _with_tools(options: MakeOptions, path: Path | None) -> MakeOptions:
     """Return the options with the tools that a proposal chooses from: of a library, else of the job file."""
     if options.propose is None or (path is None and options.job is None):
         return options
-    from ..formats.tools.files import read_tools
+    from ..formats.tools.at_path import tools_at
 
     own = options.job.tools if options.job is not None else ()
-    tools = own if path is None else read_tools(path.name, read_input(path)).library.tools
+    tools = own if path is None else tools_at(path).library.tools
     return replace(options, propose=replace(options.propose, tools=tuple(tools)))
 
 

@@ -41,6 +41,7 @@ class Stock:
         thickness: below Z 0, mm, > 0.
         above: what more of it stands above Z 0 at first, mm, >= 0.
         under: thickness of the waste that it lies on, mm, >= 0: so far below it may tools cut, as points of drills do.
+        material: what it is made of, a word of `StockMaterial`; "" = not known.
     """
 
     margin: float = parameter(
@@ -67,6 +68,7 @@ class Stock:
     under: float = parameter(
         0.0, "under", "Waste below", "thickness of the waste that it lies on", Unit.LENGTH, high=1e5, table="stock"
     )
+    material: str = parameter("", "material", "Material", "what it is made of", Unit.TEXT, table="stock")
 
     def __post_init__(self) -> None:
         if not 0 <= self.margin < 1e5 or not 0 < self.thickness < 1e5:
@@ -264,13 +266,16 @@ class Job:
         return tool
 
     def same_paths(self, other: Job) -> bool:
-        """Return whether another job comes to the same paths: layers that hold nothing, colours and locks make none."""
+        """Return whether another job comes to the same paths: layers that hold nothing, colours, locks and what the
+        stock is made of make none.
+        """
         if self is other:
             return True
         mine, theirs = self.part, other.part
-        return replace(self, part=theirs) == other and replace(mine, layers=mine.machined_layers) == replace(
-            theirs, layers=theirs.machined_layers
-        )
+        stock = replace(self.stock, material=other.stock.material)
+        return replace(self, part=theirs, stock=stock) == other and replace(
+            mine, layers=mine.machined_layers
+        ) == replace(theirs, layers=theirs.machined_layers)
 
     def check_operations(self) -> None:
         """Refuse a job that cannot be computed, whichever way.

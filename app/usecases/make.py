@@ -44,8 +44,9 @@ from .cut import CutProgram
 from .cut_job import MeasuredMoves, cut_job, news
 from .engagement_proofs import engagement_proofs
 from .face_proofs import face_proofs
+from .feeds import JobWithFeeds
 from .machining import check_order
-from .options import MakeOptions, job_with_options
+from .options import MakeOptions, job_with_options, with_feeds
 from .own_job import with_own_job
 from .plausible import read_for
 from .proposal.propose import Proposal
@@ -82,6 +83,7 @@ class MakeResult:
         coverage: what is left on the floor, with outlines.
         cut: the files cut out of the stock and compared with the drawing; None when no move was made.
         proposal: that the operations are of; None where none was asked for.
+        feeds: the speeds and feeds that were proposed; None where they are those of the job.
     """
 
     job: Job
@@ -93,6 +95,7 @@ class MakeResult:
     coverage: Coverage
     cut: CutProgram | None
     proposal: Proposal | None = None
+    feeds: JobWithFeeds | None = None
 
     @property
     def nc(self) -> NcText:
@@ -152,6 +155,8 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     made = _finished(program, context, progress.part(context.computed_at, 1.0))
     if (proposal := context.proposal) is not None:
         made = replace(made, report=made.report.with_proposal(proposal.report()), proposal=proposal)
+    if (feeds := context.feeds) is not None:
+        made = replace(made, report=made.report.with_feeds(feeds.report()), feeds=feeds)
     if not len(made.program.moves):
         raise GeometryError(_nothing(name, made.findings))
     return made
@@ -169,6 +174,7 @@ class MakeContext:
         compute: makes the moves.
         computed_at: share of the progress at which they are made.
         proposal: the operations that were proposed; None where they were given.
+        feeds: the speeds and feeds that were proposed; None where they were given.
     """
 
     job: Job
@@ -178,6 +184,7 @@ class MakeContext:
     compute: Callable[[Progress], Program]
     computed_at: float = 0.64
     proposal: Proposal | None = None
+    feeds: JobWithFeeds | None = None
 
 
 def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
@@ -185,7 +192,12 @@ def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -
     drawing = read_for(name, data, options)
     options, proposal = with_proposal(drawing.part, options, progress)
     found = drawing.findings if proposal is None else (*proposal.findings, *drawing.findings)
-    return replace(_exact_context(job_from_drawing(drawing, options), found, options.machine), proposal=proposal)
+    fed = with_feeds(job_from_drawing(drawing, options), options)
+    return replace(_exact_context(fed.job, found, options.machine), proposal=proposal, feeds=_proposed(fed))
+
+
+def _proposed(fed: JobWithFeeds) -> JobWithFeeds | None:
+    return fed if fed.proposals else None
 
 
 def _exact_context(job: Job, findings: tuple[Finding, ...], machine: Machine | None) -> MakeContext:
@@ -201,13 +213,15 @@ def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress)
     from .bitmap_way import compute_on_bitmap
 
     ready = bitmap_job(name, data, options)
+    fed = with_feeds(ready.job, options)
     return MakeContext(
-        ready.job,
-        load_post(ready.job.post),
+        fed.job,
+        load_post(fed.job.post),
         options.machine,
         ready.findings,
-        lambda progress: compute_on_bitmap(ready.job, ready.part, progress).program,
+        lambda progress: compute_on_bitmap(fed.job, ready.part, progress).program,
         computed_at=0.5,
+        feeds=_proposed(fed),
     )
 
 

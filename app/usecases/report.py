@@ -104,6 +104,10 @@ class MakeReport:
         """Return it with what was proposed, and why."""
         return MakeReport({**self.data, "proposal": proposal})
 
+    def with_feeds(self, feeds: Json) -> MakeReport:
+        """Return it with the speeds and feeds that were proposed, and why."""
+        return MakeReport({**self.data, "feeds": feeds})
+
     def summary(self, output: str) -> str:
         """Return it in one line for people."""
         data = self.data

@@ -39,6 +39,7 @@ ORIGIN_XY = {
     "center": OriginXY.CENTRE,
 }
 ORIGIN_Z = {"top": OriginZ.TOP, "bottom": OriginZ.BOTTOM}
+FEEDS = {"tools": False, "proposed": True}
 SETTINGS = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out")
 """Tables that hold the job's own parameters, in the order in which they are written."""
 
@@ -128,11 +129,13 @@ class JobFile:
         job: with an empty part.
         units: of a drawing that names none, or None.
         tables: that are in the file; what belongs to others has its default.
+        proposes_feeds: whether tools are to get the speed and the feeds that are proposed for the stock's material.
     """
 
     job: Job
     units: Units | None
     tables: frozenset[str] = frozenset()
+    proposes_feeds: bool = False
 
 
 def read_job(name: str, data: bytes) -> JobFile:
@@ -200,6 +203,10 @@ def with_line(message: str, text: str) -> str:
     return f"{text.count(chr(10)) + 1}: {message.removesuffix(' (at end of document)')}"
 
 
+_BEFORE, _BEHIND = {"drawing": ("units",)}, {"stock": ("feeds",)}
+"""Keys that stand beside the job's parameters in its tables: what is asked for when a job is made of the file."""
+
+
 class _JobReader:
     """Reads the tables of one file; every error names the line."""
 
@@ -234,6 +241,9 @@ class _JobReader:
         self._check_keep_out(tables["keep_out"])
         values = {key: value for table in tables.values() for key, value in table.taken.items()}
         units = values.pop("units", None)
+        proposes = values.pop("feeds", False)
+        if proposes and not values.get("material"):
+            raise tables["stock"].error("feeds", "needs a material; add material = 'aluminium', or take it out")
         job = self._text.built("stock", 0, lambda: with_values(Job(Part()), values))
         tools, operations = self._tool_list(), tuple(operations_of(self._tables("operation"), self._kept))
         tools = tools if "tool" in self._tree and (tools or self._kept) else job.tools
@@ -244,17 +254,19 @@ class _JobReader:
         job = replace(job, tools=tools, operations=operations)
         for index, operation in enumerate(operations if "operation" in self._tree and not self._kept else ()):
             self._text.built("operation", index, lambda each=operation: job.cutter(each))  # type: ignore[misc]
-        return JobFile(job, units, frozenset(self._tree))
+        return JobFile(job, units, frozenset(self._tree), proposes)
 
     def _settings(self, path: str) -> JobTable:
         """Return a table of the job's parameters, its keys taken by those of the parameters."""
         table, declared = self._table(path), settings_of(path)
         if path == "drawing":
             table.take("units", word(UNITS, "unit"))
+        if path == "stock":
+            table.take("feeds", word(FEEDS, "source of speeds and feeds"))
         for key, placed in declared.items():
             known = WORDS.get(placed.key)
             table.take(key, word(known.words, known.what) if known else reader_of(placed), placed.key)
-        table.done(", ".join((*(("units",) if path == "drawing" else ()), *declared)))
+        table.done(", ".join((*_BEFORE.get(path, ()), *declared, *_BEHIND.get(path, ()))))
         return table
 
     def _check_drawing(self, table: JobTable) -> None:
