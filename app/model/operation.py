@@ -146,12 +146,28 @@ class CutParameters:
 
 
 _FINISHED = Condition(lambda operation: operation.finish_width > 0, "a finish pass", "add finish_width = 0.2")
-_ENGAGED = (
+ENGAGED = (
     "most_engaged",
     "Limit of engagement",
     "of the diameter: where the cutter is engaged over more, the feed is slowed; 100 %: never",
     Unit.SHARE,
 )
+"""Declared alike by all kinds whose feed may follow what is engaged."""
+
+MOST_ENGAGED = (
+    "most_engaged_deg",
+    "Engaged at most",
+    "angle of the cutter's rim that may be in metal, anywhere; 90: half of the diameter, 60: a quarter",
+    Unit.ANGLE,
+)
+LIFT = (
+    "lift",
+    "Lift",
+    "how high the tool goes on its way back over ground that is cut; 0: it stays down",
+    Unit.LENGTH,
+)
+"""Declared alike, as the angle above, by all kinds that go in arcs."""
+
 THROUGH = (
     "through",
     "Through",
@@ -234,6 +250,10 @@ class Operation:
         """Whether it has its tool's centre on the lines, or drills, so that it bounds no area."""
         return self.wall_side in (None, Side.ON)
 
+    def line_width(self, tool: Tool) -> float | None:
+        """Return how wide the slots along the drawn lines are that bound its area, mm; None where the lines do."""
+        return None
+
     @property
     def beyond(self) -> float:
         """How far below its floor its tool goes on purpose, mm."""
@@ -262,6 +282,11 @@ class Operation:
     def proven_angle(self) -> float | None:
         """Engaged angle, radians, that the written program must not exceed anywhere; None = there is no such limit."""
         return None
+
+    @property
+    def lift_between(self) -> float:
+        """How high its tool goes between passes that keep to such an angle, over ground that is cut, mm."""
+        return 0.0
 
     @property
     def outer_lead(self) -> Lead | None:
@@ -333,7 +358,7 @@ class ContourOperation(Operation):
         choices=("Once", "Each depth"),
     )
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
 
     WORD = "contour"
@@ -391,7 +416,7 @@ class PocketOperation(Operation):
         short="Begin",
     )
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
 
     WORD = "pocket"
@@ -422,24 +447,9 @@ class AdaptiveOperation(Operation):
     """Clear the area inside with a cutter whose rim is nowhere engaged by more than an angle."""
 
     most_engaged_deg: float = parameter(
-        math.radians(60),
-        "most_engaged_deg",
-        "Engaged at most",
-        "angle of the cutter's rim that may be in metal, anywhere; 90: half of the diameter, 60: a quarter",
-        Unit.ANGLE,
-        low=math.radians(15),
-        high=math.radians(90),
-        option=True,
+        math.radians(60), *MOST_ENGAGED, low=math.radians(15), high=math.radians(90), option=True
     )
-    lift: float = parameter(
-        0.2,
-        "lift",
-        "Lift",
-        "how high the tool goes on its way back over ground that is cut; 0: it stays down",
-        Unit.LENGTH,
-        high=100.0,
-        option=True,
-    )
+    lift: float = parameter(0.2, *LIFT, high=100.0, option=True)
 
     WORD = "adaptive"
     CLEARS = True
@@ -454,9 +464,9 @@ class AdaptiveOperation(Operation):
         return self.most_engaged_deg
 
     @property
-    def limit_deg(self) -> float:
-        """The limit in degrees."""
-        return round(math.degrees(self.most_engaged_deg), 6)
+    def lift_between(self) -> float:
+        """How high the tool goes on its way back over ground that is cut, mm."""
+        return self.lift
 
 
 @dataclass(frozen=True, slots=True)
@@ -465,7 +475,7 @@ class RestOperation(Operation):
 
     stepover: float | None = parameter(None, *STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
 
     WORD = "rest"

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.distance import DistanceField
+from ..geometry.offset.grown_lines import grown_lines
 from ..geometry.offset.offset import OffsetLevel, offset_levels
 from ..geometry.overlay.overlay import OverlayResult, without_crossings, without_outlines
 from ..geometry.primitives import Primitives, contour_rows, pack, points_at
@@ -29,7 +30,7 @@ from .drawn_contours import DrawnContours
 from .drill_holes import CircleHole, circle_of, hole_regions, made_by_drills
 from .leads.lead import lead_size
 from .selected import selected
-from .witness import region_findings
+from .witness import grown_findings, region_findings
 
 _ON_CLAMP = 2e-5
 """mm; a wall all of which is this near to a clamp's outline is the clamp's: ends that meet are put together by as
@@ -43,6 +44,9 @@ nothing that concerns them.
 
 _SPARE = 1.0
 """mm that the frame is farther off than the leads need."""
+
+_SAME = 1e-9
+"""mm by which a slot may be wider than the tool that goes along its middle alone."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +90,15 @@ class MachiningArea:
         return nearest
 
 
+@dataclass(frozen=True)
+class _AreaKey:
+    """What operations have alike that share an area; `width`: of slots along the lines, mm; 0 = the lines bound it."""
+
+    curves: frozenset[Selector]
+    side: Side
+    width: float = 0.0
+
+
 @dataclass
 class MachiningAreas:
     """The sheets of a job's operations; operations alike share one.
@@ -97,14 +110,15 @@ class MachiningAreas:
     job: Job
     drawn: DrawnContours
     findings: list[Finding] = field(default_factory=list)
-    _made: dict[tuple[frozenset[Selector], Side], MachiningArea | None] = field(default_factory=dict)
+    _made: dict[_AreaKey, MachiningArea | None] = field(default_factory=dict)
 
     def of(self, operation: Operation) -> MachiningArea | None:
         """Return the sheet of an operation; None where it has nothing to machine."""
-        side = operation.wall_side or Side.INSIDE
-        key = frozenset(operation.cut.curves), side
+        tool, side = self.job.tool(operation.cut.tool), operation.wall_side or Side.INSIDE
+        width = operation.line_width(tool) or 0.0
+        key = _AreaKey(frozenset(operation.cut.curves), side, width if width > tool.diameter + _SAME else 0.0)
         if key not in self._made:
-            self._made[key] = self._sheet(*key)
+            self._made[key] = self._slots(key) if key.width else self._sheet(key.curves, key.side)
         return self._made[key]
 
     def areas(self) -> tuple[Area, ...]:
@@ -124,9 +138,7 @@ class MachiningAreas:
 
     def _sheet(self, curves: frozenset[Selector], side: Side) -> MachiningArea | None:
         found = selected(self.drawn, tuple(curves))
-        closed, lines = list(found.closed), list(found.open)
-        if self._made_by_drills:
-            closed = [contour for contour in closed if circle_of(contour) not in self._made_by_drills]
+        closed, lines = self._milled(found.closed), list(found.open)
         frame = self._frame((*closed, *lines, *(c for region in self.drawn.clamps for c in region.contours)))
         if frame is None or (side is not Side.ON and not closed):
             return None
@@ -146,6 +158,28 @@ class MachiningAreas:
             (*closed, *lines) if side is Side.ON else (),
             outlines,
         )
+
+    def _slots(self, key: _AreaKey) -> MachiningArea | None:
+        """Return what lies within half of a width of the lines, without what clamps hold."""
+        found = selected(self.drawn, tuple(key.curves))
+        lines = (*self._milled(found.closed), *found.open)
+        grown = grown_lines(lines, key.width / 2)
+        clamps = tuple(clamp.boundary for clamp in self.drawn.clamps)
+        free = without_outlines(grown, clamps)
+        nesting = nested(free.contours)
+        self.findings += [*grown_findings(lines, key.width / 2, grown), *free.findings]
+        self.findings += region_findings(grown, clamps, nesting)
+        if not nesting.regions:
+            return None
+        primitives = pack(nesting.regions)
+        outlines = tuple(c for region in self.drawn.clamps for c in region.contours)
+        walls = DistanceField.of(primitives.rows)
+        return MachiningArea(nesting.regions, primitives, walls, lies_on(primitives, outlines), (), outlines)
+
+    def _milled(self, contours: Sequence[Contour]) -> list[Contour]:
+        """Return contours but for the circles that drills make."""
+        made = self._made_by_drills
+        return [each for each in contours if circle_of(each) not in made] if made else list(contours)
 
     def _regions(self, contours: Sequence[Contour]) -> tuple[Region, ...]:
         """Return the regions that contours bound even-odd, without what clamps hold; the witness is asked about

@@ -83,7 +83,7 @@ def emit(
         return
     tool = job.tool(cut.tool)
     operation = job.operations[index]
-    beside = operation.wall_side is not Side.ON
+    beside = operation.wall_side is not Side.ON or not area.lines
     keep = tool.radius + cut.stock_to_leave
     ground = EntryContext(tool, cut.entry, area.distances, keep, beside, cut.direction, context.cleared, context.tabs)
     label = StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)

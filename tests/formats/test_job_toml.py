@@ -190,7 +190,7 @@ CONTOUR = "[[operation]]\nkind = 'contour'\ntool = 1\n"
         ("[[operation]]\nkind = 'saw'\ntool = 1", "j:2: kind is 'saw'"),
         (
             "[[operation]]\nkind = 'drill'\nstepdown = 1\ntool = 1",
-            "j:3: stepdown belongs to pocket, adaptive, rest, contour, vcarve, bore and face operations",
+            "j:3: stepdown belongs to pocket, adaptive, rest, contour, slot, vcarve, bore and face operations",
         ),
         (
             "[[operation]]\nkind = 'pocket'\ntool = 1\npeck = 1",
