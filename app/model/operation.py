@@ -13,6 +13,14 @@ from .entry import Entry, Lead, Tabs
 from .fields import Condition, Unit, check_ranges, parameter, part, required, required_part
 from .tool import Tool
 
+OPEN_EDGES = (
+    "open_edges",
+    "Open edges",
+    "walls that lie on the stock's edge are none: the tool comes in from outside there and goes past the edge",
+    Unit.FLAG,
+)
+"""Declared alike by all kinds that clear an area from its walls or its middle."""
+
 LEAST_LENGTH = 1e-3
 """mm; a smaller depth, step or height would vanish in the digits of an NC program."""
 
@@ -145,6 +153,7 @@ class CutParameters:
         return self.depth - self.floor_to_leave
 
 
+_WITHIN = Condition(lambda operation: operation.side is Side.INSIDE, "a path inside", 'write side = "inside"')
 _FINISHED = Condition(lambda operation: operation.finish_width > 0, "a finish pass", "add finish_width = 0.2")
 ENGAGED = (
     "most_engaged",
@@ -294,6 +303,11 @@ class Operation:
         return None
 
     @property
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return False
+
+    @property
     def roughed_allowance(self) -> float:
         """Metal that its first passes leave on the walls, mm: what stays there, and what its last pass takes."""
         return self.cut.stock_to_leave
@@ -361,6 +375,8 @@ class ContourOperation(Operation):
         1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
 
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True, needs=_WITHIN)
+
     WORD = "contour"
     FOLLOWS_WALLS = True
 
@@ -381,6 +397,11 @@ class ContourOperation(Operation):
     def engagement_limit(self) -> float:
         """Share of the diameter beyond which the feed is slowed."""
         return self.most_engaged
+
+    @property
+    def opens_edges(self) -> bool:
+        """Whether its paths go on past the stock's edges, where walls lie on them."""
+        return self.open_edges and self.side is Side.INSIDE
 
     @property
     def outer_lead(self) -> Lead | None:
@@ -419,6 +440,8 @@ class PocketOperation(Operation):
         1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
 
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True)
+
     WORD = "pocket"
     CLEARS = True
     COARSE = True
@@ -437,6 +460,11 @@ class PocketOperation(Operation):
         return self.stepover
 
     @property
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return self.open_edges
+
+    @property
     def on_pixels(self) -> bool:
         """Pockets are what the way of 1986 was made for."""
         return True
@@ -451,6 +479,8 @@ class AdaptiveOperation(Operation):
     )
     lift: float = parameter(0.2, *LIFT, high=100.0, option=True)
 
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True)
+
     WORD = "adaptive"
     CLEARS = True
     COARSE = True
@@ -462,6 +492,11 @@ class AdaptiveOperation(Operation):
     def proven_angle(self) -> float | None:
         """Engaged angle, radians, that the written program must not exceed anywhere."""
         return self.most_engaged_deg
+
+    @property
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return self.open_edges
 
     @property
     def lift_between(self) -> float:

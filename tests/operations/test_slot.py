@@ -68,13 +68,7 @@ def test_what_is_cleared_is_the_line_grown(name: str, width: float | None) -> No
     program = compute(job)
     goal, made = wanted(lines, closed, width or 3.0), cleared(program, job)
     assert shapely.difference(made, goal.buffer(2e-3)).area == 0
-    left = shapely.difference(goal, made)
-    # inner corners of the square and the cross are sharper than the tool
-    corner = (1 - math.pi / 4) * 1.5**2 * 4 if (width or 3.0) > 3.0 and name in ("square", "cross") else 0.0
-    reach = goal.buffer(-1.5 + 1e-4).buffer(1.5 - 1e-4)
-    assert shapely.difference(reach, made).buffer(-2e-3).is_empty
-    if name != "crossed ring":
-        assert left.area == pytest.approx(corner if name == "square" else 0.0, abs=0.02)
+    assert shapely.difference(goal, made).area < 0.02  # no wall of it bends in more sharply than a tool can follow
     assert not [each for each in program.findings if each.counts]
 
 

@@ -17,6 +17,7 @@ from ...toolpath.entry.entry import EntryContext
 from ...toolpath.machining_areas import MachiningArea
 from ...toolpath.narrow_regions import finest, necks, too_small
 from ...toolpath.operation_context import OperationContext, check_depth, levels_of
+from ..from_outside import know_as_clear, open_stock
 from .limit import EngagementLimit
 from .passes import DiscPasses, farthest, nearest_first
 from .plan import ClearingTask, ConnectedPath, least_turn, mirrored, mirrored_part, plan
@@ -60,7 +61,10 @@ def adaptive(context: OperationContext, index: int, progress: Progress) -> None:
     context.findings.extend(too_narrow(job, operation, area, level))
     climb = cut.direction is Direction.CLIMB
     walls = area.primitives if climb else mirrored(area.primitives)
-    parts = plan(ClearingTask(walls, cut.stock_to_leave, farthest(label, levels)), limit, progress.part(0.05, 0.9))
+    stock = open_stock(context, operation, area)
+    seen = stock if climb or stock is None else stock.mirrored()
+    task = ClearingTask(walls, cut.stock_to_leave, farthest(label, levels), seen)
+    parts = plan(task, limit, progress.part(0.05, 0.9))
     if not climb:
         parts = tuple(mirrored_part(part) for part in parts)
     context.findings.extend(_left(parts, operation))
@@ -69,6 +73,8 @@ def adaptive(context: OperationContext, index: int, progress: Progress) -> None:
     parts = tuple(nearest_first(parts, context.at))
     keep = tool.radius + cut.stock_to_leave
     ground = EntryContext(tool, cut.entry, area.distances, keep, True, cut.direction, context.cleared, context.tabs)
+    if stock is not None:
+        know_as_clear(context, operation, stock, [part.runs[0].rows[0, :2] for part in parts])
     passes = DiscPasses(context.builder, label, ground, levels, operation.lift_between)
     passes.cut(parts, progress.part(0.9, 1.0))
     context.strokes += sum(len(part.runs) for part in parts) * len(levels.passes)

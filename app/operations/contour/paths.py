@@ -39,6 +39,7 @@ from ...toolpath.operation_context import OperationContext, emit, passes_of
 from ...toolpath.selected import selected
 from ...toolpath.side import wall_paths
 from ..engrave.open_line import line_paths
+from ..from_outside import know_as_clear, open_stock
 from .dogbone import CornerRelief, corner_reliefs, recorded, refused_relief_findings
 from .gaps import WallGap, gaps
 from .narrow_places import clamp_findings, narrow_place_findings, narrow_places
@@ -121,7 +122,10 @@ def contour(context: OperationContext, index: int, progress: Progress) -> None:
             context.findings.extend(_about_thick(work))
     context.findings.extend(overlap_findings(finish.runs, work.around(work.wall)))
     progress.step(0.7, "Contours")
-    emit(context, index, area, _together(work, finish, rough), progress.part(0.7, 1.0))
+    strokes = _together(work, finish, rough)
+    if (stock := open_stock(context, operation, area)) is not None:
+        know_as_clear(context, operation, stock, [np.array(stroke.start) for stroke in strokes])
+    emit(context, index, area, strokes, progress.part(0.7, 1.0))
 
 
 def _about_thick(work: _ContourJob) -> list[Finding]:

@@ -23,6 +23,7 @@ from ...toolpath.linking.runs import NOTHING, GapFilling, between, fill
 from ...toolpath.machining_areas import MachiningArea
 from ...toolpath.narrow_regions import finest, necks, too_small
 from ...toolpath.operation_context import OperationContext, emit, passes_of
+from ..from_outside import from_outside, open_stock
 
 _SHARES = (1.6, 1.8, 1.7, 1.75, 1.65, 1.5, 1.4)
 """Of the radius: stepovers that are compared; the first is the best guess."""
@@ -80,7 +81,11 @@ def clear_in_rings(
     if chosen.strokes:
         context.stepovers[index] = chosen.stepover
     context.strokes += len(chosen.strokes) * passes_of(context, index)
-    emit(context, index, area, chosen.strokes, progress.part(0.9, 1.0))
+    stock = open_stock(context, operation, area)
+    strokes = (
+        chosen.strokes if stock is None else from_outside(context, operation, area, chosen.strokes, target.outermost)
+    )
+    emit(context, index, area, strokes, progress.part(0.9, 1.0))
     return first
 
 
