@@ -13,6 +13,14 @@ from .entry import Entry, Lead, Tabs
 from .fields import Condition, Unit, check_ranges, parameter, part, required, required_part
 from .tool import Tool
 
+OPEN_EDGES = (
+    "open_edges",
+    "Open edges",
+    "walls that lie on the stock's edge are none: the tool comes in from outside there and goes past the edge",
+    Unit.FLAG,
+)
+"""Declared alike by all kinds that clear an area from its walls or its middle."""
+
 LEAST_LENGTH = 1e-3
 """mm; a smaller depth, step or height would vanish in the digits of an NC program."""
 
@@ -145,13 +153,30 @@ class CutParameters:
         return self.depth - self.floor_to_leave
 
 
+_WITHIN = Condition(lambda operation: operation.side is Side.INSIDE, "a path inside", 'write side = "inside"')
 _FINISHED = Condition(lambda operation: operation.finish_width > 0, "a finish pass", "add finish_width = 0.2")
-_ENGAGED = (
+ENGAGED = (
     "most_engaged",
     "Limit of engagement",
     "of the diameter: where the cutter is engaged over more, the feed is slowed; 100 %: never",
     Unit.SHARE,
 )
+"""Declared alike by all kinds whose feed may follow what is engaged."""
+
+MOST_ENGAGED = (
+    "most_engaged_deg",
+    "Engaged at most",
+    "angle of the cutter's rim that may be in metal, anywhere; 90: half of the diameter, 60: a quarter",
+    Unit.ANGLE,
+)
+LIFT = (
+    "lift",
+    "Lift",
+    "how high the tool goes on its way back over ground that is cut; 0: it stays down",
+    Unit.LENGTH,
+)
+"""Declared alike, as the angle above, by all kinds that go in arcs."""
+
 THROUGH = (
     "through",
     "Through",
@@ -234,6 +259,10 @@ class Operation:
         """Whether it has its tool's centre on the lines, or drills, so that it bounds no area."""
         return self.wall_side in (None, Side.ON)
 
+    def line_width(self, tool: Tool) -> float | None:
+        """Return how wide the slots along the drawn lines are that bound its area, mm; None where the lines do."""
+        return None
+
     @property
     def beyond(self) -> float:
         """How far below its floor its tool goes on purpose, mm."""
@@ -264,9 +293,19 @@ class Operation:
         return None
 
     @property
+    def lift_between(self) -> float:
+        """How high its tool goes between passes that keep to such an angle, over ground that is cut, mm."""
+        return 0.0
+
+    @property
     def outer_lead(self) -> Lead | None:
         """How its paths round the outside of the drawing come to the walls; None where it has none there."""
         return None
+
+    @property
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return False
 
     @property
     def roughed_allowance(self) -> float:
@@ -333,8 +372,10 @@ class ContourOperation(Operation):
         choices=("Once", "Each depth"),
     )
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
+
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True, needs=_WITHIN)
 
     WORD = "contour"
     FOLLOWS_WALLS = True
@@ -356,6 +397,11 @@ class ContourOperation(Operation):
     def engagement_limit(self) -> float:
         """Share of the diameter beyond which the feed is slowed."""
         return self.most_engaged
+
+    @property
+    def opens_edges(self) -> bool:
+        """Whether its paths go on past the stock's edges, where walls lie on them."""
+        return self.open_edges and self.side is Side.INSIDE
 
     @property
     def outer_lead(self) -> Lead | None:
@@ -391,8 +437,10 @@ class PocketOperation(Operation):
         short="Begin",
     )
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
+
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True)
 
     WORD = "pocket"
     CLEARS = True
@@ -412,6 +460,11 @@ class PocketOperation(Operation):
         return self.stepover
 
     @property
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return self.open_edges
+
+    @property
     def on_pixels(self) -> bool:
         """Pockets are what the way of 1986 was made for."""
         return True
@@ -422,24 +475,11 @@ class AdaptiveOperation(Operation):
     """Clear the area inside with a cutter whose rim is nowhere engaged by more than an angle."""
 
     most_engaged_deg: float = parameter(
-        math.radians(60),
-        "most_engaged_deg",
-        "Engaged at most",
-        "angle of the cutter's rim that may be in metal, anywhere; 90: half of the diameter, 60: a quarter",
-        Unit.ANGLE,
-        low=math.radians(15),
-        high=math.radians(90),
-        option=True,
+        math.radians(60), *MOST_ENGAGED, low=math.radians(15), high=math.radians(90), option=True
     )
-    lift: float = parameter(
-        0.2,
-        "lift",
-        "Lift",
-        "how high the tool goes on its way back over ground that is cut; 0: it stays down",
-        Unit.LENGTH,
-        high=100.0,
-        option=True,
-    )
+    lift: float = parameter(0.2, *LIFT, high=100.0, option=True)
+
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True)
 
     WORD = "adaptive"
     CLEARS = True
@@ -454,9 +494,14 @@ class AdaptiveOperation(Operation):
         return self.most_engaged_deg
 
     @property
-    def limit_deg(self) -> float:
-        """The limit in degrees."""
-        return round(math.degrees(self.most_engaged_deg), 6)
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return self.open_edges
+
+    @property
+    def lift_between(self) -> float:
+        """How high the tool goes on its way back over ground that is cut, mm."""
+        return self.lift
 
 
 @dataclass(frozen=True, slots=True)
@@ -465,7 +510,7 @@ class RestOperation(Operation):
 
     stepover: float | None = parameter(None, *STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
 
     WORD = "rest"

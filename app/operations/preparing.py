@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 from ..core.beside import BesideWork, beside
 from ..core.progress import Progress
-from ..toolpath.operation_context import OperationContext, PreparedStrokes, emit
+from ..toolpath.operation_context import OperationContext, PreparedStrokes
+from .from_outside import emit_prepared
 from .registry import method_of
 
 _PREPARED = 0.7
@@ -49,7 +50,7 @@ def carry_out(context: OperationContext, operations: Sequence[int], progress: Pr
             ahead.begin(place + 1)
             context.take(apart)
             if prepared is not None:
-                emit(context, index, prepared.area, prepared.strokes, share.part(_PREPARED, 1.0))
+                emit_prepared(context, index, prepared, share.part(_PREPARED, 1.0))
 
 
 class _Ahead:

@@ -26,6 +26,7 @@ from .depth.depth import DepthLevels, DepthPasses, pass_heights
 from .entry.entry import EntryContext
 from .entry.hole import drilled, usable
 from .machining_areas import MachiningArea, MachiningAreas
+from .open_edges import BoxSides
 from .ordering.depth_order import in_order
 
 
@@ -79,10 +80,13 @@ class OperationContext:
 
 @dataclass(frozen=True, eq=False)
 class PreparedStrokes:
-    """What an operation cuts: the area that it keeps within, and the strokes, not yet in order."""
+    """What an operation cuts: the area that it keeps within, and the strokes, not yet in order; the stock's sides where
+    the area is open past them.
+    """
 
     area: MachiningArea
     strokes: Sequence[Stroke]
+    open_stock: BoxSides | None = None
 
 
 def emit(
@@ -105,7 +109,7 @@ def emit(
         return
     tool = job.tool(cut.tool)
     operation = job.operations[index]
-    beside = operation.wall_side is not Side.ON
+    beside = operation.wall_side is not Side.ON or not area.lines
     keep = tool.radius + cut.stock_to_leave
     ground = EntryContext(tool, cut.entry, area.distances, keep, beside, cut.direction, context.cleared, context.tabs)
     label = StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)

@@ -186,6 +186,19 @@ def test_threads_have_their_lead_and_their_pitch_diameter(direction: str, flutes
     assert_same_cuts(made)
 
 
+@pytest.mark.parametrize("flutes", [1.0, 4.0])
+def test_a_left_handed_thread_is_proven_and_one_of_the_wrong_hand_is_found(flutes: float) -> None:
+    tools = TOOLS + f"flute_length = {flutes}\n"
+    made = made_of(THREAD + "left_hand = true\n", tools=tools)
+    assert made.clean and report_of(made)["operations"][1]["cut_thread"]["lead_off_mm"] < 1e-3
+    assert any("M6, left-handed," in each.text for each in made.findings)
+    assert_same_cuts(made)
+    right = made_of(THREAD, tools=tools)
+    asked = replace(right.job, operations=(*right.job.operations[:1], replace(right.job.operations[1], left_hand=True)))
+    wrong = finish(compute(right.job), asked)
+    assert not wrong.clean and report_of(wrong)["operations"][1]["cut_thread"]["lead_off_mm"] == pytest.approx(2.0)
+
+
 def test_a_thread_on_a_boss() -> None:
     pocket = '[[operation]]\nkind = "pocket"\ntool = 1\ndepth = 9\n'
     thread = '[[operation]]\nkind = "thread"\ntool = 6\ndepth = 8\nthread = "M16"\nexternal = true\n'

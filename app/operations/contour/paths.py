@@ -35,10 +35,11 @@ from ...toolpath.leads.tab import (
 )
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ...toolpath.narrow_regions import finest, too_small
-from ...toolpath.operation_context import OperationContext, PreparedStrokes, emit, passes_of
+from ...toolpath.operation_context import OperationContext, PreparedStrokes, passes_of
 from ...toolpath.selected import selected
 from ...toolpath.side import wall_paths
 from ..engrave.open_line import line_paths
+from ..from_outside import emit_prepared, open_stock
 from .dogbone import CornerRelief, corner_reliefs, recorded, refused_relief_findings
 from .gaps import WallGap, gaps
 from .narrow_places import clamp_findings, narrow_place_findings, narrow_places
@@ -95,7 +96,7 @@ def contour(context: OperationContext, index: int, progress: Progress) -> None:
     """Carry out a contour operation."""
     prepared = prepared_contour(context, index, progress.part(0.0, 0.7))
     if prepared is not None:
-        emit(context, index, prepared.area, prepared.strokes, progress.part(0.7, 1.0))
+        emit_prepared(context, index, prepared, progress.part(0.7, 1.0))
 
 
 def prepared_contour(context: OperationContext, index: int, progress: Progress) -> PreparedStrokes | None:
@@ -128,7 +129,7 @@ def prepared_contour(context: OperationContext, index: int, progress: Progress) 
             context.findings.extend(_about_thick(work))
     context.findings.extend(overlap_findings(finish.runs, work.around(work.wall)))
     progress.step(1.0, "Contours")
-    return PreparedStrokes(area, _together(work, finish, rough))
+    return PreparedStrokes(area, _together(work, finish, rough), open_stock(context, operation, area))
 
 
 def _about_thick(work: _ContourJob) -> list[Finding]:

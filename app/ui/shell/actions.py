@@ -213,6 +213,7 @@ MENUS: tuple[tuple[str, tuple[ActionSpec, ...]], ...] = (
             ActionSpec("machine_outside", "Contour &outside", under=MACHINE_THIS),
             ActionSpec("machine_inside", "Contour &inside", under=MACHINE_THIS),
             ActionSpec("machine_on", "Contour on &line", under=MACHINE_THIS),
+            ActionSpec("machine_slot", "Slo&t", under=MACHINE_THIS),
             ActionSpec("machine_drill", "&Drill", under=MACHINE_THIS),
             ActionSpec("machine_bore", "&Bore", under=MACHINE_THIS),
             ActionSpec("machine_countersink", "Counter&sink", under=MACHINE_THIS),
