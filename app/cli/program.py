@@ -32,7 +32,7 @@ class CommandSummary:
 SUMMARIES = {
     "make": CommandSummary("make DRAWING -o OUT.ngc", "a drawing into tool paths for pockets, contours and holes"),
     "tools": CommandSummary("tools DRAWING", "which tools a drawing wants: what passes, what clears, how long"),
-    "feeds": CommandSummary("feeds --material M --tool D", "how fast a tool may turn and feed in a material, and why"),
+    "feeds": CommandSummary("feeds --material M", "how fast a tool may turn and feed in a material, and why"),
     "cut": CommandSummary("cut PROGRAM.ngc", "any NC program cut out of its stock: what is left, gouges, rapids"),
     "check": CommandSummary("check PROGRAM.ngc", "any NC program: what is wrong, how far it goes, how long it takes"),
     "smooth": CommandSummary(
