@@ -369,3 +369,14 @@ def test_a_drawing_without_an_area_is_refused_for_threads_too(kind: str) -> None
     operation = f'[[operation]]\nkind = "{kind}"\ntool = {tool}\ndepth = 5\nthread = "M6"\n'
     with pytest.raises(GeometryError, match="there is no closed contour"):
         made_of(operation, "line 0,0 10,0\n")
+
+
+def test_countersinks_that_cross_are_no_gouge() -> None:
+    """Nearer to the one's middle its cone is deeper than the other's, and so is what is asked for; a tip that goes
+    deeper is found as before.
+    """
+    operation = '[[operation]]\nkind = "countersink"\ntool = 4\ndiameter = 6\n'
+    made = made_of(operation, "circle 0,0 1.5\ncircle 4.76,0 1.5\n")
+    assert not wrong(made)
+    depth = -made.program.moves.end[:, 2].min()
+    assert depth == pytest.approx(3.0)
