@@ -85,13 +85,13 @@ class ThreadProof:
 
 def thread_proofs(program: Program, job: Job, motions: WrittenMotions) -> dict[int, ThreadProof]:
     """Return what is proven, by index of the operation, of those that cut threads and have holes."""
+    if not motions.files:
+        return {}
     threading = [
         k
         for k, each in enumerate(job.operations)
         if isinstance(each, ThreadOperation | TapOperation) and each.cut.enabled and program.areas[k].regions
     ]
-    if not motions.files:
-        return {}
     origin = np.array(motions.origin)
     return {k: _Turns(program, job, motions.done_for(k), origin).proof(k) for k in threading}
 

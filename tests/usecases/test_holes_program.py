@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.core.errors import HitofudeError, ParameterError
+from app.core.errors import GeometryError, HitofudeError, ParameterError
 from app.core.resources import resource
 from app.formats.job.toml import read_job
 from app.gcode.posts.posts import post_names
@@ -333,3 +333,63 @@ def test_the_sample_is_clean(post: str) -> None:
     made = make("holes.draw", resource("samples", "holes.draw").read_bytes(), MakeOptions(job=job))
     assert made.clean
     assert report_of(made)["operations"][0]["faced"]["left_mm2"] == 0
+
+
+# What is no hole
+
+BORE = '[[operation]]\nkind = "bore"\ntool = 1\ndepth = 2\n'
+ROUND_PLATE = "circle 0,0 30\ncircle 18,0 5\ncircle 18,0 4\nrectangle -8,-8 6,6\n"
+"""An outline of 60 mm, a hole of 10 with a shallower one about its centre, and a boss."""
+
+
+def wrong(made: MakeResult) -> list[str]:
+    return [each.text for each in made.findings if each.counts]
+
+
+@pytest.mark.parametrize("kind", ["bore", "countersink"])
+def test_a_circle_with_other_contours_inside_is_an_outline_and_no_hole(kind: str) -> None:
+    """Or the boss were cut away with it, and the plate's rim."""
+    operation = BORE if kind == "bore" else '[[operation]]\nkind = "countersink"\ntool = 4\n'
+    wide = TOOLS.replace("diameter = 14.0", "diameter = 70.0")
+    made = made_of(operation, ROUND_PLATE, tools=wide)
+    moves = made.program.moves
+    low = moves.end[:, 2] < 0
+    assert low.any() and np.hypot(*(moves.end[low, :2] - (18, 0)).T).max() < 5
+    (told,) = [each for each in made.findings if "as other contours lie inside" in each.text]
+    assert (told.x, told.y) == (0, 0) and not told.counts and not wrong(made)
+
+
+@pytest.mark.parametrize("named", ['curves = ["circles:60"]', "least = 50", "most = 70"])
+def test_an_outline_that_is_named_is_bored_and_what_goes_with_it_is_told(named: str) -> None:
+    made = made_of(f"{BORE}{named}\n", ROUND_PLATE)
+    moves = made.program.moves
+    assert np.hypot(*moves.end[moves.end[:, 2] < 0, :2].T).max() == pytest.approx(27, abs=1e-3)
+    assert any("with the contours that lie inside" in each.text for each in made.findings)
+    assert not wrong(made)
+
+
+def test_holes_are_no_holes_for_the_bore_that_holds_them() -> None:
+    """A cutter stays in the hole that holds it, and that need not be the one whose middle is nearest."""
+    made = made_of(f"{BORE}least = 1\n", "circle 0,0 11\ncircle 5,0 4\n")
+    assert not wrong(made)
+    out = made_of(f"{BORE}least = 1\n", "circle 0,0 11\ncircle 9,0 4\n")
+    assert not wrong(out), "holes that cross"
+
+
+@pytest.mark.parametrize("kind", ["thread", "tap"])
+def test_a_drawing_without_an_area_is_refused_for_threads_too(kind: str) -> None:
+    tool = 6 if kind == "thread" else 3
+    operation = f'[[operation]]\nkind = "{kind}"\ntool = {tool}\ndepth = 5\nthread = "M6"\n'
+    with pytest.raises(GeometryError, match="there is no closed contour"):
+        made_of(operation, "line 0,0 10,0\n")
+
+
+def test_countersinks_that_cross_are_no_gouge() -> None:
+    """Nearer to the one's middle its cone is deeper than the other's, and so is what is asked for; a tip that goes
+    deeper is found as before.
+    """
+    operation = '[[operation]]\nkind = "countersink"\ntool = 4\ndiameter = 6\n'
+    made = made_of(operation, "circle 0,0 1.5\ncircle 4.76,0 1.5\n")
+    assert not wrong(made)
+    depth = -made.program.moves.end[:, 2].min()
+    assert depth == pytest.approx(3.0)
