@@ -60,7 +60,8 @@ class BesideWork(Generic[Result]):
             Cancelled: the job was asked to stop, and any error of the work itself.
         """
         if self._future is None:
-            return self._work(self._progress)
+            self._future = Future()
+            self._future.set_result(self._work(self._progress))
         whole = replace(self._progress, start=0.0, stop=1.0)
         while not wait_for([self._future], _LOOK_S).done:
             whole.step(*self._last)

@@ -335,7 +335,7 @@ class _CutRun:
         if exact is None and self.options.judge and isinstance(part, FlatPart):
             exact = exact_of(part, [known.course for known in self.courses], self.box(), progress.part(0.3, 0.7))
         certificate = (
-            certify(self.workpiece, target, self.cutters, self.trimmed, progress.part(0.7, 1.0))
+            certify(self.workpiece, target, self.cutters, self.trimmed, progress.part(0.7, 0.95))
             if self.options.judge
             else None
         )
@@ -344,7 +344,8 @@ class _CutRun:
         # of surfaces the cells tell enough
         if isinstance(part, SolidPart) and part.block is None and self.options.judge:
             probe = WallProbe(part, self._lowest, self.workpiece)
-        return judge(JudgementInput(part, cut, target, exact, lines, lowest, probe), certificate)
+        judging = JudgementInput(part, cut, target, exact, lines, lowest, probe)
+        return judge(judging, certificate, progress.part(0.95, 1.0))
 
     def unseen(self) -> Iterator[Finding]:
         """Yield what of a solid could not be looked at as closely as the cells are."""

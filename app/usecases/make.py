@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.beside import beside
 from ..core.errors import GeometryError
+from ..core.memory import give_back
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..formats.drawing import Drawing
@@ -285,6 +286,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     from ..toolpath.engagement.feed import followed  # compiled code: loaded where it is used
 
     job = context.job
+    give_back()  # contours, rings and strokes were very many small things
     program = followed(program, job, progress.part(0.0, 0.1))
     measured_first = partial(_measured, program, job)
     with beside(measured_first, progress.part(0.6, 0.85), len(program.moves) <= _MOST_BESIDE) as measuring:
@@ -292,6 +294,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
         written = write_and_check(program, job, context.post, context.machine, progress.part(0.1, 0.2))
         lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
         program = replace(program, moves=replace(program.moves, line=lines))
+        give_back()
         motions = WrittenMotions.of(written, program, job)
         proofs = engagement_proofs(job, motions, progress.part(0.2, 0.21))
         carvings = carving_proofs(program, job, motions, progress.part(0.21, 0.22))
@@ -331,7 +334,9 @@ def _measured(program: Program, job: Job, progress: Progress) -> MeasuredMoves:
     progress.step(0.0, "Checking clearance")
     depths = gouge_depths(program, job, progress=progress.part(0.0, 0.2))
     clear = clear_moves(program.moves, depths, CHORD)
-    return MeasuredMoves(depths, measure_beside_clear(program, job, clear, progress.part(0.2, 1.0)))
+    measured = MeasuredMoves(depths, measure_beside_clear(program, job, clear, progress.part(0.2, 1.0)))
+    give_back()
+    return measured
 
 
 def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
