@@ -146,6 +146,11 @@ class Computation(QObject):
         progress.step(0.95, "Preparing the picture")
         return ComputationResult(made, self._prepare(made))
 
+    def making(self, job: Job) -> Callable[[Progress], MakeResult]:
+        """Return what makes another job of the same drawing, for a worker to run; what is computed stays as it is."""
+        pixels, findings = self.pixels_of(job.part), self.drawing_findings
+        return lambda progress: _make(job, pixels, findings, progress)
+
     def pixels_of(self, part: Part) -> BitmapPart | None:
         """Return the pixels of a part that is a picture's and was not drawn in since, else None."""
         if self.pixels is None:

@@ -356,7 +356,8 @@ class WindowController(QObject):
         files.begun.connect(self.open_start)
 
     def open_start(self) -> None:
-        """Show the last files, samples, and what a new part is to be."""
+        """Show the last files, samples, and what a new part is to be; what was said of the part before goes."""
+        self.window_.notice.dismiss()
         self.start_controller.open(self.window_.theme)
         self.window_.views.start.new.lengths[0].edit.setFocus()
 

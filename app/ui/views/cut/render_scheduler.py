@@ -33,7 +33,7 @@ class RenderScheduler(QObject):
         stirred(): what is seen begins to change. rested(): nothing has moved for a while.
 
     Attributes:
-        budget: lines of sight that the moving cut is painted with; it follows the time that painting takes.
+        budget: lines of sight of a picture of the moving cut; it follows the time that painting takes.
         frame_ms: how long the last coarse picture took, ms.
         fine: whether the fine picture is shown. due: whether the coarse one is still to be painted.
         playback: what lies over the cut while it is played. surface: on which it is painted; None until there is one.
