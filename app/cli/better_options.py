@@ -43,8 +43,8 @@ def add_better_options(parser: OptionParser) -> None:
         "--epsilon",
         metavar="E",
         type=number("epsilon"),
-        help="points so near to one plane are a facet; far less than facets are off the true shape (mm; default a "
-        "fiftieth of T)",
+        help="points so near to one plane are a facet; far less than facets are off the true shape (mm; default what "
+        "suits of a fiftieth and a twentieth of T)",
     )
     parser.add_argument(
         "--pitch", metavar="P", type=number("pitch"), help="from pass to pass (mm; default as the old passes)"

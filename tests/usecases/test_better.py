@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from app.core.errors import InputError
-from app.fitting.point_surfaces.facet_corners import facet_corners
-from app.fitting.point_surfaces.height_spline import Box, fit_heights
+from app.fitting.point_surfaces.facet_corners import ShapePlace, facet_corners
+from app.fitting.point_surfaces.height_spline import Box, HoldingPoints, fit_heights
 from app.formats.scene.toml import read_scene
 from app.formats.scene.write import scene_text
 from app.gcode.interpreter.options import ReadOptions
@@ -70,24 +70,25 @@ def test_corners_of_facets_lie_on_the_true_shape_where_points_do_not() -> None:
     points, inner = np.concatenate(rows), corners.places
     inner = inner[(inner[:, 0] > 2) & (inner[:, 0] < 22) & (inner[:, 1] > 2) & (inner[:, 1] < 14)]
     off, old = np.abs(made.square_off(inner)), np.abs(made.square_off(points))
-    assert corners.met and len(inner) > 40
+    assert corners.kind is ShapePlace.CORNER and len(inner) > 40
     assert np.median(off) < 2e-4 and np.percentile(off, 90) < 0.1 * old.max() and old.max() > 0.03
 
 
 def test_passes_over_a_profile_have_no_corners_but_edges() -> None:
-    """Strips meet in lines: their effective points, which lie on the shape, stand for it."""
+    """Strips meet in lines, which lie on the shape: where passes cross these, whether there is a point or not."""
     x = np.linspace(-20, 20, 81)
     at = 40 * np.sin(np.linspace(-math.pi / 5, math.pi / 5, 11))
     z = np.interp(x, at, np.sqrt(1600 - at**2))
     corners = facet_corners([np.column_stack([x, np.full(81, y), z]) for y in np.arange(0, 8, 0.5)], 0.001)
-    assert not corners.met and len(corners.places) >= 16
+    off = np.abs(np.hypot(corners.places[:, 0], corners.places[:, 2]) - 40)
+    assert corners.kind is ShapePlace.EDGE and len(corners.places) >= 9 * 16 and np.percentile(off, 95) < 1e-3 < 0.05
 
 
 def test_a_surface_of_heights_is_as_coarse_as_its_places_allow() -> None:
     random = np.random.default_rng(5)
     places = np.column_stack([random.uniform(0, 20, 300), random.uniform(0, 10, 300), np.zeros(300)])
     places[:, 2] = 0.01 * places[:, 0] ** 3 / 20 - 0.3 * places[:, 1]
-    fitted = fit_heights(places, np.ones(300), places[:5], Box(0, 20, 0, 10))
+    fitted = fit_heights(places, np.ones(300), HoldingPoints(places[:5]), Box(0, 20, 0, 10))
     asked = np.column_stack([random.uniform(0, 20, 50), random.uniform(0, 10, 50)])
     assert np.abs(fitted.spline.heights(asked) - (0.01 * asked[:, 0] ** 3 / 20 - 0.3 * asked[:, 1])).max() < 1e-4
     slopes = fitted.spline.slopes(asked)
@@ -100,7 +101,7 @@ def test_a_place_that_is_no_corner_is_left_out() -> None:
     places = np.column_stack([u, v, 0.01 * u**2])
     places[40, 2] += 0.5
     places[:, 2] += 1e-3 * np.sin(7 * u + 5 * v)
-    fitted = fit_heights(places, np.ones(len(u)), places[:1], Box(0, 20, 0, 10))
+    fitted = fit_heights(places, np.ones(len(u)), HoldingPoints(places[:1]), Box(0, 20, 0, 10))
     assert not fitted.used[40] and np.sum(~fitted.used) <= 2
 
 

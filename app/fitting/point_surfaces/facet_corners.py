@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import Enum
 from itertools import combinations, pairwise
 
 import numpy as np
@@ -27,6 +28,8 @@ _WIDE = 0.2
 """Of the reach: how wide the points of such a facet lie at least, as their second singular value."""
 _UPRIGHT = 1e-5
 """Determinant of three normals from which on their planes are said to meet in a place."""
+_LEAST = 16
+"""Places that say what a surface is."""
 _REACH = 1.5
 """Times the distance of neighbouring points: so near to points of all three facets their corner lies."""
 _SPACING = 90.0
@@ -35,22 +38,30 @@ _MOST = 24
 """Neighbours of one facet that are brought together; a plane beside more than that is no facet of a polyhedron."""
 
 
+class ShapePlace(Enum):
+    """What lies on the true shape: corners where three facets meet; of strips, whose edges lie on it, where passes
+    cross these; else the effective points of method D.
+    """
+
+    CORNER = "corners"
+    EDGE = "places on edges"
+    POINT = "effective points"
+
+
 @dataclass(frozen=True, eq=False)
 class FacetCorners:
     """What stands for the true surface among points of passes.
 
     Attributes:
-        places: (n, 3) mm, where three facets or more meet; where there are too few of them the effective points.
-        weights: (n,) how well each is known, about 1.
+        places: (n, 3) mm. weights: (n,) how well each is known, about 1. kind: what they are.
         facets: how many facets there are. points: how many points lie on them.
-        met: whether places are corners; else they are effective points.
     """
 
     places: Floats
     weights: Floats
+    kind: ShapePlace
     facets: int
     points: int
-    met: bool
 
 
 def facet_corners(rows: Sequence[Floats], epsilon: float, progress: Progress = NO_PROGRESS) -> FacetCorners:
@@ -71,12 +82,15 @@ def facet_corners(rows: Sequence[Floats], epsilon: float, progress: Progress = N
     pairs = row_neighbours(rows)
     reach = _REACH * _spacing(rows)
     progress.step(0.4, "Looking for their corners")
-    places, weights = _met(points, found, pairs, reach)
-    facets = len(found.planes)
-    if len(places) >= max(facets // 4, 16):
-        return FacetCorners(places, weights, facets, len(points), True)
+    planes, facets = _planes(points, found, reach), len(found.planes)
+    places, weights = _met(found, pairs, planes, reach)
+    if len(places) >= max(facets // 4, _LEAST):
+        return FacetCorners(places, weights, ShapePlace.CORNER, facets, len(points))
+    places, weights = _crossed(rows, found, planes, reach)
+    if len(places) >= max(len(rows) * min(facets - 1, 2), _LEAST):
+        return FacetCorners(places, weights, ShapePlace.EDGE, facets, len(points))
     effective = points[found.state == PointState.EFFECTIVE]
-    return FacetCorners(effective, np.ones(len(effective)), facets, len(points), False)
+    return FacetCorners(effective, np.ones(len(effective)), ShapePlace.POINT, facets, len(points))
 
 
 def _spacing(rows: Sequence[Floats]) -> float:
@@ -114,9 +128,30 @@ def _planes(points: Floats, found: CloudFacets, reach: float) -> _Planes:
     return _Planes(normals, offsets, known, own)
 
 
-def _met(points: Floats, found: CloudFacets, pairs: Ints, reach: float) -> tuple[Floats, Floats]:
+def _crossed(rows: Sequence[Floats], found: CloudFacets, planes: _Planes, reach: float) -> tuple[Floats, Floats]:
+    """Return the places where passes, upright planes along the first axis, cross the edge of two facets, and how well
+    each is known.
+    """
+    points = np.concatenate(rows)
+    number = np.repeat(np.arange(len(rows)), [len(row) for row in rows])
+    at = np.flatnonzero((found.facet[1:] != found.facet[:-1]) & (number[1:] == number[:-1]))
+    one, other = found.facet[at], found.facet[at + 1]
+    some = planes.known[one] & planes.known[other]
+    at, one, other = at[some], one[some], other[some]
+    upright = np.tile([0.0, 1.0, 0.0], (len(at), 1))
+    normals = np.stack([planes.normals[one], planes.normals[other], upright], axis=1)
+    sharp = np.abs(np.linalg.det(normals)) if len(at) else np.zeros(0)
+    some = sharp > _UPRIGHT
+    at, one, other, normals, sharp = at[some], one[some], other[some], normals[some], sharp[some]
+    offsets = np.column_stack([planes.offsets[one], planes.offsets[other], points[at, 1]])
+    places = np.linalg.solve(normals, offsets[:, :, None])[:, :, 0]
+    near = np.minimum(*(np.linalg.norm(places - points[at + k], axis=1) for k in (0, 1))) < reach
+    places, sharp = places[near], sharp[near]
+    return places, np.clip(sharp / np.median(sharp), 0.05, 3.0) if len(sharp) else sharp
+
+
+def _met(found: CloudFacets, pairs: Ints, planes: _Planes, reach: float) -> tuple[Floats, Floats]:
     """Return the places where three facets meet, and how well each is known."""
-    planes = _planes(points, found, reach)
     triples = _triples(found, pairs, planes.known)
     normals = planes.normals[triples]
     sharp = np.abs(np.linalg.det(normals)) if len(triples) else np.zeros(0)

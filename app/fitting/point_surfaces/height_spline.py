@@ -30,9 +30,9 @@ _LEAST = 1e-4
 """mm; no place that is nearer than that times `_ASTRAY` is left out."""
 _BELIEVED = 0.9
 """Of the places that were left out: the others may be no corners, or lie beyond all that were not left out."""
-_LIGHT, _RIM = 1e-3, 0.1
-"""Of the weight of all places together: what all points weigh that have places round them, and those at the rim, which
-nothing else holds.
+_LIGHT, RIM = 1e-3, 0.1
+"""Of the weight of all places together: what all points weigh that have places round them, and usually those at the
+rim, which nothing else holds.
 """
 _WORSE = 3
 """Numbers of spans in a row that are worse than the best: finer ones are not tried."""
@@ -46,6 +46,16 @@ class Box:
     u1: float
     v0: float
     v1: float
+
+
+@dataclass(frozen=True, eq=False)
+class HoldingPoints:
+    """Points (m, 3) near to a surface, u, v, z, mm; rim: of the weight of all places, what they would weigh together
+    were all of them at the rim.
+    """
+
+    points: Floats
+    rim: float = RIM
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,13 +106,13 @@ class FittedHeights:
 
 
 def fit_heights(
-    places: Floats, weights: Floats, points: Floats, box: Box, progress: Progress = NO_PROGRESS
+    places: Floats, weights: Floats, holding: HoldingPoints, box: Box, progress: Progress = NO_PROGRESS
 ) -> FittedHeights:
     """Return a smooth surface by places.
 
     Args:
         places: (n, 3) u, v, z, mm, which lie on the surface, n >= 16. weights: (n,) of them, about 1.
-        points: (m, 3) mm, which lie near to it; they hold it where there are no places.
+        holding: points near to it, which hold it where there are no places.
         box: that it is over; all places and points lie in there.
         progress: told of how much is done.
 
@@ -112,7 +122,8 @@ def fit_heights(
     """
     if len(places) < 16:
         raise GeometryError(f"a surface by {len(places)} places; expected 16 or more.")
-    light = np.where(_inside(places, points), _LIGHT, _RIM) * float(weights.sum()) / max(len(points), 1)
+    points, rim = holding.points, holding.rim
+    light = np.where(_inside(places, points), _LIGHT, rim) * float(weights.sum()) / max(len(points), 1)
     used = np.ones(len(places), np.bool_)
     work = _FitTask(places, weights, points, light, box)
     for turn in range(_ROUNDS):

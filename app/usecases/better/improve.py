@@ -40,15 +40,15 @@ from ..surface import compute
 from ..surface_nc import WrittenScene, write_scene_nc
 from ..tolerance_budget import BudgetShare, Evidence, ToleranceBudget
 from .comparison import CutComparison, compared
-from .raster import RasterProgram, raster_of
-from .surface import NewPasses, SmoothedSurface, scene_of, smooth_surface, surviving, usual_pitch
+from .raster import RasterProgram, filled, raster_of
+from .surface import FacetLimits, NewPasses, SmoothedSurface, scene_of, smooth_surface, surviving, usual_pitch
 
 TOLERANCES = (0.002, 5.0)
 """mm; what the tolerance may be."""
-_CHORD, _SMOOTHING, _EPSILON = 0.1, 0.15, 0.02
-"""Of the tolerance: what chords of new passes, and their curves, may spend; and what is one facet, which has to be far
-less than facets are off.
-"""
+_CHORD, _SMOOTHING = 0.1, 0.15
+"""Of the tolerance: what chords of new passes, and their curves, may spend."""
+_EPSILONS = (0.02, 0.05)
+"""Of the tolerance: what is one facet is tried; far less than facets are off, more than their points are off them."""
 _DIGITS = 5.0
 """Last decimals of a program within which points of one facet lie at least."""
 
@@ -61,7 +61,8 @@ class BetterOptions:
 
     Attributes:
         tolerance: by how much the new cut may differ from the old one, both ways, square to the surface, mm.
-        epsilon: points so near to one plane are a facet, mm; None: a fiftieth of the tolerance.
+        epsilon: points so near to one plane are a facet, mm; None: what suits of a fiftieth and a
+            twentieth of the tolerance.
         pitch: from pass to pass, mm; None: as the old passes.
         form: what curves are written as. cells: that cuts are compared on, along the longer side.
         post: by its name, in whose words the new program is; None: those of the old one's control.
@@ -80,9 +81,11 @@ class BetterOptions:
         if not TOLERANCES[0] <= self.tolerance <= TOLERANCES[1]:
             raise InputError(f"the tolerance is {self.tolerance:g} mm; use {TOLERANCES[0]:g} to {TOLERANCES[1]:g} mm.")
 
-    def facet_epsilon(self, digit: float) -> float:
-        """Return how near to one plane points are a facet, mm; `digit` is the last decimal of the program's words."""
-        return self.epsilon if self.epsilon is not None else max(_EPSILON * self.tolerance, _DIGITS * digit)
+    def epsilons(self, digit: float) -> tuple[float, ...]:
+        """Return how near to one plane points may be a facet, mm; `digit` is the last decimal of the program."""
+        if self.epsilon is not None:
+            return (self.epsilon,)
+        return tuple(sorted({max(share * self.tolerance, _DIGITS * digit) for share in _EPSILONS}))
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,8 +166,10 @@ def better(
     cutters = {number: cutter_of(each) for number, each in ready.setup.tools.items()}
     probe = PathProbe.of([course_of(program).course], cutters)
     alive = surviving(raster, tool.radius, probe, options.tolerance)
-    smoothed = smooth_surface(alive, tool.radius, options.facet_epsilon(digit), progress.part(0.3, 0.4))
+    alive = replace(alive, raster=filled(alive.raster))
     shares = _Shares.of(options.tolerance, digit)
+    limits = FacetLimits(options.epsilons(digit), shares.facets)
+    smoothed = smooth_surface(alive, tool.radius, limits, progress.part(0.3, 0.4))
     _ensure_within(name, smoothed, shares)
     how = NewPasses(options.pitch or usual_pitch(alive.raster), shares.chords, post_name)
     scene = _with_feeds(scene_of(_stem(name), smoothed, tool, _block(old_cut), how), raster, program)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -20,6 +20,8 @@ _STRAIGHT = 0.02
 """mm; by so much a pass may leave its own line, seen from above."""
 _SHARE = 0.8
 """Of all that is fed sideways: so much of it has to be passes, or the program is another kind."""
+_FILLED = 0.5
+"""Of the pitch: places are no farther apart along a pass."""
 _STEEP = 0.02
 """A move that goes so little sideways for its length is a plunge or a lift, of no direction."""
 
@@ -116,6 +118,21 @@ def raster_of(name: str, program: NcProgram) -> RasterProgram:
     feed = float(np.median(feeds[np.isfinite(feeds) & (feeds > 0)])) if np.isfinite(feeds).any() else 600.0
     zigzag = any(one != other for one, other in pairwise(senses))
     return RasterProgram(frame, ordered, _pitch(name, ordered), zigzag, feed, share)
+
+
+def filled(raster: RasterProgram) -> RasterProgram:
+    """Return passes with places between points that are far apart: a chord over a facet says as much of it as points
+    within it do.
+    """
+    rows = []
+    for row in raster.rows:
+        parts = np.linalg.norm(np.diff(row, axis=0), axis=1) / (_FILLED * raster.pitch)
+        counts = np.maximum(np.ceil(parts), 1).astype(np.int64)
+        chord = np.repeat(np.arange(len(counts)), counts)
+        share = (np.arange(len(chord)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[chord]
+        between = row[chord] + share[:, None] * (row[chord + 1] - row[chord])
+        rows.append(np.concatenate([between, row[-1:]]))
+    return replace(raster, rows=tuple(rows))
 
 
 def _runs(fed: NDArray[np.int64], side: NDArray[np.int64]) -> list[tuple[int, int]]:

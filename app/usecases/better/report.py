@@ -65,12 +65,11 @@ def _no_better(done: BetterProgram) -> tuple[Finding, ...]:
 def lines(done: BetterProgram) -> tuple[str, ...]:
     """Return what was done, for people."""
     corners, fitted, comparison = done.smoothed.corners, done.smoothed.fitted, done.comparison
-    what = "corners" if corners.met else "effective points"
     old, new = done.old, done.new
     left = f", {done.smoothed.passes.left_out} cut deeper later" if done.smoothed.passes.left_out else ""
     return (
-        f"{done.name}: {len(done.smoothed.raster.rows)} passes, {corners.points} points{left}, "
-        f"{corners.facets} facets, {len(corners.places)} {what}",
+        f"{done.name}: {len(done.smoothed.raster.rows)} passes, {corners.points} places{left}, "
+        f"{corners.facets} facets, {len(corners.places)} {corners.kind.value}",
         f"  surface of {fitted.spans[0]} x {fitted.spans[1]} spans by them; those left out lie "
         f"{fitted.left_out_mm:.5f} mm off it",
         *(f"  {line}" for line in done.budget.lines()),
@@ -94,7 +93,7 @@ def report(done: BetterProgram) -> Json:
         "points_cut_deeper": done.smoothed.passes.left_out,
         "facets": corners.facets,
         "corners": len(corners.places),
-        "corners_are": "where facets meet" if corners.met else "effective points",
+        "corners_are": corners.kind.value,
         "spans": list(fitted.spans),
         "left_out_mm": fitted.left_out_mm,
         "budget": done.budget.report(),

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...core.errors import InputError
 from ...core.progress import Progress
 from ...fitting.point_surfaces.facet_corners import FacetCorners, facet_corners
-from ...fitting.point_surfaces.height_spline import Box, FittedHeights, fit_heights
+from ...fitting.point_surfaces.height_spline import RIM, Box, FittedHeights, HoldingPoints, fit_heights
 from ...model.motion import Floats
 from ...model.scene import Boundary, Passes, Scene, SceneStock, Strategy, Surface
 from ...model.scene_curves import SectionCurve
@@ -108,7 +108,7 @@ def _lowest(raster: RasterProgram, within: float) -> FittedHeights:
     points = raster.points
     thin = points[:: max(1, len(points) // _ENOUGH)]
     for _ in range(_ROUNDS):
-        fitted = fit_heights(thin, np.ones(len(thin)), thin[:1], box_of(points, _MARGIN))
+        fitted = fit_heights(thin, np.ones(len(thin)), HoldingPoints(thin[:1]), box_of(points, _MARGIN))
         above = thin[:, 2] - fitted.spline.heights(thin[:, :2]) > within
         if not above.any() or np.sum(~above) < _FEWEST:
             break
@@ -116,19 +116,54 @@ def _lowest(raster: RasterProgram, within: float) -> FittedHeights:
     return fitted
 
 
-def smooth_surface(passes: SurvivingPasses, radius: float, epsilon: float, progress: Progress) -> SmoothedSurface:
+@dataclass(frozen=True)
+class FacetLimits:
+    """What may be one facet, and how far facets may be from the surface behind them.
+
+    Attributes:
+        epsilons: points so near to one plane, mm: that one is taken whose places foretell one another best.
+        off: mm.
+    """
+
+    epsilons: tuple[float, ...]
+    off: float
+
+
+def smooth_surface(passes: SurvivingPasses, radius: float, limits: FacetLimits, progress: Progress) -> SmoothedSurface:
     """Return the smooth surface through the corners of the facets that passes of a ball of a radius, mm, lie on.
 
     Raises:
         HitofudeError: there are too few points. Cancelled: the job was asked to stop.
     """
-    corners = facet_corners(passes.raster.rows, epsilon, progress.part(0.0, 0.3))
+    box, count = box_of(passes.raster.points, _MARGIN + radius * min(passes.steepest, 1.0)), len(limits.epsilons)
+    found = [
+        _held(passes, facet_corners(passes.raster.rows, e), box, limits.off, progress.part(k / count, (k + 1) / count))
+        for k, e in enumerate(limits.epsilons)
+    ]
+    within = [each for each in found if each.farthest_mm <= limits.off]
+    if within:
+        return min(within, key=lambda each: each.fitted.left_out_mm)
+    return min(found, key=lambda each: each.farthest_mm)
+
+
+def _held(passes: SurvivingPasses, corners: FacetCorners, box: Box, off: float, progress: Progress) -> SmoothedSurface:
+    """Return the surface by corners. At the rim, where no facets meet, points hold it: as lightly as they may for it to
+    be no farther from any point than it may.
+    """
     points = passes.raster.points
-    box = box_of(points, _MARGIN + radius * min(passes.steepest, 1.0))
-    fitted = fit_heights(corners.places, corners.weights, points, box, progress.part(0.3, 1.0))
+    for rim in (RIM, 10 * RIM, 100 * RIM):
+        fitted = fit_heights(corners.places, corners.weights, HoldingPoints(points, rim), box, progress)
+        found = SmoothedSurface(passes, box, corners, fitted, _square_off(fitted, points))
+        if found.farthest_mm <= off:
+            break
+    return found
+
+
+def _square_off(fitted: FittedHeights, points: Floats) -> Floats:
+    """Return how far a surface is from points (n, 3), square to it, mm, > 0 above them."""
     slopes = fitted.spline.slopes(points[:, :2])
-    off = (fitted.spline.heights(points[:, :2]) - points[:, 2]) / np.sqrt(1 + (slopes**2).sum(axis=1))
-    return SmoothedSurface(passes, box, corners, fitted, off)
+    off: Floats = (fitted.spline.heights(points[:, :2]) - points[:, 2]) / np.sqrt(1 + (slopes**2).sum(axis=1))
+    return off
 
 
 def box_of(points: Floats, margin: float) -> Box:
