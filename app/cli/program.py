@@ -34,6 +34,7 @@ SUMMARIES = {
     "tools": CommandSummary("tools DRAWING", "which tools a drawing wants: what passes, what clears, how long"),
     "cut": CommandSummary("cut PROGRAM.ngc", "any NC program cut out of its stock: what is left, gouges, rapids"),
     "check": CommandSummary("check PROGRAM.ngc", "any NC program: what is wrong, how far it goes, how long it takes"),
+    "sheet": CommandSummary("sheet PROGRAM.ngc -o OUT", "the paper for the machine: set-up, tools, times, certificate"),
     "smooth": CommandSummary(
         "smooth PROGRAM.ngc -o OUT", "any NC program's chords into lines, arcs or splines, proven"
     ),
