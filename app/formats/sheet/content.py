@@ -65,7 +65,7 @@ class SheetHash:
 
 
 @dataclass(frozen=True, eq=False)
-class SheetPicture:
+class SetupPicture:
     """Stock, part and paths seen from above, mm, in one frame of coordinates.
 
     Attributes:
@@ -98,7 +98,7 @@ class SetupSheet:
     program: str
     verdict: str
     good: bool
-    picture: SheetPicture
+    picture: SetupPicture
     facts: tuple[SheetFact, ...]
     tables: tuple[SheetTable, ...]
     proofs: tuple[SheetProof, ...]

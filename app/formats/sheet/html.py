@@ -6,7 +6,7 @@ from html import escape
 
 import numpy as np
 
-from .content import SetupSheet, SheetPicture, SheetProof, SheetTable
+from .content import SetupPicture, SetupSheet, SheetProof, SheetTable
 from .layout import BAD, MUTED, box_of
 
 _VERDICTS = {True: ("holds", "proven"), False: ("fails", "does not hold"), None: ("unknown", "not proven")}
@@ -62,7 +62,7 @@ _SIZE = 640.0
 _EDGE = 44.0
 
 
-def picture_svg(picture: SheetPicture) -> str:
+def picture_svg(picture: SetupPicture) -> str:
     """Return stock, part and paths as SVG, with the stock's size and the program's zero."""
     x0, y0, x1, y1 = box_of(picture)
     scale = min((_SIZE - 2 * _EDGE) / max(x1 - x0, 1e-6), 520.0 / max(y1 - y0, 1e-6))

@@ -14,7 +14,7 @@ from ...geometry.transform import Similarity
 from ...model.curves import Line
 from ..plot.page import Box, FilledPolygon, PageContent, Pen, PenStroke, PlotPage, TextLine
 from ..plot.pdf_text import text_width, wrapped
-from .content import SetupSheet, SheetColumn, SheetPicture, SheetTable
+from .content import SetupPicture, SetupSheet, SheetColumn, SheetTable
 
 WIDTH, HEIGHT, MARGIN = 210.0, 297.0, 12.0
 INNER = WIDTH - 2 * MARGIN
@@ -30,7 +30,7 @@ _ROW = 1.5
 
 def sheet_pages(sheet: SetupSheet) -> tuple[PlotPage, ...]:
     """Return the pages of a sheet."""
-    pages = _Pages(sheet)
+    pages = _SheetPages(sheet)
     pages.heading()
     pages.picture_and_facts()
     for table in sheet.tables:
@@ -57,7 +57,7 @@ class _Look:
 
 
 @dataclass
-class _Page:
+class _SheetPage:
     """A page that is being filled."""
 
     words: list[TextLine] = field(default_factory=list)
@@ -68,22 +68,22 @@ class _Page:
     place: Similarity = field(default_factory=Similarity)
 
 
-class _Pages:
+class _SheetPages:
     """Pages that are filled from the top down; `_y` is how far the last one is filled."""
 
     def __init__(self, sheet: SetupSheet) -> None:
         self._sheet = sheet
-        self._pages = [_Page()]
+        self._pages = [_SheetPage()]
         self._y = HEIGHT - MARGIN
 
     @property
-    def _page(self) -> _Page:
+    def _page(self) -> _SheetPage:
         return self._pages[-1]
 
     def _room(self, height: float) -> None:
         """Go on on another page where so much does not fit."""
         if self._y - height < _FOOT:
-            self._pages.append(_Page())
+            self._pages.append(_SheetPage())
             self._y = HEIGHT - MARGIN
             self._write(self._sheet.title, MARGIN, self._y - 4, _Look(4.0, bold=True))
             self._write("goes on", WIDTH - MARGIN, self._y - 4, _Look(_BODY, anchor=1.0, colour=MUTED))
@@ -132,7 +132,7 @@ class _Pages:
             y -= 2.1
         self._y = min(top - height, y) - 3.0
 
-    def _picture(self, frame: Box, picture: SheetPicture) -> None:
+    def _picture(self, frame: Box, picture: SetupPicture) -> None:
         """Draw stock, part and paths into a frame of the paper, with the stock's size and the zero."""
         x0, y0, x1, y1 = frame
         corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)]
@@ -296,7 +296,7 @@ class _Pages:
         )
 
     @staticmethod
-    def _pages_foot(page: _Page, text: str) -> None:
+    def _pages_foot(page: _SheetPage, text: str) -> None:
         muted = Pen(1, MUTED)
         for label, x0, x1 in (("Set up by", MARGIN, 75.0), ("Date", 80.0, 115.0)):
             page.words.append(TextLine(label, (x0, 8.0), _SMALL, pen=muted))
@@ -305,7 +305,7 @@ class _Pages:
         page.words.append(TextLine(text, (WIDTH - MARGIN, 8.0), _SMALL, 1.0, pen=muted))
 
 
-def box_of(picture: SheetPicture) -> Box:
+def box_of(picture: SetupPicture) -> Box:
     """Return what is in the picture: the stock, and what is not far from it."""
     points = [line.points for line in picture.lines]
     corners = np.concatenate(points) if points else np.zeros((1, 2))

@@ -49,6 +49,10 @@ class Lane(Protocol):
     def news(self) -> LaneNews:
         """Return how far the part is."""
 
+    @property
+    def ready(self) -> bool:
+        """Whether what does the part is there, so that its time runs."""
+
     def renew(self, future: Future[BatchResult]) -> None:
         """Give up the part and be ready for the next."""
 
@@ -77,6 +81,11 @@ class ProcessLane:
         """The process's number; 0 until it has begun."""
         self._listen()
         return self._pid
+
+    @property
+    def ready(self) -> bool:
+        """Whether its process has begun."""
+        return self.pid != 0
 
     def submit(self, task: BatchTask) -> Future[BatchResult]:
         """Begin with a part."""
@@ -173,6 +182,11 @@ class ExecutorLane:
         future = self._executor.submit(self._work, task)  # type: ignore[call-arg]  # its progress has a default
         self._futures = {future}
         return future
+
+    @property
+    def ready(self) -> bool:
+        """Nobody knows, so its time runs."""
+        return True
 
     def news(self) -> LaneNews:
         """Nobody knows how far it is."""

@@ -13,10 +13,10 @@ from ...core.durations import minutes_words
 from ...formats.job.write import job_lines
 from ...formats.plot.picture import CONTOUR, PART, POCKET
 from ...formats.sheet.content import (
+    SetupPicture,
     SetupSheet,
     SheetColumn,
     SheetFact,
-    SheetPicture,
     SheetProof,
     SheetTable,
 )
@@ -76,7 +76,7 @@ def _verdict(count: int) -> str:
     return f"{counts}: do not run this program before it is cleared"
 
 
-def _picture(made: MakeResult, box: StockBox) -> SheetPicture:
+def _picture(made: MakeResult, box: StockBox) -> SetupPicture:
     program = made.program
     drawn = picture_of(made.job.part.name, program, made.coverage)
     part = [line for rows in drawn.contours for line in traced(rows, PENS[PART])]
@@ -88,7 +88,7 @@ def _picture(made: MakeResult, box: StockBox) -> SheetPicture:
     x, y, _ = work_origin(made.job, box)
     words = legend((PART, POCKET, CONTOUR), [*paths, *part])
     words += (("Keep-out", clamps[0]),) if clamps else ()
-    return SheetPicture((box.x0, box.y0, box.x1, box.y1), (x, y), (*paths, *part, *clamps), words)
+    return SetupPicture((box.x0, box.y0, box.x1, box.y1), (x, y), (*paths, *part, *clamps), words)
 
 
 def _facts(made: MakeResult, box: StockBox, report: Json) -> list[SheetFact]:

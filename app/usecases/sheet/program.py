@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...core.durations import minutes_words
 from ...formats.plot.page import TracedPolyline
 from ...formats.plot.picture import POCKET, RAPID
-from ...formats.sheet.content import SetupSheet, SheetColumn, SheetFact, SheetPicture, SheetProof, SheetTable
+from ...formats.sheet.content import SetupPicture, SetupSheet, SheetColumn, SheetFact, SheetProof, SheetTable
 from ...gcode.interpreter.program import Severity
 from ...model.finding import FindingKind
 from ...model.motion import MotionKind, Motions
@@ -82,13 +82,13 @@ def _verdict(count: int, cut: SheetCut | None) -> str:
     return "Proven: no gouge, no rapid in metal, nothing left within reach"
 
 
-def _picture(programs: tuple[ExaminedProgram, ...], cut: SheetCut | None) -> SheetPicture:
+def _picture(programs: tuple[ExaminedProgram, ...], cut: SheetCut | None) -> SetupPicture:
     cuts = [line for each in programs for line in _lines(each.program.motions, rapid=False)]
     rapids = [line for each in programs for line in _lines(each.program.motions, rapid=True)]
     lines = (*rapids, *cuts)
     box = None if cut is None else cut.done.setup.stock.box
     words = tuple(("Cut" if word == POCKET.name else word, line) for word, line in legend((POCKET, RAPID), lines))
-    return SheetPicture(None if box is None else (box[0], box[1], box[2], box[3]), (0.0, 0.0), lines, words)
+    return SetupPicture(None if box is None else (box[0], box[1], box[2], box[3]), (0.0, 0.0), lines, words)
 
 
 def _lines(motions: Motions, rapid: bool) -> Iterator[TracedPolyline]:

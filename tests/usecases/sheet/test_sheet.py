@@ -12,7 +12,7 @@ import pytest
 
 from app.formats.plot.pdf_text import text_width, wrapped
 from app.formats.readers import read_drawing
-from app.formats.sheet.content import SetupSheet, SheetColumn, SheetFact, SheetPicture, SheetProof, SheetTable
+from app.formats.sheet.content import SetupPicture, SetupSheet, SheetColumn, SheetFact, SheetProof, SheetTable
 from app.formats.sheet.layout import HEIGHT, MARGIN, WIDTH
 from app.formats.sheet.write import sheet_bytes
 from app.model.job import Job, OriginXY, OriginZ, Stock
@@ -159,7 +159,7 @@ def test_the_page_for_browsers_needs_no_other_file(sheet: SetupSheet) -> None:
 
 
 def test_names_are_no_markup_and_other_scripts_are_drawn() -> None:
-    picture = SheetPicture(None, None, ())
+    picture = SetupPicture(None, None, ())
     facts, proofs = (SheetFact("a", "b"),), (SheetProof("c", "d", True),)
     sheet = SetupSheet("<b>段取り", "a & b", "Proven", True, picture, facts, (), proofs, (), (), (), "h")
     assert b"<b>" not in sheet_bytes(sheet, ".html").split(b"<body>")[1].split(b"</header>")[0]
