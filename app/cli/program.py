@@ -41,6 +41,8 @@ SUMMARIES = {
     "surface": CommandSummary("surface SCENE.toml -o OUT", "tool paths over compound surfaces, each move proven"),
     "batch": CommandSummary("batch FOLDER -o OUT", "many parts made, checked or smoothed, and a table of them"),
     "stages": CommandSummary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
+    "desktop": CommandSummary("desktop", "the entry of the desktop's menu, icon and kinds of files, for this user"),
+    "licences": CommandSummary("licences", "whose work is inside, and under which licence"),
     "figure11": CommandSummary("figure11", "how long software and depth buffer take for the cuts of 1999"),
 }
 """In the order of the help. A command is the `COMMAND` of the module of its name in `commands`."""

@@ -9,7 +9,7 @@ import os
 import signal
 import threading
 from collections.abc import Callable
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
@@ -90,10 +90,17 @@ class ProcessLane:
     def submit(self, task: BatchTask) -> Future[BatchResult]:
         """Begin with a part."""
         self._news = LaneNews()
+        try:
+            return self._begun().submit(_told_work, self._work, task)
+        except BrokenExecutor:  # it died between two parts
+            self.close()
+            return self._begun().submit(_told_work, self._work, task)
+
+    def _begun(self) -> ProcessPoolExecutor:
         if self._executor is None:
             self._hears, tells = self._context.Pipe(duplex=False)
             self._executor = ProcessPoolExecutor(1, self._context, _begin, (tells,))
-        return self._executor.submit(_told_work, self._work, task)
+        return self._executor
 
     def news(self) -> LaneNews:
         """Return how far the part is."""
