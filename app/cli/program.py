@@ -42,6 +42,7 @@ SUMMARIES = {
     "batch": CommandSummary("batch FOLDER -o OUT", "many parts made, checked or smoothed, and a table of them"),
     "stages": CommandSummary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
     "desktop": CommandSummary("desktop", "the entry of the desktop's menu, icon and kinds of files, for this user"),
+    "manual": CommandSummary("manual -o OUT", "the manual as pages for browsers, with search, in both languages"),
     "licences": CommandSummary("licences", "whose work is inside, and under which licence"),
     "figure11": CommandSummary("figure11", "how long software and depth buffer take for the cuts of 1999"),
 }

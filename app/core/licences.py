@@ -63,20 +63,25 @@ def _needed(package: Distribution) -> Iterator[str]:
 def _licence_of(package: Distribution) -> PackageLicence:
     about = package.metadata
     addresses = [value.partition(",")[2].strip() for value in about.get_all("Project-URL") or ()]
-    home = about.get("Home-page") or next(iter(addresses), "")
+    home = _field(package, "Home-page") or next(iter(addresses), "")
     return PackageLicence(about["Name"], package.version, _name_of(package), home, dict(_texts(package)))
 
 
 def _name_of(package: Distribution) -> str:
     about = package.metadata
-    short = about.get("License-Expression") or about.get("License") or ""
+    short = _field(package, "License-Expression") or _field(package, "License")
     if short and len(short) <= _LONG and "\n" not in short and short.upper() != "UNKNOWN":
-        return str(short)
+        return short
     classifiers = [
         each.rpartition(" :: ")[2] for each in about.get_all("Classifier") or () if each.startswith("License :: ")
     ]
     told = [each for each in classifiers if each != "OSI Approved"]
-    return ", ".join(told) or str(short).strip().partition("\n")[0][:_LONG] or "not stated"
+    return ", ".join(told) or short.strip().partition("\n")[0][:_LONG] or "not stated"
+
+
+def _field(package: Distribution, name: str) -> str:
+    """Return a field; "" where there is none."""
+    return next(iter(package.metadata.get_all(name) or ()), "")
 
 
 def _texts(package: Distribution) -> Iterator[tuple[str, str]]:
