@@ -166,7 +166,7 @@ def _page_html(parser: MarkdownIt, page: ManualPage, shown: Sequence[ManualPage]
 
 
 def linked(href: str, language: ManualLanguage) -> str:
-    """Return where a link of a page leads on the site: to a page of a language; to the index from the project's front."""
+    """Return where a link of a page leads on the site: to a page of a language, or to the index."""
     target, mark, anchor = href.partition("#")
     if ":" in href or not target:
         return href

@@ -113,8 +113,8 @@ def test_the_search_finds_sections_by_their_words(site: dict[str, bytes]) -> Non
     if node is None:
         pytest.skip("there is no node here to run the page's script with")
     stub = """
-    const element = () => ({addEventListener() {}, replaceChildren(...a) { this.items = a; }, append(...a) { this.a = a; },
-      form: {addEventListener() {}}, value: "", hidden: true});
+    const element = () => ({addEventListener() {}, replaceChildren(...a) { this.items = a; },
+      append(...a) { this.a = a; }, form: {addEventListener() {}}, value: "", hidden: true});
     const elements = {search: element(), found: element()};
     const document = {getElementById: id => elements[id], createElement: element, addEventListener() {}};
     """
