@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,9 @@ def test_any_other_program_says_what_nobody_knows(tmp_path: Path) -> None:
     assert main([*with_tool, "--quiet"]) == 0
     page = (tmp_path / "o.html").read_text()
     assert "compared with no part" in page and "no holder is given for T7" in page
+    row = re.search(r"<tr><td class=\"number\">7</td>(.*?)</tr>", page)
+    assert row is not None  # speeds and feeds are the program's, what it does not say is not made up
+    assert re.findall(r">([^<>]+)</td>", row[1])[1:7] == ["4", "-", "&gt; 1", "not given", "9000", "100 to 300"]
 
 
 def test_errors_of_the_text_are_on_it(tmp_path: Path) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ... import __version__
 from ...core.digest import sha256
@@ -36,7 +38,7 @@ TOOL_COLUMNS = (
     SheetColumn("Stick-out mm", 0.12, True),
     SheetColumn("Holder", 0.14),
     SheetColumn("rpm", 0.08, True),
-    SheetColumn("Feed mm/min", 0.13, True),
+    SheetColumn("Feeds mm/min", 0.13, True),
     SheetColumn("Min", 0.08, True),
 )
 
@@ -64,28 +66,52 @@ def legend(
     return tuple((style.name, first[PENS[style]]) for style in styles if PENS[style] in first)
 
 
-def tool_table(tools: Sequence[Tool], seconds: Sequence[float], depths: Sequence[float]) -> SheetTable:
-    """Return the table of tools.
+@dataclass(frozen=True)
+class ToolUse:
+    """What a program does with a tool.
 
-    Args:
-        seconds: how long each moves. depths: how far below the stock's top each goes, mm.
+    Attributes:
+        tool: its shape, and how it is held. seconds: of its motions.
+        depth: how far below the stock's top it goes, mm.
+        speeds: of its spindle, rpm. feeds: of its motions that are no rapids, mm/min; what is not above 0 is not known.
+        flutes_known: whether anybody has said how many flutes it has.
     """
-    rows = tuple(_tool_row(tool, time, depth) for tool, time, depth in zip(tools, seconds, depths, strict=True))
-    return SheetTable("Tools", TOOL_COLUMNS, rows)
+
+    tool: Tool
+    seconds: float
+    depth: float
+    speeds: NDArray[np.float64]
+    feeds: NDArray[np.float64]
+    flutes_known: bool = True
 
 
-def _tool_row(tool: Tool, seconds: float, depth: float) -> tuple[str, ...]:
-    stick_out = f"{tool.stick_out:g}" if tool.stick_out else f"> {max(depth, 0.0):.3g}"
+def tool_table(uses: Sequence[ToolUse]) -> SheetTable:
+    """Return the table of tools."""
+    return SheetTable("Tools", TOOL_COLUMNS, tuple(map(_tool_row, uses)))
+
+
+def span_words(values: NDArray[np.float64]) -> str:
+    """Return the least and the greatest of values, or the one that there is; a dash where none is known."""
+    known = values[values > 0]
+    if not len(known):
+        return "-"
+    low, high = f"{known.min():.0f}", f"{known.max():.0f}"
+    return low if low == high else f"{low} to {high}"
+
+
+def _tool_row(use: ToolUse) -> tuple[str, ...]:
+    tool = use.tool
+    stick_out = f"{tool.stick_out:g}" if tool.stick_out else f"> {max(use.depth, 0.0):.3g}"
     return (
         str(tool.number),
         _tool_words(tool),
         f"{tool.diameter:g}",
-        str(tool.flutes),
+        str(tool.flutes) if use.flutes_known else "-",
         stick_out,
         _holder_words(tool),
-        f"{tool.spindle_speed:.0f}",
-        f"{tool.feed_rate:.0f}",
-        minutes_words(seconds),
+        span_words(use.speeds),
+        span_words(use.feeds),
+        minutes_words(use.seconds),
     )
 
 

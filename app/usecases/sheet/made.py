@@ -29,7 +29,7 @@ from ...model.part import Units
 from ...model.stock_box import StockBox, stock_box, work_origin
 from ..make import MakeResult
 from ..picture import picture_of
-from .common import CLAMP_PEN, MADE_BY, PENS, hashed, legend, styled, tool_table, traced
+from .common import CLAMP_PEN, MADE_BY, PENS, ToolUse, hashed, legend, span_words, styled, tool_table, traced
 
 Json = dict[str, Any]
 
@@ -164,11 +164,16 @@ def _clamping(made: MakeResult, box: StockBox) -> str:
 
 
 def _tools(made: MakeResult) -> SheetTable:
-    report, moves = made.report.data, made.program.moves
+    report, moves, above = made.report.data, made.program.moves, made.job.stock.above
     times = {each["number"]: each["time_s"] for each in report["tools"]}
-    used = [tool for tool in made.job.tools if np.any(moves.tool == tool.number)]
-    depths = [-float(moves.end[moves.tool == tool.number, 2].min()) + made.job.stock.above for tool in used]
-    return tool_table(used, [times.get(tool.number, 0.0) for tool in used], depths)
+    uses = []
+    for tool in made.job.tools:
+        mine = moves.tool == tool.number
+        if np.any(mine):
+            depth = above - float(moves.end[mine, 2].min())
+            speeds = np.array([tool.spindle_speed])
+            uses.append(ToolUse(tool, times.get(tool.number, 0.0), depth, speeds, moves.feed[mine]))
+    return tool_table(uses)
 
 
 _OPERATIONS = (
@@ -179,24 +184,25 @@ _OPERATIONS = (
     SheetColumn("Stepdown", 0.10, True),
     SheetColumn("Stepover", 0.10, True),
     SheetColumn("rpm", 0.09, True),
-    SheetColumn("Feed mm/min", 0.13, True),
+    SheetColumn("Feeds mm/min", 0.13, True),
     SheetColumn("Min", 0.10, True),
 )
 
 
 def _operations(made: MakeResult) -> SheetTable:
     """Return the table of operations, in the order of cutting."""
-    job, report, moves = made.job, made.report.data, made.program.moves
+    report, moves = made.report.data, made.program.moves
     first = {int(each): at for each, at in zip(*np.unique(moves.operation, return_index=True), strict=True)}
     rows = [
-        _operation_row(job, number, index, report["operations"][index])
+        _operation_row(made, number, index)
         for number, index in enumerate(sorted((each for each in first if each >= 0), key=first.__getitem__), 1)
     ]
     total = ("", "Total, all included", *[""] * 6, minutes_words(report["time_s"]))
     return SheetTable("Operations", _OPERATIONS, tuple(rows), total)
 
 
-def _operation_row(job: Job, number: int, index: int, told: Json) -> tuple[str, ...]:
+def _operation_row(made: MakeResult, number: int, index: int) -> tuple[str, ...]:
+    job, moves, told = made.job, made.program.moves, made.report.data["operations"][index]
     operation = job.operations[index]
     tool = job.tool(operation.cut.tool)
     left = f", {told['stock_to_leave_mm']:g} mm left on walls" if told.get("stock_to_leave_mm") else ""
@@ -209,7 +215,7 @@ def _operation_row(job: Job, number: int, index: int, told: Json) -> tuple[str, 
         _length(told.get("stepdown_mm")),
         _length(told.get("stepover_mm")),
         f"{tool.spindle_speed:.0f}",
-        f"{tool.feed_rate:.0f}",
+        span_words(moves.feed[moves.operation == index]),
         minutes_words(told["time_s"]),
     )
 

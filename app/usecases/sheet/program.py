@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -21,7 +21,7 @@ from ..cut import CutProgram
 from ..cut_report import CutReport
 from ..examine import CONTROLS, ExaminedProgram
 from ..setup import ReadySetup
-from .common import MADE_BY, PENS, hashed, legend, tool_table, traced
+from .common import MADE_BY, PENS, ToolUse, hashed, legend, span_words, tool_table, traced
 
 Json = dict[str, Any]
 
@@ -135,12 +135,18 @@ def _clamping(lowest: float, underside: float) -> str:
 
 
 def _tools(cut: SheetCut) -> SheetTable:
-    told = cut.report.data["tools"]
-    tools = [cut.ready.tools[each["number"]].tool for each in told]
-    number, motions = cut.done.setup.numbers(), [each.program.motions for each in cut.ready.programs]
-    ends = np.concatenate([each.end[:, 2] for each in motions])
-    lowest = [float(np.nanmin(ends[number == each["number"]], initial=cut.done.top)) for each in told]
-    return tool_table(tools, [each["time_s"] for each in told], [cut.done.top - low for low in lowest])
+    """Return the table of tools: shapes as they are known, speeds and feeds as the programs say them."""
+    number, programs = cut.done.setup.numbers(), [each.program for each in cut.ready.programs]
+    ends, feeds = (np.concatenate([getattr(each.motions, name) for each in programs]) for name in ("end", "feed"))
+    rapid = np.concatenate([each.motions.kind for each in programs]) == MotionKind.RAPID
+    speeds = np.concatenate([np.array([state.speed for state in each.states])[each.motions.state] for each in programs])
+    uses = []
+    for told in cut.report.data["tools"]:
+        mine = number == told["number"]
+        depth = cut.done.top - float(np.nanmin(ends[mine, 2], initial=cut.done.top))
+        tool = replace(cut.ready.tools[told["number"]].tool, number=max(told["number"], 1))
+        uses.append(ToolUse(tool, told["time_s"], depth, speeds[mine], feeds[mine & ~rapid], flutes_known=False))
+    return tool_table(uses)
 
 
 _RUNS = (
@@ -170,10 +176,7 @@ def _runs(programs: tuple[ExaminedProgram, ...]) -> SheetTable:
 
 
 def _run_cells(motions: Motions, run: NDArray[np.intp], tool: int, seconds: float) -> tuple[str, ...]:
-    feeds = motions.feed[run][motions.kind[run] != MotionKind.RAPID]
-    feeds = feeds[feeds > 0]
-    low, high = (feeds.min(), feeds.max()) if len(feeds) else (0.0, 0.0)
-    words = "-" if not len(feeds) else f"{low:.0f}" if low == high else f"{low:.0f} to {high:.0f}"
+    words = span_words(motions.feed[run][motions.kind[run] != MotionKind.RAPID])
     lines = f"{motions.line[run].min()} to {motions.line[run].max()}"
     return (str(tool or "-"), lines, f"{np.nanmin(motions.end[run, 2]):.3f}", words, minutes_words(seconds))
 

@@ -75,7 +75,7 @@ def test_its_figures_are_those_of_the_report(sheet: SetupSheet, made: MakeResult
     assert cells(sheet, 0, "Holder") == ["Ø 28 x 20 mm", "not given"]
     assert cells(sheet, 1, "Operation") == ["Pocket", "Contour"]
     assert cells(sheet, 1, "Depth mm") == ["3", "3"] and cells(sheet, 1, "Stepdown") == ["1.5", "2"]
-    assert cells(sheet, 1, "Feed mm/min") == ["600", "350"]
+    assert cells(sheet, 1, "Feeds mm/min") == ["200 to 600", "200 to 350"] == cells(sheet, 0, "Feeds mm/min")
     seconds = round(made.report.data["time_s"])
     assert sheet.tables[1].total[-1] == f"{seconds // 60}:{seconds % 60:02d}"
     assert cells(sheet, 1, "Min") == [
