@@ -59,6 +59,9 @@ def add_batch_options(parser: OptionParser) -> None:
     parser.add_argument(
         "--images", choices=["svg", "png"], help="of make: a picture of part and paths beside each program"
     )
+    parser.add_argument(
+        "--sheets", choices=["pdf", "html"], help="of make: the sheet for the machine beside each program"
+    )
     parser.add_argument("--again", action="store_true", help="do all parts, whatever is done already")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     _add_passed(parser)

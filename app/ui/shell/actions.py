@@ -62,6 +62,7 @@ MENUS: tuple[tuple[str, tuple[ActionSpec, ...]], ...] = (
             SEPARATOR,
             ActionSpec("export_drawing", "Export &drawing…", "Ctrl+Alt+E"),
             ActionSpec("export", "&Export NC…", "Ctrl+E", "export"),
+            ActionSpec("sheet", "S&heet for the machine…"),
             ActionSpec("frame", "Export &frame of the job…"),
             ActionSpec("underlay", "Place p&icture to trace…"),
             ActionSpec("plot", "&Print or plot…", "Ctrl+P"),

@@ -59,6 +59,7 @@ from .owned_curves_controller import OwnedCurvesController
 from .proposal_controller import ProposalController
 from .recovery_controller import RecoveryController
 from .shape_language_controller import ShapeLanguageController
+from .sheet_export_controller import SheetExportController
 from .shortcuts import Shortcuts
 from .snap_controller import SnapController
 from .start_page.controller import StartController
@@ -153,6 +154,7 @@ class WindowController(QObject):
         """Make what serves the drawing and its job."""
         window, canvas = self.window_, self.window_.canvas
         self.drawing_export = DrawingExportController(window, workspace)
+        self.sheet_export = SheetExportController(window, workspace)
         self.tools = ToolExchange(window.panel, workspace)
         self.tab_controller = TabController(window.panel, canvas, self.document)
         self.underlay_controller = UnderlayController(canvas, workspace, commands)
@@ -181,8 +183,10 @@ class WindowController(QObject):
     def _connect_helpers(self) -> None:
         window, views = self.window_, self.window_.views
         self._on("export_drawing", self.drawing_export.start)
-        self.drawing_export.failed.connect(self._say_error)
-        for part in (self.drawing_export, self.tools, self.proposal_controller):
+        self._on("sheet", self.sheet_export.start)
+        for exporting in (self.drawing_export, self.sheet_export):
+            exporting.failed.connect(self._say_error)
+        for part in (self.drawing_export, self.sheet_export, self.tools, self.proposal_controller):
             part.said.connect(self._say)
         self.proposal_controller.failed.connect(self._say_error)
         self.underlay_controller.refused.connect(lambda text: window.status.show_message(text, error=True))

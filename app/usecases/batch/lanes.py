@@ -9,7 +9,7 @@ import os
 import signal
 import threading
 from collections.abc import Callable
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
@@ -49,6 +49,10 @@ class Lane(Protocol):
     def news(self) -> LaneNews:
         """Return how far the part is."""
 
+    @property
+    def ready(self) -> bool:
+        """Whether what does the part is there, so that its time runs."""
+
     def renew(self, future: Future[BatchResult]) -> None:
         """Give up the part and be ready for the next."""
 
@@ -78,13 +82,25 @@ class ProcessLane:
         self._listen()
         return self._pid
 
+    @property
+    def ready(self) -> bool:
+        """Whether its process has begun."""
+        return self.pid != 0
+
     def submit(self, task: BatchTask) -> Future[BatchResult]:
         """Begin with a part."""
         self._news = LaneNews()
+        try:
+            return self._begun().submit(_told_work, self._work, task)
+        except BrokenExecutor:  # it died between two parts
+            self.close()
+            return self._begun().submit(_told_work, self._work, task)
+
+    def _begun(self) -> ProcessPoolExecutor:
         if self._executor is None:
             self._hears, tells = self._context.Pipe(duplex=False)
             self._executor = ProcessPoolExecutor(1, self._context, _begin, (tells,))
-        return self._executor.submit(_told_work, self._work, task)
+        return self._executor
 
     def news(self) -> LaneNews:
         """Return how far the part is."""
@@ -173,6 +189,11 @@ class ExecutorLane:
         future = self._executor.submit(self._work, task)  # type: ignore[call-arg]  # its progress has a default
         self._futures = {future}
         return future
+
+    @property
+    def ready(self) -> bool:
+        """Nobody knows, so its time runs."""
+        return True
 
     def news(self) -> LaneNews:
         """Nobody knows how far it is."""

@@ -13,7 +13,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from .lanes import Lane
 from .task import BatchResult, BatchRow, BatchTask, BatchVerdict
 
-TRIES = 3
+TRIES = 4
 """So often a part is begun whose process is killed: whoever kills at random seldom meets the same part again."""
 
 LIMIT_S = 3600.0
@@ -26,7 +26,7 @@ Finished = Callable[[int, BatchResult], None]
 
 @dataclass
 class _Running:
-    """A part on a lane: its place in the list, its outcome to come, when it was begun."""
+    """A part on a lane: its place in the list, its outcome to come, since when it is worked on."""
 
     place: int
     future: Future[BatchResult]
@@ -82,6 +82,8 @@ class BatchRun:
         if running.future.done():
             del self._running[number]
             self._settle(number, running)
+        elif not self._lanes[number].ready:
+            running.since = monotonic()
         elif monotonic() - running.since > self._limit_s:
             del self._running[number]
             self._lanes[number].renew(running.future)

@@ -55,11 +55,13 @@ class BatchExtras:
 
     Attributes:
         report: everything that was measured, as JSON.
-        image: suffix of a picture of part and paths, .svg or .png; "" = none.
+        image: suffix of a picture of part and paths, .svg or .png; "" = none. sheet: of the sheet for the machine, .pdf
+            or .html, alike.
     """
 
     report: bool = False
     image: str = ""
+    sheet: str = ""
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.primitives import Rows, boxes, contour_rows, samples
-from ...model.motion import MotionKind, Motions, Plane
-from ...model.motion_path import spline_points
+from ...model.motion import MotionKind, Motions
+from ...model.motion_path import motion_rows, spline_points
 from ...model.moves import MoveKind, Program
 from ...toolpath.coverage.flat import move_rows
 
@@ -51,13 +51,7 @@ def part_picture(program: Program) -> str:
 
 def motions_picture(motions: Motions) -> str:
     """Return the small picture of a program that was read: where it cuts."""
-    kind = motions.kind
-    curved = ((kind == MotionKind.ARC_CW) | (kind == MotionKind.ARC_CCW)) & (motions.plane == Plane.XY)
-    centre = np.where(curved[:, None], np.nan_to_num(motions.centre[:, :2]), 0.0)
-    start, end = motions.start[:, :2], motions.end[:, :2]
-    radius = np.where(curved, np.hypot(*(start - centre).T), 0.0)
-    turn = np.where(curved, np.where(kind == MotionKind.ARC_CCW, 1.0, -1.0), 0.0)
-    rows = np.column_stack([start, end, centre, radius, turn])
+    rows, kind = motion_rows(motions), motions.kind
     shown = (kind != MotionKind.RAPID) & (kind != MotionKind.SPLINE) & np.all(np.isfinite(rows), axis=1)
     splines = [_chords(spline_points(spline)[:, :2]) for spline in motions.splines.values()]
     return thumbnail((ThumbnailLine("path", _joined([rows[shown], *splines])),))

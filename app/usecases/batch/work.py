@@ -62,6 +62,7 @@ def _beside(task: BatchTask) -> dict[str, PurePosixPath]:
     base, extras = PurePosixPath(task.output), task.extras
     wanted = {"report": ".json"} if extras.report else {}
     wanted |= {"image": extras.image} if extras.image else {}
+    wanted |= {"sheet": extras.sheet} if extras.sheet else {}
     return {what: base.with_suffix(suffix) for what, suffix in wanted.items()}
 
 
@@ -69,8 +70,8 @@ def _made(task: BatchTask, options: MakeOptions, progress: Progress) -> BatchRes
     from pathlib import Path
 
     made = make(_file_name(task), task.data, options, progress)
-    beside = {what: Path(path) for what, path in _beside(task).items()}
-    files = {beside[what].as_posix(): data for what, data in other_files(made, beside).items()}
+    named = {what: Path(path) for what, path in _beside(task).items()} | {"output": Path(task.output)}
+    files = {named[what].as_posix(): data for what, data in other_files(made, named, task.data).items()}
     for file in made.files:
         files[file.named(Path(task.output)).as_posix()] = file.nc.text.encode("ascii")
     report = made.report.data

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+import signal
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
@@ -51,14 +52,29 @@ def test_each_part_has_its_own_fate(tmp_path: Path) -> None:
         "dies once": BatchVerdict.CLEAN,
         "good too": BatchVerdict.CLEAN,
     }
-    assert "killed 3 times" in rows["dies"].findings[0]
+    assert "killed 4 times" in rows["dies"].findings[0]
 
 
 def test_a_part_that_hangs_is_ended_and_the_next_is_done() -> None:
     began = time.monotonic()
-    rows = run(["hangs", "good"], [ProcessLane(trouble)], limit_s=4.0)
+    rows = run(["hangs", "good"], [ProcessLane(trouble)], limit_s=3.0)
     assert (rows["hangs"].verdict, rows["good"].verdict) == (BatchVerdict.OVERDUE, BatchVerdict.CLEAN)
     assert time.monotonic() - began < 60
+
+
+def test_a_process_that_dies_between_two_parts_harms_none() -> None:
+    lane = ProcessLane()
+    try:
+        assert lane.submit(TASK).result(60).row.verdict is BatchVerdict.CLEAN
+        os.kill(lane.pid, signal.SIGKILL)
+        executor = lane._executor
+        assert executor is not None
+        with pytest.raises(BrokenExecutor):
+            for _ in range(1000):
+                executor.submit(os.getpid).result(60)
+        assert lane.submit(TASK).result(60).row.verdict is BatchVerdict.CLEAN
+    finally:
+        lane.close()
 
 
 def test_any_executor_does() -> None:
