@@ -51,6 +51,7 @@ from .proposal.propose import Proposal
 from .proposed_job import with_proposal
 from .report import MakeReport, ReportData, make_report, rings_in_words
 from .thread_proofs import thread_proofs
+from .wear_proofs import wear_proofs
 from .written import WrittenMotions, write_and_check
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
@@ -289,6 +290,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     carvings = carving_proofs(program, job, motions, progress.part(0.21, 0.22))
     threads = thread_proofs(program, job, motions)
     faced = face_proofs(program, job, motions)
+    worn = wear_proofs(program, job, written, motions, progress.part(0.219, 0.22))
     depths = gouge_depths(program, job, progress=progress.part(0.22, 0.28))
     rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
@@ -304,6 +306,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
         *(finding for carving in carvings.values() for finding in carving.findings()),
         *(finding for thread in threads.values() for finding in thread.findings()),
         *(finding for each in faced.values() for finding in each.findings()),
+        *(finding for each in worn.values() for finding in each.findings()),
         *_shape_findings(program, job),
         *written.coarseness(job.out_units),
         *(written.misfits() if context.machine else ()),
@@ -314,7 +317,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     findings = worst_first((*own, *program.findings, *context.drawing_findings))
     progress.step(1.0, "Done")
     measured = ReportData(
-        program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings, threads, faced
+        program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings, threads, faced, worn
     )
     report = make_report(measured)
     return MakeResult(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
