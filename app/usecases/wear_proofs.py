@@ -138,7 +138,7 @@ class _Ways:
 
 
 @dataclass(frozen=True, eq=False)
-class _Walls:
+class _WornWalls:
     """What a path keeps off, and by how much: the tool's radius and the stock to leave, mm."""
 
     rows: Rows
@@ -182,7 +182,7 @@ class _Worn:
         if not len(rows):
             return made
         keep = self.job.tool(operation.cut.tool).radius + operation.cut.stock_to_leave
-        walls = _Walls(rows, DistanceField.of(rows), keep)
+        walls = _WornWalls(rows, DistanceField.of(rows), keep)
         for k, (file, check) in enumerate(zip(self.written.files, self.written.checks, strict=True)):
             nominal = self._ways(check.program, file, index)
             if not nominal.along.any():
@@ -227,7 +227,7 @@ class _Worn:
         return _Ways(rows, motions.line[own], along)
 
 
-def _worse(made: WearProof, nominal: _Ways, worn: _Ways, walls: _Walls, wear: float) -> WearProof:
+def _worse(made: WearProof, nominal: _Ways, worn: _Ways, walls: _WornWalls, wear: float) -> WearProof:
     """Return a proof with what one wear adds to it.
 
     Args:
