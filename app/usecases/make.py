@@ -11,7 +11,7 @@ from itertools import accumulate
 
 import numpy as np
 
-from ..core.errors import GeometryError
+from ..core.errors import GeometryError, InputError
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..formats.drawing import Drawing
@@ -43,6 +43,7 @@ from .cut_job import MeasuredMoves, cut_job, news
 from .engagement_proofs import engagement_proofs
 from .face_proofs import face_proofs
 from .feeds import JobWithFeeds
+from .layer_operations import with_layer_rules
 from .machining import check_order
 from .options import MakeOptions, job_with_options, with_feeds
 from .own_job import with_own_job
@@ -78,6 +79,7 @@ class MakeResult:
         cut: the files cut out of the stock and compared with the drawing; None when no move was made.
         proposal: that the operations are of; None where none was asked for.
         feeds: the speeds and feeds that were proposed; None where they are those of the job.
+        ruled: what rules for layers have made, a line a layer.
     """
 
     job: Job
@@ -90,6 +92,7 @@ class MakeResult:
     cut: CutProgram | None
     proposal: Proposal | None = None
     feeds: JobWithFeeds | None = None
+    ruled: tuple[str, ...] = ()
 
     @property
     def nc(self) -> NcText:
@@ -149,6 +152,7 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     made = _finished(program, context, progress.part(context.computed_at, 1.0))
     if (proposal := context.proposal) is not None:
         made = replace(made, report=made.report.with_proposal(proposal.report()), proposal=proposal)
+    made = replace(made, ruled=context.ruled)
     if (feeds := context.feeds) is not None:
         made = replace(made, report=made.report.with_feeds(feeds.report()), feeds=feeds)
     if not len(made.program.moves):
@@ -169,6 +173,7 @@ class MakeContext:
         computed_at: share of the progress at which they are made.
         proposal: the operations that were proposed; None where they were given.
         feeds: the speeds and feeds that were proposed; None where they were given.
+        ruled: what rules for layers have made, a line a layer.
     """
 
     job: Job
@@ -179,15 +184,19 @@ class MakeContext:
     computed_at: float = 0.64
     proposal: Proposal | None = None
     feeds: JobWithFeeds | None = None
+    ruled: tuple[str, ...] = ()
 
 
 def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
     """Return how a drawing is machined on its exact lines and arcs."""
     drawing = read_for(name, data, options)
-    options, proposal = with_proposal(drawing.part, options, progress)
-    found = drawing.findings if proposal is None else (*proposal.findings, *drawing.findings)
+    ruled = with_layer_rules(drawing.part, options)
+    options, proposal = with_proposal(drawing.part, ruled.options, progress)
+    found = (*ruled.findings, *(proposal.findings if proposal else ()), *drawing.findings)
     fed = with_feeds(job_from_drawing(drawing, options), options)
-    return replace(_exact_context(fed.job, found, options.machine), proposal=proposal, feeds=_proposed(fed))
+    return replace(
+        _exact_context(fed.job, found, options.machine), proposal=proposal, feeds=_proposed(fed), ruled=ruled.lines
+    )
 
 
 def _proposed(fed: JobWithFeeds) -> JobWithFeeds | None:
@@ -206,6 +215,8 @@ def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress)
     from .bitmap_job import bitmap_job
     from .bitmap_way import compute_on_bitmap
 
+    if options.rules:
+        raise InputError("Rules for layers have no effect on pixels, which have none; leave the template away.")
     ready = bitmap_job(name, data, options)
     fed = with_feeds(ready.job, options)
     return MakeContext(
