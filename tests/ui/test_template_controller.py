@@ -33,7 +33,7 @@ def test_the_layers_get_their_operations_as_one_step(qtbot, plate) -> None:
     ]
     assert (job.stock.margin, len(job.tools), job.post, job.part) == (10.0, 3, before.post, before.part)
     assert "2 operations" in plate.window_.notice.text.text()
-    (note,) = (line for line in plate.log.lines if 'layer "pocket 3mm"' in line.reply)
+    (note,) = (line for line in plate.log.lines if "layer 'pocket 3mm'" in line.reply)
     assert "3 mm deep, as its name says" in note.reply
     plate.window_.actions_["undo"].trigger()
     assert plate.document.job == before

@@ -45,7 +45,11 @@ FEEDS = {"tools": False, "proposed": True}
 SETTINGS = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out")
 """Tables that hold the job's own parameters, in the order in which they are written."""
 
-TABLES = (*SETTINGS, "tool", "operation", "layer")
+TABLES = (*SETTINGS, "tool", "operation")
+"""Of a job, in files of any kind."""
+
+_RULES = "layer"
+"""Of a job file alone: rules for layers; a project's table of that name holds the drawing's."""
 
 
 @dataclass(frozen=True)
@@ -238,8 +242,8 @@ class _JobReader:
     def job_file(self) -> JobFile:
         """Return everything that the file says."""
         for key in self._tree:
-            if key not in TABLES:
-                raise self._wrong(key, f"is no table of a job file; use {', '.join(TABLES)}")
+            if key not in (*TABLES, _RULES):
+                raise self._wrong(key, f"is no table of a job file; use {', '.join((*TABLES, _RULES))}")
         tables = {path: self._settings(path) for path in SETTINGS if path != "copies"}
         self._check_drawing(tables["drawing"])
         self._check_keep_out(tables["keep_out"])
@@ -266,7 +270,7 @@ class _JobReader:
 
     def _rules(self) -> Iterator[LayerRule]:
         """Yield what is done on layers: an operation each, without curves."""
-        tables = self._tables("layer")
+        tables = self._tables(_RULES)
         told: list[dict[str, Any]] = []
         for table in tables:
             for key in ("curves", "layers"):
