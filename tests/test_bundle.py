@@ -1,5 +1,5 @@
-"""The folder that `.ci/bundle` packs is the whole program: where there is nothing but the C library and a shell it makes
-the same NC text as the tree does, with no kernel left to compile.
+"""The folder that `.ci/bundle` packs is the whole program: where there is nothing but the C library and a shell it
+makes the same NC text as the tree does, with no kernel left to compile.
 """
 
 import os

@@ -79,8 +79,15 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
         required=True,
         help="the NC program; written whole or not at all",
     )
-    group.add_argument(
+    job = group.add_mutually_exclusive_group()
+    job.add_argument(
         "--job", metavar="J.toml", type=Path, help="tools, operations, stock and origin; options override it"
+    )
+    job.add_argument(
+        "--template",
+        metavar="T.toml",
+        type=Path,
+        help="a job file with rules for layers, [[layer]]: each layer of this drawing that one takes gets an operation",
     )
     group.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     group.add_argument("--image", metavar="OUT.svg|png", type=Path, help="a picture of part and paths")
@@ -276,7 +283,9 @@ def read_make_options(arguments: argparse.Namespace) -> MakeOptions:
     Raises:
         HitofudeError: an option cannot be used, or a file cannot be read.
     """
-    options = _with_tools(_with_job(make_options(arguments), arguments.job), arguments.tools)
+    options = _with_tools(_with_job(make_options(arguments), arguments.job or arguments.template), arguments.tools)
+    if arguments.template is not None and not options.rules:
+        raise InputError(f"--template {arguments.template} has no [[layer]], so it is a job file; name it with --job")
     return replace(options, propose_feeds=False) if arguments.feeds == "tools" else options
 
 
@@ -292,6 +301,7 @@ def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
         job=file.job,
         units=options.units or file.units,
         propose_feeds=options.propose_feeds or file.proposes_feeds,
+        rules=file.rules,
     )
 
 
@@ -317,5 +327,5 @@ def make_files(arguments: argparse.Namespace) -> dict[str, Path]:
         raise InputError(f"--image {outputs['image']}: a picture is .svg or .png; change the name")
     if "sheet" in outputs and outputs["sheet"].suffix.lower() not in SUFFIXES:
         raise InputError(f"--sheet {outputs['sheet']}: a sheet is {' or '.join(SUFFIXES)}; change the name")
-    check_outputs(outputs, [*named_files(arguments, "drawing", "job", "tools").values()])
+    check_outputs(outputs, [*named_files(arguments, "drawing", "job", "template", "tools").values()])
     return outputs

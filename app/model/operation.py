@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from ..core.errors import ParameterError
 from .curve_selectors import Selector
-from .entry import Entry, Lead, Tabs
+from .entry import Entry, Lead, LeadKind, Tabs
 from .fields import Condition, Unit, check_ranges, parameter, part, required, required_part
 from .tool import Tool
 
@@ -47,6 +47,13 @@ class Side(Enum):
     INSIDE = "inside"
     OUTSIDE = "outside"
     ON = "on"
+
+
+class CutterCompensation(Enum):
+    """Who offsets a contour to its side: the program alone, or also the control, by the wear in the tool's register."""
+
+    COMPUTER = "computer"
+    WEAR = "wear"
 
 
 class Order(Enum):
@@ -154,6 +161,12 @@ class CutParameters:
 
 
 _WITHIN = Condition(lambda operation: operation.side is Side.INSIDE, "a path inside", 'write side = "inside"')
+_WORN = Condition(
+    lambda operation: operation.compensation is CutterCompensation.WEAR,
+    "the wear word",
+    'add compensation = "wear"',
+    "--compensation wear",
+)
 _FINISHED = Condition(lambda operation: operation.finish_width > 0, "a finish pass", "add finish_width = 0.2")
 ENGAGED = (
     "most_engaged",
@@ -298,6 +311,11 @@ class Operation:
         return 0.0
 
     @property
+    def wear(self) -> float:
+        """How far the operator may offset its paths in the control, mm, either way; 0 = there is no word for it."""
+        return 0.0
+
+    @property
     def outer_lead(self) -> Lead | None:
         """How its paths round the outside of the drawing come to the walls; None where it has none there."""
         return None
@@ -374,6 +392,28 @@ class ContourOperation(Operation):
     most_engaged: float = parameter(
         1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
+    compensation: CutterCompensation = parameter(
+        CutterCompensation.COMPUTER,
+        "compensation",
+        "Compensation",
+        "who offsets the path: the computer, or by a wear word (G41, G42) also the control, from 0 on",
+        Unit.CHOICE,
+        option=True,
+        group="Walls",
+        choices=("Computer", "Wear"),
+    )
+    wear_range: float = parameter(
+        0.1,
+        "wear_range",
+        "Wear range",
+        "of the radius that the operator may enter, either way; the path is proven at 0 and at both ends",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        high=5.0,
+        option=True,
+        group="Walls",
+        needs=_WORN,
+    )
 
     open_edges: bool = parameter(False, *OPEN_EDGES, option=True, needs=_WITHIN)
 
@@ -387,6 +427,32 @@ class ContourOperation(Operation):
                 "A path on the line has no wall: dog-bones, finish width and stock to leave do not go with it; "
                 "take them out."
             )
+
+        if self.compensation is CutterCompensation.WEAR:
+            self._check_wear()
+
+    def _check_wear(self) -> None:
+        """Refuse what a control cannot offset."""
+        if self.side is Side.ON:
+            raise ParameterError("A path on the line has no side to offset it to; take compensation out.")
+        if self.dog_bones:
+            raise ParameterError(
+                "A control cannot offset dog-bones, where the path turns straight back; take them out, or compensation."
+            )
+        if self.lead.kind is not LeadKind.LINE:
+            raise ParameterError(
+                'A control begins and ends compensation on a straight way; with compensation = "wear" the lead must be '
+                'straight: lead = "line".'
+            )
+        if min(self.lead.overlap, self.lead.radius or self.wear_range * 2) < self.wear_range:
+            raise ParameterError(
+                f"Lead radius and lead overlap must be no less than the wear range, {self.wear_range:g} mm."
+            )
+
+    @property
+    def wear(self) -> float:
+        """How far the operator may offset its paths in the control, mm, either way; 0 = there is no word for it."""
+        return self.wear_range if self.compensation is CutterCompensation.WEAR else 0.0
 
     @property
     def wall_side(self) -> Side | None:

@@ -110,8 +110,10 @@ def emit(
     tool = job.tool(cut.tool)
     operation = job.operations[index]
     beside = operation.wall_side is not Side.ON or not area.lines
-    keep = tool.radius + cut.stock_to_leave
-    ground = EntryContext(tool, cut.entry, area.distances, keep, beside, cut.direction, context.cleared, context.tabs)
+    keep, worn = tool.radius + cut.stock_to_leave + operation.wear, operation.wear > 0
+    ground = EntryContext(
+        tool, cut.entry, area.distances, keep, beside, cut.direction, context.cleared, context.tabs, worn
+    )
     label = StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)
     passes = DepthPasses(context.builder, label, ground, levels_of(context, cut))
     if cut.entry.kind is EntryKind.PREDRILLED:

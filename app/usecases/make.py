@@ -13,7 +13,7 @@ from itertools import accumulate
 import numpy as np
 
 from ..core.beside import beside
-from ..core.errors import GeometryError
+from ..core.errors import GeometryError, InputError
 from ..core.memory import give_back
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
@@ -46,6 +46,7 @@ from .cut_job import MeasuredMoves, cut_job, news
 from .engagement_proofs import engagement_proofs
 from .face_proofs import face_proofs
 from .feeds import JobWithFeeds
+from .layer_operations import with_layer_rules
 from .machining import check_order
 from .options import MakeOptions, job_with_options, with_feeds
 from .own_job import with_own_job
@@ -54,6 +55,7 @@ from .proposal.propose import Proposal
 from .proposed_job import with_proposal
 from .report import MakeReport, ReportData, make_report, rings_in_words
 from .thread_proofs import thread_proofs
+from .wear_proofs import wear_proofs
 from .written import WrittenMotions, write_and_check
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
@@ -85,6 +87,7 @@ class MakeResult:
         cut: the files cut out of the stock and compared with the drawing; None when no move was made.
         proposal: that the operations are of; None where none was asked for.
         feeds: the speeds and feeds that were proposed; None where they are those of the job.
+        ruled: what rules for layers have made, a line a layer.
     """
 
     job: Job
@@ -97,6 +100,7 @@ class MakeResult:
     cut: CutProgram | None
     proposal: Proposal | None = None
     feeds: JobWithFeeds | None = None
+    ruled: tuple[str, ...] = ()
 
     @property
     def nc(self) -> NcText:
@@ -156,6 +160,7 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     made = _finished(program, context, progress.part(context.computed_at, 1.0))
     if (proposal := context.proposal) is not None:
         made = replace(made, report=made.report.with_proposal(proposal.report()), proposal=proposal)
+    made = replace(made, ruled=context.ruled)
     if (feeds := context.feeds) is not None:
         made = replace(made, report=made.report.with_feeds(feeds.report()), feeds=feeds)
     if not len(made.program.moves):
@@ -176,6 +181,7 @@ class MakeContext:
         computed_at: share of the progress at which they are made.
         proposal: the operations that were proposed; None where they were given.
         feeds: the speeds and feeds that were proposed; None where they were given.
+        ruled: what rules for layers have made, a line a layer.
     """
 
     job: Job
@@ -186,15 +192,19 @@ class MakeContext:
     computed_at: float = 0.64
     proposal: Proposal | None = None
     feeds: JobWithFeeds | None = None
+    ruled: tuple[str, ...] = ()
 
 
 def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
     """Return how a drawing is machined on its exact lines and arcs."""
     drawing = read_for(name, data, options)
-    options, proposal = with_proposal(drawing.part, options, progress)
-    found = drawing.findings if proposal is None else (*proposal.findings, *drawing.findings)
+    ruled = with_layer_rules(drawing.part, options)
+    options, proposal = with_proposal(drawing.part, ruled.options, progress)
+    found = (*ruled.findings, *(proposal.findings if proposal else ()), *drawing.findings)
     fed = with_feeds(job_from_drawing(drawing, options), options)
-    return replace(_exact_context(fed.job, found, options.machine), proposal=proposal, feeds=_proposed(fed))
+    return replace(
+        _exact_context(fed.job, found, options.machine), proposal=proposal, feeds=_proposed(fed), ruled=ruled.lines
+    )
 
 
 def _proposed(fed: JobWithFeeds) -> JobWithFeeds | None:
@@ -213,6 +223,8 @@ def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress)
     from .bitmap_job import bitmap_job
     from .bitmap_way import compute_on_bitmap
 
+    if options.rules:
+        raise InputError("Rules for layers have no effect on pixels, which have none; leave the template away.")
     ready = bitmap_job(name, data, options)
     fed = with_feeds(ready.job, options)
     return MakeContext(
@@ -300,6 +312,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
         carvings = carving_proofs(program, job, motions, progress.part(0.21, 0.22))
         threads = thread_proofs(program, job, motions)
         faced = face_proofs(program, job, motions)
+        worn = wear_proofs(program, job, written, motions, progress.part(0.219, 0.22))
         rapids = rapids_in_material(program, job, progress.part(0.22, 0.25))
         metal = cut_job(program, job, written, measuring.result, progress.part(0.25, 0.98)) if written.files else None
         depths, coverage = measuring.result()
@@ -313,6 +326,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
         *(finding for carving in carvings.values() for finding in carving.findings()),
         *(finding for thread in threads.values() for finding in thread.findings()),
         *(finding for each in faced.values() for finding in each.findings()),
+        *(finding for each in worn.values() for finding in each.findings()),
         *_shape_findings(program, job),
         *written.coarseness(job.out_units),
         *(written.misfits() if context.machine else ()),
@@ -323,7 +337,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     findings = worst_first((*own, *program.findings, *context.drawing_findings))
     progress.step(1.0, "Done")
     measured = ReportData(
-        program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings, threads, faced
+        program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings, threads, faced, worn
     )
     report = make_report(measured)
     return MakeResult(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)

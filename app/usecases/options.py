@@ -8,6 +8,7 @@ from ..core.errors import ParameterError
 from ..formats.tools.materials import stock_material
 from ..model.fields import parameters_of, with_values
 from ..model.job import Job, OriginXY, OriginZ, Stock
+from ..model.layer_rules import LayerRule
 from ..model.machine import Machine
 from ..model.operation import LEAST_LENGTH, Operation, Order, Side
 from ..model.part import Part, Units
@@ -66,6 +67,7 @@ class MakeOptions:
         machining: sides, entries, leads, tabs, drills, copies, clamps.
         reading: what else is said about reading the drawing.
         propose: propose the operations; None = they are those of the job.
+        rules: for layers, which make operations behind those of the job.
         material: of the stock; None = as the job says.
         propose_feeds: give the tools the speed and the feeds that are proposed for the material; `feed`, `plunge` and
             `speed` go before that.
@@ -94,6 +96,7 @@ class MakeOptions:
     machining: MachiningOptions = field(default_factory=MachiningOptions)
     reading: DrawingOptions = AS_DRAWN
     propose: ProposalOptions | None = None
+    rules: tuple[LayerRule, ...] = ()
     material: str | None = None
     propose_feeds: bool = False
 

@@ -119,6 +119,7 @@ def _radius(control: Control, block: Block) -> None:
     if control.modal.plane is Plane.YZ:
         raise BlockFault(f"{code} works in the planes G17 and G18.", letter="g")
     radius = _cutter_diameter(control, block, code) / 2
+    control.side = code
     if radius:
         sign = 1 if code.startswith("G41") else -1
         control.compensation = Compensation(sign * radius, control.modal.plane, control.stray or control.at)
@@ -135,7 +136,9 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
     if number == 0:
         return 0.0
     row = control.tool_table.get(number)
-    if row is None or not row.diameter:
+    if row is None or not (row.diameter or row.diameter_known):
+        if control.registers_hold_wear:
+            return 0.0
         letter = "d" if block.has("d") else "g"
         raise BlockFault(
             f"{code} needs the diameter of tool {number}, which is in no tool table; read the program with one.", letter

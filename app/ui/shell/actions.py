@@ -229,6 +229,7 @@ MENUS: tuple[tuple[str, tuple[ActionSpec, ...]], ...] = (
             ActionSpec("cancel", "C&ancel", "Shift+F5", "cancel"),
             ActionSpec("propose", "Pr&opose operations", "Ctrl+F5"),
             ActionSpec("propose_1986", "Operations as in 1&986"),
+            ActionSpec("apply_template", "Apply &template…"),
             ActionSpec("scene_nc", "Show the scene's NC &program"),
             ActionSpec("scene_cut", "Show the scene's c&ut"),
             ActionSpec("stages_again", "Compute the &stages"),

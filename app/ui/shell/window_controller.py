@@ -64,6 +64,7 @@ from .shortcuts import Shortcuts
 from .snap_controller import SnapController
 from .start_page.controller import StartController
 from .tab_controller import TabController
+from .template_controller import TemplateController
 from .tool_exchange import ToolExchange
 from .tour import Landmarks, Tour
 from .translation import TranslationController
@@ -162,6 +163,7 @@ class WindowController(QObject):
         self.files.save_controller.beside.watch(self.underlay_controller, self.language.control)
         self.advice_controller = AdviceController(window.panel, workspace)
         self.proposal_controller = ProposalController(window.panel, workspace, commands)
+        self.template_controller = TemplateController(window.panel, workspace, commands)
         self.owned_curves = OwnedCurvesController(window.panel, canvas, workspace)
         self.drawing_page_controller = DrawingPageController(window.drawing_page, window.notice, commands)
         self.cleanup_controller = CleanUpController(window.drawing_page.cleanup, canvas, workspace)
@@ -186,9 +188,16 @@ class WindowController(QObject):
         self._on("sheet", self.sheet_export.start)
         for exporting in (self.drawing_export, self.sheet_export):
             exporting.failed.connect(self._say_error)
-        for part in (self.drawing_export, self.sheet_export, self.tools, self.proposal_controller):
+        for part in (
+            self.drawing_export,
+            self.sheet_export,
+            self.tools,
+            self.proposal_controller,
+            self.template_controller,
+        ):
             part.said.connect(self._say)
         self.proposal_controller.failed.connect(self._say_error)
+        self.template_controller.failed.connect(self._say_error)
         self.underlay_controller.refused.connect(lambda text: window.status.show_message(text, error=True))
         window.panel.advice.place_requested.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
         self.drawing_page_controller.front_requested.connect(partial(self._show_side_page, DRAWING_PAGE))
