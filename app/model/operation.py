@@ -272,6 +272,10 @@ class Operation:
         """Return how deep its tool goes, mm, without the point of a drill."""
         return self.cut.floor + self.beyond
 
+    def prepared_by(self, tool: Tool) -> tuple[Operation, ...]:
+        """Return the operations, with other tools, that it asks to come right before it; `tool`: its own."""
+        return ()
+
     @property
     def over_edge(self) -> float:
         """How far its cutter reaches beyond the drawn lines at the surface on purpose, mm."""
@@ -534,6 +538,18 @@ class RestOperation(Operation):
 class VcarveOperation(Operation):
     """Carve the area inside with a V cutter that touches both walls at the surface; `depth` is the greatest."""
 
+    flat_tool: int | None = parameter(
+        None,
+        "flat_tool",
+        "Flat tool",
+        "T number of the flat mill that clears the floor first, where the area is wider than the cone",
+        Unit.COUNT,
+        low=1,
+        high=1e9,
+        option=True,
+        auto="none",
+    )
+
     WORD = "vcarve"
     CARVES = True
     LEVELS = False
@@ -541,6 +557,20 @@ class VcarveOperation(Operation):
 
     def __post_init__(self) -> None:
         check_ranges(self)
+
+    def prepared_by(self, tool: Tool) -> tuple[Operation, ...]:
+        """Return the pocket that clears the flat floor: all that lies deeper than the slanted walls."""
+        if self.flat_tool is None:
+            return ()
+        cut = CutParameters(
+            self.flat_tool,
+            self.cut.depth,
+            self.cut.stepdown,
+            self.cut.depth * math.tan(tool.tip_angle / 2),
+            enabled=self.cut.enabled,
+            curves=self.cut.curves,
+        )
+        return (PocketOperation(cut),)
 
 
 @dataclass(frozen=True, slots=True)

@@ -228,8 +228,8 @@ def _too_wide(job: Job, operation: Operation, cone: VCutter, rings: Sequence[Rin
         x, y = shapely.get_coordinates(shapely.point_on_surface(floor))[0].tolist()
         text = (
             f"At ({x:.3f}, {y:.3f}) the area is wider than T{tool.number} {tool.label} at its greatest depth, "
-            f"{cut.depth:g} mm: {floor.area:.3f} mm2 of floor are left to a flat tool; clear them first by a pocket "
-            f"operation of the same depth with {wide:.4f} mm of stock to leave."
+            f"{cut.depth:g} mm: {floor.area:.3f} mm2 of floor are left to a flat tool; name one as its flat_tool, or "
+            f"clear them first by a pocket operation of the same depth with {wide:.4f} mm of stock to leave."
         )
         found.append(Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(floor.area)))
     return found
