@@ -13,6 +13,7 @@ from app.core.resources import resource
 from app.formats.job.toml import read_job
 from app.model.finding import FindingKind
 from app.operations.compute import compute
+from app.usecases.cut import CutOptions, cut
 from app.usecases.make import MakeResult, finish, make
 from app.usecases.options import MakeOptions
 from tests.gcode.rs274_oracle import assert_same_motion
@@ -102,6 +103,15 @@ def test_a_flat_tool_clears_the_floor_and_the_cone_follows(frustum: MakeResult) 
     assert [each.WORD for each in frustum.job.operations] == ["vcarve", "pocket"]
     assert frustum.job.operations[1].cut.stock_to_leave == pytest.approx(4.0)
     assert report["left"]["reachable_mm2"] == 0 and report["operations"][0]["carved"]["left_mm"] < 5e-3
+
+
+def test_the_cone_follows_where_the_flat_tool_does_not_reach() -> None:
+    """In the floor's corners, and all along a strip of floor that is narrower than the flat tool."""
+    made = made_of("rectangle 0,0 30,9.5\n", FLAT)  # the floor is 22 x 1.5 mm, the tool 2 mm
+    assert made.cut is not None
+    again = cut(made.cut.setup, CutOptions(600, (4.5, 4.25, 25.5, 5.25), trace=False, judge=False))
+    assert again.cut.heights.max() < -4 + 0.15 and again.cut.heights.min() == pytest.approx(-4.0, abs=1e-4)
+    assert json.loads(made.report.text())["cut"]["gouged_places"] == 0
 
 
 def test_without_it_the_floor_is_a_finding_that_names_it() -> None:
