@@ -110,7 +110,7 @@ def test_the_cone_follows_where_the_flat_tool_does_not_reach() -> None:
     made = made_of("rectangle 0,0 30,9.5\n", FLAT)  # the floor is 22 x 1.5 mm, the tool 2 mm
     assert made.cut is not None
     again = cut(made.cut.setup, CutOptions(600, (4.5, 4.25, 25.5, 5.25), trace=False, judge=False))
-    assert again.cut.heights.max() < -4 + 0.15 and again.cut.heights.min() == pytest.approx(-4.0, abs=1e-4)
+    assert again.cut.heights.max() < -4 + 0.15 and again.cut.heights.min() == pytest.approx(-4.0, abs=5e-3)
     assert json.loads(made.report.text())["cut"]["gouged_places"] == 0
 
 
