@@ -287,6 +287,11 @@ class Operation:
         return 0.0
 
     @property
+    def takes_points(self) -> bool:
+        """Whether drawn points are holes for it, as wide as its tool."""
+        return False
+
+    @property
     def engagement_limit(self) -> float:
         """Share of the diameter in (0, 1] beyond which the feed is slowed; 1 = never."""
         return 1.0
@@ -662,6 +667,15 @@ class DrillOperation(HoleOperation):
     dwell: float = parameter(0.0, *DWELL, high=60.0, option=True)
     through: float = parameter(0.0, *THROUGH, high=1000.0, option=True)
 
+    points: bool = parameter(
+        False,
+        "points",
+        "Points too",
+        "drawn points are holes, too, as if they were circles as wide as the drill",
+        Unit.FLAG,
+        option=True,
+    )
+
     WORD = "drill"
     DRILLS = True
     UNUSED = STRAIGHT_DOWN
@@ -675,3 +689,8 @@ class DrillOperation(HoleOperation):
     def dwell_s(self) -> float:
         """How long the drill turns at the bottom, s."""
         return self.dwell
+
+    @property
+    def takes_points(self) -> bool:
+        """Whether it drills drawn points."""
+        return self.points
