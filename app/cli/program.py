@@ -31,6 +31,7 @@ class CommandSummary:
 
 SUMMARIES = {
     "make": CommandSummary("make DRAWING -o OUT.ngc", "a drawing into tool paths for pockets, contours and holes"),
+    "inlay": CommandSummary("inlay DRAWING --job J.toml -o OUT", "a V-carved pocket and the plug that fits into it"),
     "tools": CommandSummary("tools DRAWING", "which tools a drawing wants: what passes, what clears, how long"),
     "feeds": CommandSummary("feeds --material M", "how fast a tool may turn and feed in a material, and why"),
     "cut": CommandSummary("cut PROGRAM.ngc", "any NC program cut out of its stock: what is left, gouges, rapids"),

@@ -224,7 +224,8 @@ def on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:
     kept = tuple(entity for entity in part.entities if entity.layer.casefold() in requested)
     if not kept:
         raise InputError(f"{name}: layer {', '.join(layers)} has no lines, arcs or curves; choose another.")
-    return Part(kept, part.layers, part.units, part.name)
+    notes = tuple(note for note in part.notes if note.layer.casefold() in requested)
+    return Part(kept, part.layers, part.units, part.name, notes=notes)
 
 
 def remark(text: str, amount: float | None = None) -> Finding:

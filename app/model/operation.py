@@ -285,6 +285,10 @@ class Operation:
         """Return how deep its tool goes, mm, without the point of a drill."""
         return self.cut.floor + self.beyond
 
+    def prepared_by(self, tool: Tool) -> tuple[Operation, ...]:
+        """Return the operations, with other tools, that it asks to come right before it; `tool`: its own."""
+        return ()
+
     @property
     def over_edge(self) -> float:
         """How far its cutter reaches beyond the drawn lines at the surface on purpose, mm."""
@@ -294,6 +298,11 @@ class Operation:
     def dwell_s(self) -> float:
         """How long its tool waits at the bottom of a hole, s."""
         return 0.0
+
+    @property
+    def takes_points(self) -> bool:
+        """Whether drawn points are holes for it, as wide as its tool."""
+        return False
 
     @property
     def engagement_limit(self) -> float:
@@ -600,6 +609,18 @@ class RestOperation(Operation):
 class VcarveOperation(Operation):
     """Carve the area inside with a V cutter that touches both walls at the surface; `depth` is the greatest."""
 
+    flat_tool: int | None = parameter(
+        None,
+        "flat_tool",
+        "Flat tool",
+        "T number of the flat mill that clears the floor first, where the area is wider than the cone",
+        Unit.COUNT,
+        low=1,
+        high=1e9,
+        option=True,
+        auto="none",
+    )
+
     WORD = "vcarve"
     CARVES = True
     LEVELS = False
@@ -607,6 +628,20 @@ class VcarveOperation(Operation):
 
     def __post_init__(self) -> None:
         check_ranges(self)
+
+    def prepared_by(self, tool: Tool) -> tuple[Operation, ...]:
+        """Return the pocket that clears the flat floor: all that lies deeper than the slanted walls."""
+        if self.flat_tool is None:
+            return ()
+        cut = CutParameters(
+            self.flat_tool,
+            self.cut.depth,
+            self.cut.stepdown,
+            self.cut.depth * math.tan(tool.tip_angle / 2),
+            enabled=self.cut.enabled,
+            curves=self.cut.curves,
+        )
+        return (PocketOperation(cut),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -698,6 +733,15 @@ class DrillOperation(HoleOperation):
     dwell: float = parameter(0.0, *DWELL, high=60.0, option=True)
     through: float = parameter(0.0, *THROUGH, high=1000.0, option=True)
 
+    points: bool = parameter(
+        False,
+        "points",
+        "Points too",
+        "drawn points are holes, too, as if they were circles as wide as the drill",
+        Unit.FLAG,
+        option=True,
+    )
+
     WORD = "drill"
     DRILLS = True
     UNUSED = STRAIGHT_DOWN
@@ -711,3 +755,8 @@ class DrillOperation(HoleOperation):
     def dwell_s(self) -> float:
         """How long the drill turns at the bottom, s."""
         return self.dwell
+
+    @property
+    def takes_points(self) -> bool:
+        """Whether it drills drawn points."""
+        return self.points

@@ -158,9 +158,13 @@ def under_clamps(job: Job, parts: DrawnContours, regions: Sequence[Region]) -> l
 
 
 def in_order(job: Job) -> list[int]:
-    """Return indices of the enabled operations in the order of cutting: the list's, or all contours first (1986)."""
+    """Return indices of the enabled operations in the order of cutting: the list's, what an operation asks for right
+    before it, or all contours first (1986).
+    """
     enabled = [k for k, operation in enumerate(job.operations) if operation.cut.enabled]
-    return sorted(enabled, key=lambda k: job.order is Order.PATENT_1986 and not job.operations[k].FOLLOWS_WALLS)
+    before = {k: owner for k in enabled if (owner := job.prepares(k)) is not None and owner < k}
+    listed = sorted(enabled, key=lambda k: before[k] - 0.5 if k in before else float(k))
+    return sorted(listed, key=lambda k: job.order is Order.PATENT_1986 and not job.operations[k].FOLLOWS_WALLS)
 
 
 def unfaced(job: Job, operations: Sequence[int]) -> list[Finding]:

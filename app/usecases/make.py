@@ -215,7 +215,9 @@ def _exact_context(job: Job, findings: tuple[Finding, ...], machine: Machine | N
     from ..operations.compute import compute
 
     job.check_operations()
-    return MakeContext(job, load_post(job.post), machine, findings, lambda progress: compute(job, progress))
+    whole = job.prepared()
+    whole.check_operations()
+    return MakeContext(whole, load_post(job.post), machine, findings, lambda progress: compute(whole, progress))
 
 
 def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:

@@ -54,7 +54,7 @@ def test_the_sample_names_every_key_of_every_kind(samples: Path) -> None:
     assert isinstance(rest, RestOperation) and rest.stepover == 1.5
     assert isinstance(contour, ContourOperation) and contour.lead.radius == 1.5
     assert adaptive == AdaptiveOperation(CutParameters(1))
-    assert carving == VcarveOperation(CutParameters(3))
+    assert carving == VcarveOperation(CutParameters(3), 1)
     assert drill == DrillOperation(CutParameters(1), 5.9, 6.1, 1.0)
     cut = CutParameters(1)
     assert more == [

@@ -169,6 +169,30 @@ def test_a_tap_with_another_feed_is_found() -> None:
     assert [each for each in wrong.findings if each.counts and "lead of M6 is off by 0.1000 mm a turn" in each.text]
 
 
+# Points
+
+POINTS = "layer p\npoint 10,10\npoint 50,10\nlayer 0\npoint 30,30\n"
+
+
+@pytest.mark.parametrize(
+    ("curves", "holes"), [("", {(10, 10), (50, 10), (30, 30)}), ('curves = ["layer:p"]\n', {(10, 10), (50, 10)})]
+)
+def test_points_are_drilled_like_circles_of_the_drills_size(curves: str, holes: set[tuple[int, int]]) -> None:
+    drill = f'[[operation]]\nkind = "drill"\ntool = 2\ndepth = 10\npoints = true\n{curves}'
+    made = made_of(drill, "rectangle 0,0 60,40\n" + POINTS)
+    down = made.program.moves.end[made.program.moves.purpose != Purpose.RAPID]
+    assert made.clean and {(x, y) for x, y, _ in np.round(down).astype(int).tolist()} == holes
+    whole = math.pi * 2.5**2 * 10  # and the drill's point below
+    assert report_of(made)["cut"]["removed_mm3"] >= len(holes) * whole * 0.99
+    assert_same_cuts(made)
+
+
+def test_points_are_no_holes_unless_they_are_asked_for() -> None:
+    drill = '[[operation]]\nkind = "drill"\ntool = 2\ndepth = 10\n'
+    with_points, without = (made_of(drill, PLATE + each + "circle 30,10 2.5\n") for each in (POINTS, ""))
+    assert with_points.nc.text == without.nc.text
+
+
 # Threads
 
 THREAD = DRILL + '[[operation]]\nkind = "thread"\ntool = 6\ndepth = 8\nthread = "M6"\n'

@@ -189,12 +189,17 @@ class Computation(QObject):
         return WaitingTimes(changes["count"], changes["time_s"], waited - changes["time_s"], moved)
 
     def operation_times(self) -> dict[int, float]:
-        """Return the time of each operation, seconds, by its index; nothing while the result is out of date."""
+        """Return the time of each operation, seconds, by its index, with that of what it asks to come before it;
+        nothing while the result is out of date.
+        """
         if self.made is None or self.state is not ComputationState.CURRENT:
             return {}
-        return {
-            index: each["time_s"] for index, each in enumerate(self.made.report.data["operations"]) if each["enabled"]
-        }
+        job, count, times = self.made.job, len(self._document.job.operations), dict[int, float]()
+        for index, each in enumerate(self.made.report.data["operations"]):
+            if each["enabled"]:
+                owner = index if index < count else job.prepares(index)
+                times[owner or 0] = times.get(owner or 0, 0.0) + each["time_s"]
+        return times
 
     def _on_change(self, change: DocumentChange) -> None:
         if not change & (DocumentChange.PART | DocumentChange.JOB):

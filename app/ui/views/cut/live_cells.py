@@ -209,7 +209,7 @@ def last_tips(timeline: Timeline, row: int, tip: Floats) -> Floats:
         parts.append(_done(motions, at, parts[-1][-1])[::-1])
     tips = np.concatenate(parts)
     moved = np.concatenate([[True], np.any(np.diff(tips, axis=0) != 0, axis=1)])
-    return tips[moved][::-1]
+    return np.asarray(tips[moved][::-1])
 
 
 def _done(motions: Motions, row: int, until: Floats) -> Floats:
