@@ -268,9 +268,15 @@ def switched_off(part: Part, requested: tuple[str, ...]) -> Iterator[Finding]:
 
 
 def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
-    """Count what is no curve, by type."""
-    if left_out:
-        yield remark(f"{listed(left_out, 'Left out: ')}.{_remedy(left_out)}", float(left_out.total()))
+    """Count what is no curve, by type, and what cannot be drawn, which is missing from the part."""
+    damaged = Counter({kind: count for kind, count in left_out.items() if kind.endswith("(damaged)")})
+    if damaged:
+        text = f"{listed(damaged, 'Missing from the part: ')}, which cannot be read; repair or draw what this is again."
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(damaged.total()))
+    if left_out - damaged:
+        yield remark(
+            f"{listed(left_out - damaged, 'Left out: ')}.{_remedy(left_out)}", float((left_out - damaged).total())
+        )
 
 
 def _remedy(left_out: Counter[str]) -> str:

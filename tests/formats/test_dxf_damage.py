@@ -12,7 +12,9 @@ import pytest
 
 from app.core.errors import HitofudeError, InputError
 from app.formats.dxf.dxf import read_dxf
+from app.formats.readers import read_drawing
 from app.geometry.chaining.chain import chain
+from app.model.read_options import DrawingOptions
 from tests.conftest import ROOT
 
 
@@ -99,7 +101,9 @@ def test_senseless_entities_are_left_out() -> None:
     document.write(stream)
     drawing = read_dxf(stream.getvalue().encode(), "n.dxf")
     assert len(drawing.part.entities) == 1
-    assert drawing.findings[0].amount == 4  # ezdxf itself does not write the empty polyline
+    assert dict(drawing.left_out) == {"SPLINE (damaged)": 1}
+    (nothing,) = [each for each in drawing.findings if "have no length" in each.text]
+    assert nothing.amount == 3  # ezdxf itself does not write the empty polyline
 
 
 @pytest.mark.parametrize("number", ["nan", "inf", "1e400", "-1e308"])
@@ -285,3 +289,42 @@ def test_a_document_that_falls_apart_when_it_is_looked_at_is_repaired_or_refused
 
 def record(handle: str, name: str) -> list[str]:
     return ["0", "BLOCK_RECORD", "5", handle, "2", name]
+
+
+KNOTS = [0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 2.0, 2.0]
+PLACES = [(1.0, 2.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (1.0, 2.0)]
+
+
+@pytest.mark.parametrize(
+    ("knots", "weights"),
+    [
+        ([0.0, 0.0, 0.0, 0.0, 2.0, 1.0, 2.0, 2.0, 2.0], []),
+        (KNOTS, [1.0, -2.0, 1.0, 0.0, 1.0]),
+        ([0.0, 0.0, 0.0, 1.0, 1.0, 1.0], []),
+    ],
+    ids=["knots that go back", "weights below zero", "too few knots"],
+)
+def test_a_spline_that_cannot_be_drawn_is_missing_from_the_part(knots: list[float], weights: list[float]) -> None:
+    """It is not "without length": a part without it is another part, and the verdict is not clean."""
+    document = ezdxf.new(units=4)
+    spline = document.modelspace().add_spline()
+    spline.control_points, spline.knots, spline.weights = PLACES, knots, weights
+    document.modelspace().add_circle((50, 50), 3)
+    stream = io.StringIO()
+    document.write(stream)
+    drawing = read_drawing("a.dxf", stream.getvalue().encode(), None, (), DrawingOptions())
+    assert dict(drawing.left_out) == {"SPLINE (damaged)": 1} and len(drawing.part.entities) == 1
+    (counted,) = [each for each in drawing.findings if each.counts and "Missing from the part" in each.text]
+    assert counted.text.endswith("which cannot be read; repair or draw what this is again.")
+    assert any("SPLINE (damaged) at (1.000, 2.000) on layer 0" in each.text for each in drawing.findings)
+
+
+def test_a_spline_whose_points_are_one_has_no_length() -> None:
+    document = ezdxf.new(units=4)
+    spline = document.modelspace().add_spline()
+    spline.control_points, spline.knots = [(1.0, 2.0)] * 5, [0.0] * 9
+    document.modelspace().add_circle((50, 50), 3)
+    stream = io.StringIO()
+    document.write(stream)
+    drawing = read_drawing("a.dxf", stream.getvalue().encode(), None, (), DrawingOptions())
+    assert not drawing.left_out and any("has no length" in each.text for each in drawing.findings)

@@ -14,7 +14,7 @@ from ...core.errors import HitofudeError, InputError
 from ...geometry.affine import Affine, transformed
 from ...model.curves import Point
 from ..drawing_account import MOST_CURVES, LayeredCurve
-from .curves import NegativeRadiusError, NoLengthError, curves_of, heights_of, plane_of
+from .curves import DamagedCurveError, NegativeRadiusError, NoLengthError, curves_of, heights_of, plane_of
 from .fonts import Fonts
 from .hatch import Hatch, hatch_of
 from .letters import LeftOutError, TextCurves
@@ -50,7 +50,7 @@ class NegativeRadius:
 
 @dataclass(frozen=True)
 class UnreadText:
-    """A text of a sort that is not read; its place in drawing units."""
+    """A text of a sort that is not read, or a curve that cannot be drawn; its place in drawing units."""
 
     at: Point
     sort: str
@@ -81,7 +81,7 @@ class DxfContent:
         without_length: places of entities that draw nothing, None where there is no place.
         hidden: blocks inserted on frozen layers.
         negative: circles and arcs that nobody knows how to draw.
-        unread: texts that are left out for what they are.
+        unread: texts that are left out for what they are, and curves that cannot be drawn.
         heights: least and greatest Z seen, drawing units.
     """
 
@@ -206,6 +206,12 @@ class DxfWalker:
             curves = [] if made else curves_of(entity)
         except NoLengthError as nothing:
             content.without_length.append(nothing.args[0])
+            return
+        except DamagedCurveError as damaged:
+            content.left_out[f"{kind} (damaged)"] += 1
+            at = damaged.args[0]
+            if at is not None and all(map(isfinite, at)):
+                content.unread.append(UnreadText(at, f"{kind} (damaged)", entity.dxf.layer))
             return
         except LeftOutError as left:
             content.left_out[left.args[0]] += 1

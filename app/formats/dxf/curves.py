@@ -21,6 +21,10 @@ class NoLengthError(Exception):
     """An entity draws nothing: zero length or radius, or numbers that are none. The argument is its place or None."""
 
 
+class DamagedCurveError(Exception):
+    """What an entity says of its curve contradicts itself. Its place, or None, is the argument."""
+
+
 class NegativeRadiusError(Exception):
     """A circle or an arc has a radius below 0, so nobody knows what is meant. Its place and the radius are the
     arguments.
@@ -32,6 +36,7 @@ def curves_of(entity: Any) -> list[Curve] | None:
 
     Raises:
         NoLengthError: the entity is of a known type but draws nothing.
+        DamagedCurveError: it cannot be drawn.
         NegativeRadiusError: its radius is below 0.
     """
     reader = _READERS.get(entity.dxftype())
@@ -127,8 +132,9 @@ def _polyline(entity: Any) -> list[Curve] | None:
 def _spline(entity: Any) -> list[Curve]:
     made = spline_curve(entity)
     if made is None:
-        points = list(entity.control_points or entity.fit_points)
-        raise NoLengthError((float(points[0][0]), float(points[0][1])) if points else None)
+        points = [(float(point[0]), float(point[1])) for point in entity.control_points or entity.fit_points]
+        nothing = len(set(points)) <= 1
+        raise (NoLengthError if nothing else DamagedCurveError)(points[0] if points else None)
     return [made]
 
 

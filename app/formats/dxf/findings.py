@@ -47,7 +47,7 @@ def negative_radius_findings(content: DxfContent, size: float) -> Iterator[Findi
 
 
 def about_unread(content: DxfContent, size: float) -> Iterator[Finding]:
-    """Name the texts that are left out for what they are, a sentence a sort; `size`: the drawing's unit, mm."""
+    """Name texts and curves that are left out for what they are, a sentence a sort; `size`: the drawing's unit, mm."""
     for sort in dict.fromkeys(each.sort for each in content.unread):
         alike = [each for each in content.unread if each.sort == sort]
         x, y = alike[0].at[0] * size, alike[0].at[1] * size

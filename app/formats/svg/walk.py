@@ -156,6 +156,9 @@ class SvgWalker:
             self._sheet.left_out[node.tag] += 1
         elif node.tag in SHAPES or node.tag in _CONTAINERS:
             state = self._inside(node, outer)
+            if state.style.geometry:
+                sized = {**node.attributes, **state.style.geometry}
+                node = replace(node, attributes=sized)
             if node.tag in SHAPES:
                 self._draw(node, state)
             elif node.tag == "use":
