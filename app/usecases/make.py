@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import accumulate
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -49,11 +50,12 @@ from .machining import check_order
 from .options import MakeOptions, job_with_options
 from .own_job import with_own_job
 from .plausible import read_for
-from .proposal.propose import Proposal
-from .proposed_job import with_proposal
 from .report import MakeReport, ReportData, make_report, rings_in_words
 from .thread_proofs import thread_proofs
 from .written import WrittenMotions, write_and_check
+
+if TYPE_CHECKING:
+    from .proposal.propose import Proposal  # few jobs are proposed
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
 
@@ -184,7 +186,11 @@ class MakeContext:
 def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
     """Return how a drawing is machined on its exact lines and arcs."""
     drawing = read_for(name, data, options)
-    options, proposal = with_proposal(drawing.part, options, progress)
+    proposal = None
+    if options.propose is not None:
+        from .proposed_job import with_proposal
+
+        options, proposal = with_proposal(drawing.part, options, progress)
     found = drawing.findings if proposal is None else (*proposal.findings, *drawing.findings)
     return replace(_exact_context(job_from_drawing(drawing, options), found, options.machine), proposal=proposal)
 

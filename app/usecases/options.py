@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from ..core.errors import ParameterError
 from ..model.fields import parameters_of, with_values
@@ -15,7 +16,9 @@ from ..model.tool import Tool
 from .bitmap_options import BitmapOptions
 from .layers import layers_to_read, with_layers_spelled
 from .machining import MachiningOptions, contours_alone, no_effect, with_drills, with_machining
-from .proposal.propose import ProposalOptions
+
+if TYPE_CHECKING:
+    from .proposal.propose import ProposalOptions  # few jobs are proposed
 
 _STEPOVER = "stepover"
 """Key of the parameter that options for pockets change."""
