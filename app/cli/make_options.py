@@ -86,7 +86,11 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     group.add_argument("--image", metavar="OUT.svg|png", type=Path, help="a picture of part and paths")
-    group.add_argument("--timings", action="store_true", help="tell how long each stage took, here and in the report")
+    group.add_argument(
+        "--timings",
+        action="store_true",
+        help="tell how long each stage took, here and in the report; no stage goes on beside another then",
+    )
     group.add_argument(
         "--post",
         metavar="NAME",
