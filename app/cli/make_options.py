@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..core.errors import InputError
 from ..core.input_file import read_input
@@ -15,11 +16,13 @@ from ..formats.sheet.write import SUFFIXES
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover
-from ..usecases.proposal.propose import ProposalOptions
 from .command import OptionParser
 from .files import check_outputs, named_files
 from .reading_options import add_reading_options, reading
 from .values import MACHINE_HELP, TOOLS_HELP, join_tolerance, machine_named, number, typed
+
+if TYPE_CHECKING:
+    from ..usecases.proposal.propose import ProposalOptions  # loaded where something is to be proposed
 
 EPILOG = """\
 D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. With one tool given it does both jobs;
@@ -97,7 +100,11 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
         type=Path,
         help="the sheet for the machine: picture, zero, stock, tools, operations, times, certificate",
     )
-    group.add_argument("--timings", action="store_true", help="tell how long each stage took, here and in the report")
+    group.add_argument(
+        "--timings",
+        action="store_true",
+        help="tell how long each stage took, here and in the report; no stage goes on beside another then",
+    )
     group.add_argument(
         "--post",
         metavar="NAME",
@@ -112,6 +119,12 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
         "--exact-path", action="store_true", help="tell the control to stop at corners rather than blend (G61)"
     )
     group.add_argument("--quiet", action="store_true", help="say nothing but errors")
+
+
+def _proposal_from(arguments: argparse.Namespace) -> ProposalOptions:
+    from ..usecases.proposal.propose import ProposalOptions
+
+    return ProposalOptions(thickness=arguments.thickness)
 
 
 def _proposal_options(group: argparse._ArgumentGroup) -> None:
@@ -271,7 +284,7 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         bitmap=bitmap,
         machining=machining(arguments, bitmap is not None),
         reading=reading(arguments),
-        propose=ProposalOptions(thickness=arguments.thickness) if arguments.propose else None,
+        propose=_proposal_from(arguments) if arguments.propose else None,
         material=arguments.material,
         propose_feeds=arguments.feeds == "proposed",
     )

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for
 from contextlib import contextmanager
-from contextvars import copy_context
+from contextvars import ContextVar, copy_context
 from dataclasses import replace
 from typing import Generic, NamedTuple, TypeVar
 
@@ -17,6 +17,9 @@ Result = TypeVar("Result")
 
 _LOOK_S = 0.1
 """Seconds between two looks at whether a job that waits shall stop."""
+
+_IN_TURN = ContextVar("in_turn", default=False)
+"""Whether nothing goes on beside anything."""
 
 
 class _Told(NamedTuple):
@@ -74,6 +77,16 @@ class BesideWork(Generic[Result]):
 
 
 @contextmanager
+def one_after_another() -> Iterator[None]:
+    """Have nothing go on beside a job: who measures its stages then knows whose the time is."""
+    token = _IN_TURN.set(True)
+    try:
+        yield
+    finally:
+        _IN_TURN.reset(token)
+
+
+@contextmanager
 def beside(
     work: Callable[[Progress], Result], progress: Progress, at_once: bool = True
 ) -> Iterator[BesideWork[Result]]:
@@ -87,7 +100,7 @@ def beside(
         progress: the part of the job that the work is.
         at_once: False: it is done by the job itself when it asks for the result.
     """
-    if not at_once:
+    if not at_once or _IN_TURN.get():
         yield BesideWork(work, progress, None)
         return
     with ThreadPoolExecutor(1, thread_name_prefix="beside") as executor:

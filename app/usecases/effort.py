@@ -1,7 +1,7 @@
-"""How long cuts, scenes, smoothing and jobs on pixels will take, reckoned from counts before they are begun.
+"""How long cuts, scenes and jobs on pixels will take, reckoned from counts before they are begun.
 
 Seconds a piece are measured: cuts of 80,000 to 800,000 motions in 1,024 to 4,096 cells, scenes of 1,500 to 120,000
-moves, programs of 20,000 to 100,000 points, bitmaps of 512 to 4,096 pixels a side with paths of 19,000 to 280,000.
+moves, bitmaps of 512 to 4,096 pixels a side with paths of 19,000 to 280,000.
 """
 
 from __future__ import annotations
@@ -12,16 +12,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.effort import Reckoning, counted
-from ..fitting.point_curves.effective_method import EffectiveMethod
 from ..gcode.interpreter.program import NcProgram
-from ..gcode.rework.stretches import FeedStretch
 from ..model.motion_path import lengths
 from ..model.tool import Tool
-from ..surfaces.passes.facet_crossings import FacetCrossings
-from .smooth_result import OutputForm
 
-if TYPE_CHECKING:
-    from .bitmap_part import BitmapPart  # cuts and scenes need nothing of it
+if TYPE_CHECKING:  # a cut needs nothing of them
+    from ..surfaces.passes.facet_crossings import FacetCrossings
+    from .bitmap_part import BitmapPart
 
 _CELL_S, _MOTION_S = 4e-9, 1e-6
 """A cell that a cutter passes over; a motion by itself."""
@@ -31,8 +28,6 @@ _FLOOR_S = 1.5e-5
 """A piece of path as long as its tool is wide, of which coverage of a drawing's floors is asked."""
 _CROSSING_S = 1.1e-4
 """A facet that a plane of passes crosses: contact, path, compound surface, text and proof."""
-_POINT_S = {OutputForm.LINES: 6e-6, OutputForm.ARCS: 6e-5, OutputForm.NURBS: 2e-4}
-"""A point of a stretch that is fitted anew and proven."""
 _PIXEL_S = 5e-8
 """A pixel of a bitmap that an operation shrinks and traces."""
 _CHAIN_S = 2e-5
@@ -79,16 +74,6 @@ def scene_effort(families: Iterable[FacetCrossings]) -> Reckoning:
         crossings * _CROSSING_S,
         f"{planes:,} passes over {crossings:,.0f} facets",
         "use a larger pitch or scallop height, coarser surfaces, or check the model's units",
-    )
-
-
-def smooth_effort(stretches: Sequence[FeedStretch], form: OutputForm, effective: EffectiveMethod | None) -> Reckoning:
-    """Return what fitting a program's stretches takes."""
-    points = sum(stretch.stop - stretch.first for stretch in stretches)
-    return Reckoning(
-        points * _POINT_S[form] * (1.0 if effective is None else 2.0),
-        f"{points:,} moves in {counted(len(stretches), 'stretch', 'stretches')}",
-        "smooth it in parts" if form is OutputForm.LINES else "smooth it as lines (--as lines), or in parts",
     )
 
 

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import accumulate
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -51,12 +52,13 @@ from .machining import check_order
 from .options import MakeOptions, job_with_options, with_feeds
 from .own_job import with_own_job
 from .plausible import read_for
-from .proposal.propose import Proposal
-from .proposed_job import with_proposal
 from .report import MakeReport, ReportData, make_report, rings_in_words
 from .thread_proofs import thread_proofs
 from .wear_proofs import wear_proofs
 from .written import WrittenMotions, write_and_check
+
+if TYPE_CHECKING:
+    from .proposal.propose import Proposal  # few jobs are proposed
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
 
@@ -199,7 +201,11 @@ def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -
     """Return how a drawing is machined on its exact lines and arcs."""
     drawing = read_for(name, data, options)
     ruled = with_layer_rules(drawing.part, options)
-    options, proposal = with_proposal(drawing.part, ruled.options, progress)
+    options, proposal = ruled.options, None
+    if options.propose is not None:
+        from .proposed_job import with_proposal
+
+        options, proposal = with_proposal(drawing.part, options, progress)
     found = (*ruled.findings, *(proposal.findings if proposal else ()), *drawing.findings)
     fed = with_feeds(job_from_drawing(drawing, options), options)
     return replace(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from ..core.errors import ParameterError
 from ..formats.tools.materials import stock_material
@@ -18,7 +19,9 @@ from .bitmap_options import BitmapOptions
 from .feeds import FeedsOptions, JobWithFeeds, with_proposed_feeds
 from .layers import layers_to_read, with_layers_spelled
 from .machining import MachiningOptions, contours_alone, no_effect, with_drills, with_machining
-from .proposal.propose import ProposalOptions
+
+if TYPE_CHECKING:
+    from .proposal.propose import ProposalOptions  # few jobs are proposed
 
 _STEPOVER = "stepover"
 """Key of the parameter that options for pockets change."""

@@ -37,7 +37,7 @@ from ..gcode.writer.curve_blocks import BlockFormat, curve_blocks
 from ..gcode.writer.linuxcnc_biarcs import driven
 from ..geometry.coincident_points import near
 from ..model.motion import Floats, MotionKind, Motions, Nurbs
-from .effort import smooth_effort
+from .smooth_effort import smooth_effort
 from .smooth_report import certificate
 from .smooth_result import (
     REACH,

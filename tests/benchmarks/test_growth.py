@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from app.cli.timings import StageTimes
+from app.core.beside import one_after_another
 from app.core.progress import Progress
 from app.usecases.make import make
 from app.usecases.options import MakeOptions
@@ -44,7 +45,8 @@ def drawing(count: int, plate: bool) -> bytes:
 def stages(data: bytes) -> dict[str, float]:
     """Seconds of the processor by stage."""
     times = StageTimes(time.process_time)
-    made = make("growth.dxf", data, MakeOptions(contour_diameter=2.0, pocket_diameter=2.0), times.watch(Progress()))
+    with one_after_another():
+        made = make("growth.dxf", data, MakeOptions(contour_diameter=2.0, pocket_diameter=2.0), times.watch(Progress()))
     assert made.coverage.reachable_left_mm2 == 0
     return times.seconds()
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
-from app.core.beside import beside
+from app.core.beside import beside, one_after_another
 from app.core.errors import Cancelled, ParameterError
 from app.core.memory import budget_limit, within
 from app.core.progress import Progress, report_wait
@@ -25,6 +25,13 @@ def test_the_work_is_done_once_however_often_its_result_is_asked_for(at_once: bo
         work.result()
     assert len(threads) == 1
     assert (threads[0] != threading.get_ident()) is at_once
+
+
+def test_where_stages_are_measured_nothing_goes_on_beside_them() -> None:
+    with one_after_another(), beside(lambda progress: threading.get_ident(), Progress()) as work:
+        assert work.result() == threading.get_ident()
+    with beside(lambda progress: threading.get_ident(), Progress()) as work:
+        assert work.result() != threading.get_ident()
 
 
 def test_both_go_on_at_a_time() -> None:

@@ -25,9 +25,10 @@ from app.usecases.bitmap_job import BitmapJob, drawn_job
 from app.usecases.bitmap_options import BitmapSize
 from app.usecases.bitmap_way import compute_on_bitmap
 from app.usecases.cut import CutOptions, CutSetup, cut
-from app.usecases.effort import cut_effort, smooth_effort
+from app.usecases.effort import cut_effort
 from app.usecases.make import finish
 from app.usecases.smooth import smooth
+from app.usecases.smooth_effort import smooth_effort
 from app.usecases.smooth_result import OutputForm, SmoothOptions
 from app.usecases.surface import read_and_compute
 from tests.conftest import ROOT

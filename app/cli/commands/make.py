@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
+from ...core.beside import one_after_another
 from ...core.errors import InputError
 from ...core.input_file import read_input
 from ...usecases.make import make
@@ -26,7 +28,8 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     progress = shown_progress(arguments.quiet, stopped)
     watched = times.watch(progress) if times else progress
     drawing = read_input(arguments.drawing)
-    made = make(arguments.drawing.name, drawing, options, watched)
+    with one_after_another() if times else nullcontext():
+        made = make(arguments.drawing.name, drawing, options, watched)
     if times:
         made = replace(made, report=made.report.with_timings(times.seconds()))
     programs = {file.named(arguments.output): file.nc.text.encode("ascii") for file in made.files}

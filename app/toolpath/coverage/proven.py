@@ -48,7 +48,7 @@ _ROUNDING = 1e-9
 _AT_A_TIME, _SQUARE_BYTES = 1 << 20, 250
 """Squares that are looked at together, few enough to be stopped between them, and what one takes meanwhile."""
 
-_EDGES_AT_A_TIME, _EDGE_BYTES = 1_500_000, 160
+_EDGES_AT_A_TIME, _EDGE_BYTES = 400_000, 160
 """Edges of an area that are looked at together, and what one takes with its tree."""
 
 Floats = NDArray[np.float64]
