@@ -92,7 +92,19 @@ vec2 aside_of(vec2 map) {
 }
 
 float line_at(float cells) {
-    return LINE * (1.0 - smoothstep(0.5, 1.3, cells * scale));
+    return LINE * (1.0 - smoothstep(0.5, 1.3, cells * max(scale, 1.3)));  // nobody knows more than a cell's breadth
+}
+
+// Which way a wall faces: what the cells a little way along it say alike, for one alone knows the steps of the grid.
+vec2 facing_around(ivec2 here, vec2 facing) {
+    vec2 sum = facing;
+    for (int k = 0; k < 16; ++k) {
+        ivec2 off = ivec2(k % 4, k / 4) * 2 - 3;
+        vec3 told = texelFetch(walls, clamp(here + off, ivec2(0), last_cell), 0).rgb * 255.0;
+        vec2 other = told.yz - 128.0;
+        if (told.x > 0.5 && dot(other, facing) > 0.0) sum += other;
+    }
+    return normalize(sum + 1e-9);
 }
 
 // What is seen of metal that was met at its top, or at a wall: that belongs to whoever cut its foot.
@@ -112,7 +124,7 @@ vec3 metal(vec3 place, ivec2 square, bool at_wall) {
     }
     vec3 normal;
     if (at_wall) {
-        normal = vec3(normalize(facing + 1e-9), 0.0);
+        normal = vec3(facing_around(near, facing), 0.0);
         float low = max(level(weight, true), floor_z / corner.z), high = level(weight, false);
         open = 0.74 + 0.24 * sqrt(clamp((place.z - low) / max(high - low, 1e-3), 0.0, 1.0));
     } else {
