@@ -90,6 +90,7 @@ def nc_states(wiring: WindowController, folder: Path) -> dict[str, Callable[[], 
     )
 
     def own() -> None:
+        wiring.display_controller.show_view(View.NC)
         wiring.nc.back()
         wait_until(lambda: nc.shown is not None and nc.shown.source.path is None)
         nc.set_side(ViewSide.XY)
