@@ -16,7 +16,8 @@ uniform vec3 right;           // a pixel further
 uniform vec3 up;
 uniform vec3 away;            // from the eye, length 1
 uniform float depth_gain;     // of a length along a line of sight
-uniform float scale;          // pixels in a cell
+uniform float scale;          // pixels in a cell, or lines of sight where there are fewer of these
+uniform float line_share;     // of an edge's colour in its line
 uniform vec4 hole;            // x0, y0, x1, y1 of what somebody else paints
 uniform vec4 stock_box;       // x0, y0, x1, y1 of the stock's sides
 uniform vec3 section;         // normal and offset of the plane that takes metal away
@@ -33,7 +34,6 @@ out vec4 colour;
 const int BLOCK = 8;
 const int MOST_STEPS = 20000;
 const float NOTHING = -1e7;
-const float LINE = 0.45;      // of an edge's colour in its line
 
 vec4 height, side;            // of the corners of the square at hand; side > 0 at the foot of a wall, < 0 on top of it
 vec2 faces[4];                // which way the wall faces that a corner lies beside
@@ -92,7 +92,19 @@ vec2 aside_of(vec2 map) {
 }
 
 float line_at(float cells) {
-    return LINE * (1.0 - smoothstep(0.5, 1.3, cells * scale));
+    return line_share * (1.0 - smoothstep(0.5, 1.3, cells * max(scale, 1.3)));  // nobody knows more than a cell's breadth
+}
+
+// Which way a wall faces: what the cells a little way along it say alike, for one alone knows the steps of the grid.
+vec2 facing_around(ivec2 here, vec2 facing) {
+    vec2 sum = facing;
+    for (int k = 0; k < 16; ++k) {
+        ivec2 off = ivec2(k % 4, k / 4) * 2 - 3;
+        vec3 told = texelFetch(walls, clamp(here + off, ivec2(0), last_cell), 0).rgb * 255.0;
+        vec2 other = told.yz - 128.0;
+        if (told.x > 0.5 && dot(other, facing) > 0.0) sum += other;
+    }
+    return normalize(sum + 1e-9);
 }
 
 // What is seen of metal that was met at its top, or at a wall: that belongs to whoever cut its foot.
@@ -112,7 +124,7 @@ vec3 metal(vec3 place, ivec2 square, bool at_wall) {
     }
     vec3 normal;
     if (at_wall) {
-        normal = vec3(normalize(facing + 1e-9), 0.0);
+        normal = vec3(facing_around(near, facing), 0.0);
         float low = max(level(weight, true), floor_z / corner.z), high = level(weight, false);
         open = 0.74 + 0.24 * sqrt(clamp((place.z - low) / max(high - low, 1e-3), 0.0, 1.0));
     } else {

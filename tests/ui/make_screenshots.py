@@ -1,7 +1,7 @@
 """Takes the pictures of the window: `python -m tests.ui.make_screenshots [FOLDER]`.
 
-Without a folder it renews the manual's picture, resources/docs/window.png; with one it writes every view there, light
-and dark, at 1280 x 800 and 1920 x 1080.
+Without a folder it renews the pictures of the manual and the README, resources/docs/window.png and cut.png; with one it
+writes every view there, light and dark, at 1280 x 800 and 1920 x 1080.
 """
 
 from __future__ import annotations
@@ -90,6 +90,7 @@ def nc_states(wiring: WindowController, folder: Path) -> dict[str, Callable[[], 
     )
 
     def own() -> None:
+        wiring.display_controller.show_view(View.NC)
         wiring.nc.back()
         wait_until(lambda: nc.shown is not None and nc.shown.source.path is None)
         nc.set_side(ViewSide.XY)
@@ -239,6 +240,18 @@ def stage_states(wiring: WindowController, folder: Path) -> dict[str, Callable[[
     }
 
 
+def take_cut(wiring: WindowController, path: Path) -> None:
+    """Take the cut on its way, the tool in it, at rest."""
+    wiring.display_controller.show_view(View.CUT)
+    view, page = wiring.window_.views.cut, wiring.window_.views.cut_page
+    wiring.window_.notice.hide()
+    wait_until(lambda: page.player.length > 0)
+    page.player.go(round(0.45 * page.player.length))
+    wait(1500)
+    wait_until(lambda: view.render_scheduler.fine and not wiring.cut_controller.zoom_controller.worker.busy)
+    take(wiring, path)
+
+
 def take_drawing(wiring: WindowController, folder: Path) -> None:
     """Take every tool, page and menu of the drawing workstation; what was open is not kept."""
     states = DrawingStates(wiring, wait)
@@ -260,6 +273,8 @@ def main() -> None:
     if len(sys.argv) < 2:
         wiring.window_.choose_theme(ThemeChoice.LIGHT)
         take(wiring, DOCUMENT)
+        wiring.window_.choose_theme(ThemeChoice.DARK)
+        take_cut(wiring, DOCUMENT.with_name("cut.png"))
         return
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)

@@ -61,6 +61,7 @@ class StartPage(QScrollArea):
         rows.addLayout(self._grid)
         rows.addStretch(1)
         self._grid.addWidget(self._last, 0, 0, 1, _BESIDE_NEW)
+        self._try.setContentsMargins(0, 12, 0, 0)
         self._grid.addWidget(self._try, 3, 0, 1, COLUMNS)
         inner.setMaximumWidth(_WIDEST_PX + 2 * _EDGE_PX)
         self.setWidget(inner)

@@ -21,6 +21,9 @@ from ...views.nc.program_reader import is_program
 from ...views.surfaces.shown_scene import is_scene, read_file, shown_scene
 
 MARGIN_PX = 14
+FINER = 3
+"""Pixels that each one of a solid's picture is the mean of, across and down: edges are smooth."""
+
 MOST_BYTES = 8_000_000
 """A larger file is not read for the sake of its picture."""
 
@@ -112,8 +115,10 @@ def _space(path: Path, size: QSize, theme: Theme, progress: Progress) -> QImage:
         _rgb(theme.plunge),
         [_rgb(QColor(colour)) for colour in shown.colours],
     )
-    pixels = raster(shown.space, SceneStyle(camera, inks), (wide, high)).pixels
-    return QImage(pixels.data, wide, high, 4 * wide, QImage.Format.Format_RGB32).copy()
+    large = FINER * wide, FINER * high
+    pixels = raster(shown.space, SceneStyle(camera, inks, ratio=float(FINER)), large).pixels
+    image = QImage(pixels.data, *large, 4 * large[0], QImage.Format.Format_RGB32)
+    return image.scaled(size, Qt.AspectRatioMode.IgnoreAspectRatio, Qt.TransformationMode.SmoothTransformation)
 
 
 def _stroke(image: QImage, path: QPainterPath, colour: QColor) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
@@ -147,16 +147,18 @@ class CutOverlay(QWidget):
         knee = at + QPointF(_LEADER_PX, _LEADER_PX)
         painter.drawLine(at + QPointF(0.7, 0.7) * _RING_PX, knee)
         painter.drawLine(knee, knee + QPointF(10, 0))
-        rows = ((pin.title, text_font(13, semibold=True), pin.colour), (pin.facts, text_font(12), self._theme.ink))
-        wide = max(QFontMetricsF(font).horizontalAdvance(text) for text, font, _ in rows) + 2 * _PAD_PX
+        rows = ((pin.title, text_font(13, semibold=True)), (pin.facts, text_font(12)))
+        wide = max(QFontMetricsF(font).horizontalAdvance(text) for text, font in rows) + 2.5 * _PAD_PX
         sheet = QColor(self._theme.canvas)
-        sheet.setAlphaF(0.85)
+        sheet.setAlphaF(0.94)
         row = QRectF(knee.x() + 12, knee.y() - _ROW_PX, wide, _ROW_PX)
-        painter.fillRect(row.united(row.translated(0, _ROW_PX)).adjusted(0, -2, 0, 2), sheet)
-        for k, (text, font, colour) in enumerate(rows):
+        both = row.united(row.translated(0, _ROW_PX)).adjusted(0, -2, 0, 2)
+        painter.fillRect(both, sheet)
+        painter.fillRect(QRectF(both.topLeft(), QSizeF(3.0, both.height())), pin.colour)
+        painter.setPen(self._theme.ink)  # a place's own colour may be too pale for words
+        for k, (text, font) in enumerate(rows):
             painter.setFont(font)
-            painter.setPen(colour)
-            painter.drawText(row.translated(_PAD_PX / 2, k * _ROW_PX), Qt.AlignmentFlag.AlignVCenter, text)
+            painter.drawText(row.translated(_PAD_PX, k * _ROW_PX), Qt.AlignmentFlag.AlignVCenter, text)
 
     def _paint_line(self, painter: QPainter, line: Line) -> None:
         ends = [self._on_screen(place) for place in line]

@@ -30,6 +30,9 @@ BLOCK = 8
 """Squares between cells, across and down, whose highest is known: what passes over it meets none of them."""
 
 _HEIGHTS, _VALUES, _PALETTE, _RELIEF, _BLOCKS, _WALLS, _UNEVEN = range(7)
+_LINE = 0.45
+"""Of an edge's colour in the fine line along it."""
+
 _SHARP = 0.7
 """Where a cell is wider than so many px, its neighbours need not be averaged."""
 
@@ -187,6 +190,7 @@ class StockTextures:
     def _set_uniforms(self, frame: CutFrame, picture: CutPicture, reach: float) -> None:
         look, camera, program = frame.look, frame.camera, self._program
         light, pitch = _unit(np.asarray(look.light) @ camera.axes), picture.pitch
+        share = min(1.0, frame.rays[0] / frame.size[0])  # a line is as wide as what is seen of it
         across, down = (size / rays for size, rays in zip(frame.size, frame.rays, strict=True))
         start = camera.ray((0.0, frame.size[1]), frame.size).origin
         normal = np.array(frame.clip[:2]) if frame.section is not None else np.zeros(2)
@@ -207,7 +211,8 @@ class StockTextures:
             "up": tuple(camera.axes[1] * down / (camera.scale * pitch)),
             "away": tuple(-camera.axes[2]),
             "depth_gain": 0.5 * pitch / reach,
-            "scale": pitch * camera.scale,
+            "scale": pitch * camera.scale * share,
+            "line_share": _LINE * share,
             "section": (*normal, (frame.clip[2] - float(normal @ picture.low[:2])) / pitch + 0.5 * float(normal.sum())),
             "light": tuple(light),
             "halfway": tuple(_unit(light + camera.axes[2])),
