@@ -217,4 +217,5 @@ def _done(motions: Motions, row: int, until: Floats) -> Floats:
     if motions.kind[row] == MotionKind.LINE:
         return motions.start[row : row + 1]
     places = np.array([place_on(motions, row, share) for share in np.linspace(0.0, 1.0, _CHORDS + 1)])
-    return places[: max(int(np.argmin(np.linalg.norm(places - until, axis=1))), 1)]
+    done: Floats = places[: max(int(np.argmin(np.linalg.norm(places - until, axis=1))), 1)]
+    return done
