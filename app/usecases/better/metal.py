@@ -57,5 +57,4 @@ def _along(workpiece: Workpiece, angle: float) -> Floats:
 
 def _derived(values: Floats, pitch: float, angle: float) -> Floats:
     down, across = np.gradient(values, pitch)
-    derived: Floats = across * math.cos(angle) + down * math.sin(angle)
-    return derived
+    return np.asarray(across * math.cos(angle) + down * math.sin(angle), np.float64)
