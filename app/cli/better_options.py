@@ -73,6 +73,9 @@ def add_better_options(parser: OptionParser) -> None:
     parser.add_argument("--post", metavar="NAME", choices=post_names(), help="whose words the new program has")
     parser.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
     parser.add_argument("--scene", metavar="OUT.toml", type=Path, help="the smooth surface and its passes as a scene")
+    parser.add_argument(
+        "--image", metavar="OUT.png", type=Path, help="both cuts beside one another in a low light that shows facets"
+    )
     parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was found, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
 

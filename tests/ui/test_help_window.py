@@ -5,6 +5,7 @@ from PySide6.QtCore import Qt
 
 from app.core.resources import resource
 from app.ui.framework.theme import DARK
+from app.ui.shell.help_pages import rendered
 from app.ui.shell.help_window import HelpWindow
 
 
@@ -48,3 +49,18 @@ def test_the_theme_changes_the_page_in_front(manual) -> None:
     before = manual.browser.document()
     manual.set_theme(DARK)
     assert manual.browser.document() is not before and manual.page == "language"
+
+
+def test_pictures_of_a_page_are_found_and_no_wider_than_it_is(manual) -> None:
+    manual.show_page()
+    page = next(page for page in manual.pages if page.name == "texts")
+    document = rendered(page, DARK)
+    block, seen = document.begin(), []
+    while block.isValid():
+        for piece in block:
+            form = piece.fragment().charFormat()
+            if form.isImageFormat():
+                seen.append(form.toImageFormat())
+        block = block.next()
+    assert len(seen) == page.text.count("](figures/")
+    assert all(0 < picture.width() <= 320 and 0 < picture.height() <= 400 for picture in seen)

@@ -7,6 +7,7 @@ import math
 from functools import cache
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -19,6 +20,7 @@ from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import Floats, MotionKind
 from app.usecases.better.improve import BetterOptions, BetterProgram, better
+from app.usecases.better.metal import metal_picture, streaks
 from app.usecases.better.raster import raster_of
 from app.usecases.better.report import findings, gains, lines, report
 from tests import raster_program as made
@@ -222,3 +224,19 @@ def test_a_cut_that_differs_by_more_is_a_finding() -> None:
     assert {"gouge", "left_reachable"} <= kinds
     same = replace(done, new=done.old)
     assert any("keep the old one" in found.text for found in findings(same))
+
+
+@pytest.mark.exhaustive
+def test_light_shows_fewer_facets() -> None:
+    """Streaks across neighbouring passes: the slope of B's metal jumps at every edge of the old cut."""
+    text = made.text(made.rows(wide=12.0, deep=8.0))
+    done = better("raster.ngc", text.encode(), BetterOptions(cells=640))
+    old, new = (streaks(each.cut.workpiece, done.smoothed) for each in (done.old_cut, done.new_cut))
+    assert new < 0.7 * old and report(done)["slope_change_along_passes_deg"]["old"] == math.degrees(old)
+    image = cv2.imdecode(np.frombuffer(picture_of(done), np.uint8), cv2.IMREAD_GRAYSCALE)
+    rows, cols = done.old_cut.cut.heights.shape
+    assert image.shape == (rows, 2 * cols + 8)
+
+
+def picture_of(done: BetterProgram) -> bytes:
+    return metal_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed)

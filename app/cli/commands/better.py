@@ -7,6 +7,7 @@ import argparse
 from ...core.input_file import read_input
 from ...formats.scene.write import scene_text
 from ...usecases.better.improve import better
+from ...usecases.better.metal import metal_picture
 from ...usecases.better.report import findings, lines, report_text
 from ..better_options import EPILOG, add_better_options, better_options, better_setup
 from ..command import CliCommand
@@ -18,7 +19,7 @@ from ..signals import StopFlag
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 better and within the tolerance, 1 with findings."""
-    outputs = named_files(arguments, "output", "scene", "report")
+    outputs = named_files(arguments, "output", "scene", "image", "report")
     check_outputs(outputs, [arguments.program])
     progress = shown_progress(arguments.quiet, stopped)
     asked, setup = better_options(arguments), better_setup(arguments)
@@ -26,6 +27,9 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     files = {outputs["output"]: done.data}
     if "scene" in outputs:
         files[outputs["scene"]] = scene_text(done.scene).encode()
+    if "image" in outputs:
+        pair = done.old_cut.cut.workpiece, done.new_cut.cut.workpiece
+        files[outputs["image"]] = metal_picture(*pair, done.smoothed)
     if "report" in outputs:
         files[outputs["report"]] = report_text(done).encode()
     found = findings(done)

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from PySide6.QtCore import QUrl
 from PySide6.QtGui import (
     QBrush,
     QFont,
+    QImage,
     QTextBlock,
     QTextCharFormat,
     QTextCursor,
@@ -23,7 +25,7 @@ from ...core.resources import resource
 from ..framework.theme import HEADING_PX, TEXT_PX, Theme, mono_font, text_font
 
 _FIRST = ("language", "project", "posts", "texts", "texts_ja")
-_MARGIN_PX, _CELL_PX = 24, 5
+_MARGIN_PX, _CELL_PX, _PICTURE_PX = 24, 5, 320
 _PROPORTIONAL = 1  # QTextBlockFormat.LineHeightTypes
 _HEADINGS_PX = {1: 20, 2: HEADING_PX, 3: TEXT_PX}
 
@@ -53,12 +55,33 @@ def rendered(page: HelpPage, theme: Theme) -> QTextDocument:
     made = QTextDocument()
     made.setDefaultFont(text_font())
     made.setDocumentMargin(_MARGIN_PX)
+    made.setBaseUrl(QUrl.fromLocalFile(f"{resource('docs')}/"))
     made.setMarkdown(page.text, QTextDocument.MarkdownFeature.MarkdownDialectGitHub)
     _set_type(made, theme)
+    _fit_pictures(made)
     for frame in made.rootFrame().childFrames():
         if isinstance(frame, QTextTable):
             _rule(frame, theme)
     return made
+
+
+def _fit_pictures(document: QTextDocument) -> None:
+    """Make pictures no wider than a page is."""
+    cursor, block = QTextCursor(document), document.begin()
+    while block.isValid():
+        piece = block.begin()
+        while not piece.atEnd():
+            fragment = piece.fragment()
+            form = fragment.charFormat().toImageFormat()
+            if fragment.isValid() and form.isValid():
+                size = QImage(document.baseUrl().resolved(QUrl(form.name())).toLocalFile()).size()
+                form.setWidth(min(size.width(), _PICTURE_PX))
+                form.setHeight(min(size.width(), _PICTURE_PX) * size.height() / max(size.width(), 1))
+                cursor.setPosition(fragment.position())
+                cursor.setPosition(fragment.position() + fragment.length(), QTextCursor.MoveMode.KeepAnchor)
+                cursor.setCharFormat(form)
+            piece += 1
+        block = block.next()
 
 
 def _set_type(document: QTextDocument, theme: Theme) -> None:

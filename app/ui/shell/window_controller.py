@@ -30,6 +30,7 @@ from ..views.nc.program_reader import ShownProgram
 from ..views.plot.controller import PlotController
 from ..views.session1986.controller import SessionController
 from ..views.stages.controller import StagesController
+from ..views.stages.figure_eleven_controller import FigureElevenController
 from ..views.stages.import_controller import ImportController
 from ..views.stages.text_film_controller import TextFilmController
 from ..views.surfaces.controller import SAMPLES, SceneController, SceneProgram
@@ -134,6 +135,7 @@ class WindowController(QObject):
         self.stages_controller = StagesController(views.stages, window.stages_panel, workspace)
         own = OwnFilmFiles(self.nc, window.scene)
         self.film_controller = TextFilmController(views.stages, window.film_panel, own.of, workspace)
+        self.figure_eleven = FigureElevenController(views.stages, window.film_panel, own.of, workspace)
         self.import_controller = ImportController(views.stages, window.import_panel, workspace)
         self.smoothing_controller = SmoothingController(views.curves, window.curves_panel, self.nc, workspace)
         self.better_controller = BetterController(views.curves, window.curves_panel, self.nc, workspace)
@@ -211,6 +213,7 @@ class WindowController(QObject):
         """Show what the controllers of views tell, and tell them whether their view is at the front."""
         self._connect_controller(self.stages_controller, View.STAGES)
         self._connect_controller(self.film_controller, View.STAGES)
+        self._connect_controller(self.figure_eleven, View.STAGES)
         self._connect_controller(self.import_controller, View.STAGES)
         self._connect_controller(self.cut_controller, View.CUT)
         self._connect_controller(self.image_controller, View.CUT)

@@ -11,6 +11,7 @@ from ...model.finding import Finding, FindingKind
 from ..smooth_report import certificate
 from ..smooth_report import findings as smooth_findings
 from .improve import BetterProgram, ProgramFigures
+from .metal import streaks
 
 Json = dict[str, Any]
 
@@ -76,6 +77,8 @@ def lines(done: BetterProgram) -> tuple[str, ...]:
         f"  cut again: at most {comparison.left.amount_mm:.4f} mm above the old cut, {comparison.deeper.amount_mm:.4f} "
         f"mm below it, {comparison.mean_mm:.4f} mm in the mean square, square to it, on {comparison.cells} cells of "
         f"{comparison.spacing_mm:.3g} mm; {done.options.tolerance:g} mm allowed",
+        f"  slope of the metal changes along the passes by {_streaks(done)[0]:.4f} -> {_streaks(done)[1]:.4f} deg from "
+        "cell to cell, in the mean square: what light shows of the facets",
         f"  blocks {old.blocks} -> {new.blocks}, length {old.length_mm:.1f} -> {new.length_mm:.1f} mm, largest bend "
         f"{math.degrees(old.bend):.2f} -> {math.degrees(new.bend):.2f} deg, time {old.time_s:.1f} -> "
         f"{new.time_s:.1f} s",
@@ -109,12 +112,19 @@ def report(done: BetterProgram) -> Json:
             "cells": comparison.cells,
             "spacing_mm": comparison.spacing_mm,
         },
+        "slope_change_along_passes_deg": dict(zip(("old", "new"), _streaks(done), strict=True)),
         "old": _figures(done.old),
         "new": _figures(done.new),
         "findings": [
             {"kind": found.kind.value, "text": found.text, "counts": found.counts} for found in findings(done)
         ],
     }
+
+
+def _streaks(done: BetterProgram) -> tuple[float, float]:
+    """Return what light shows of facets in the old cut, and in the new one, degrees."""
+    old, new = (math.degrees(streaks(each.cut.workpiece, done.smoothed)) for each in (done.old_cut, done.new_cut))
+    return old, new
 
 
 def report_text(done: BetterProgram) -> str:

@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt
 
 from app.model.tool import Tool, ToolKind
 from app.model.tool_kind import tool_kinds
+from app.simulation.engines import Engine
 from app.ui.framework.view import View
 from app.ui.views.cut.setup_form import as_kind
 from tests.ui.conftest import WAIT_MS
@@ -129,3 +130,20 @@ def test_any_kind_can_be_chosen_and_is_a_shape(kind):
 
     clears = 2.1 if kind.threads else 3.0  # of one that cuts threads the core within its teeth
     assert cutter_of(as_kind(Tool(1, 6.0), kind)).radius == pytest.approx(clears)
+
+
+def test_heights_are_exact_or_by_the_facets_of_1999(qtbot, opened):
+    wiring = opened(PROGRAM)
+    form, own = wiring.window_.cut_form, wiring.cut_controller.cut
+    form.tools[1].kind.chosen.emit(ToolKind.BALL)
+    assert form.heights.value is False
+    qtbot.mouseClick(form.heights.buttons[True], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(form.cut, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: wiring.cut_controller.cut is not own, timeout=WAIT_MS)
+    cut = wiring.cut_controller.cut
+    assert cut.given.published and any("method of 1999" in found.text for found in cut.assumed)
+    report = cut.cut.engine_report
+    assert report.engine is Engine.PATENT or report.fault
+    if report.engine is Engine.PATENT:
+        lowest = float(cut.picture.heights[:-1].min())  # the last row's centres lie beside the stock
+        assert -2.0 <= lowest < -1.98, "facets lie inside the ball's sweep"

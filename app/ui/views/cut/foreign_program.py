@@ -31,6 +31,13 @@ GUESSED = "nobody"
 BELOW, LEAST_BELOW = 0.15, 1.0
 """How far an assumed stock goes on below the deepest cut: share of its height, and mm."""
 
+_PUBLISHED = Finding(
+    FindingKind.ASSUMED,
+    "What is left is drawn by facets of two cells in the depth buffer, the method of 1999; while it plays, and for "
+    "every verdict, the engine of record cuts.",
+    counts=False,
+)
+
 DIAMETER = 6.0
 """mm; what a tool is guessed to be that nobody knows."""
 
@@ -78,7 +85,7 @@ def foreign_shown(foreign: ForeignProgram, colour: CutColourBy, progress: Progre
         HitofudeError: it has an error, or cuts nothing.
         Cancelled: the job was asked to stop.
     """
-    from ....usecases.cut import cut  # imports the engine: never on the window's thread
+    from ....usecases.cut import CutOptions, Engine, cut  # imports the engine: never on the window's thread
     from ....usecases.examine import ExamineOptions, examine
 
     data = foreign.source.bytes()
@@ -90,21 +97,23 @@ def foreign_shown(foreign: ForeignProgram, colour: CutColourBy, progress: Progre
     except InputError as error:
         raise InputError(_without_options(str(error))) from error
     if reason:
-        return MissingSetup(reason, foreign, user_setup_of(ready, foreign.given.compare))
+        return MissingSetup(reason, foreign, user_setup_of(ready, foreign.given))
     setup = replace(
         ready.setup,
         part=foreign.scene() if foreign.scene is not None else foreign.part if foreign.given.compare else None,
     )
-    result = cut(setup, progress=progress.part(0.3, 0.9))
+    published = foreign.given.published
+    how = CutOptions(engine=Engine.PATENT if published else Engine.AUTO)
+    result = cut(setup, how, progress.part(0.3, 0.9))
     shown = shown_cut(result, (ProgramFile(foreign.source.name, data),), colour, progress.part(0.9, 1.0))
-    return replace(
-        shown, given=user_setup_of(ready, foreign.given.compare), assumed=tuple(_plain(each) for each in ready.findings)
-    )
+    assumed = (*(_plain(each) for each in ready.findings), *((_PUBLISHED,) if published else ()))
+    return replace(shown, given=user_setup_of(ready, foreign.given), assumed=assumed)
 
 
-def user_setup_of(ready: ReadySetup, compare: bool) -> UserSetup:
-    """Return tools and stock as they are taken, for the form."""
-    return UserSetup({number: known.tool for number, known in ready.tools.items()}, _corners(ready), compare)
+def user_setup_of(ready: ReadySetup, given: UserSetup) -> UserSetup:
+    """Return tools and stock as they are taken, for the form; the rest as it was given."""
+    tools = {number: known.tool for number, known in ready.tools.items()}
+    return replace(given, tools=tools, stock=_corners(ready))
 
 
 def _corners(ready: ReadySetup) -> Box:

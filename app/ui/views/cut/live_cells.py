@@ -209,12 +209,14 @@ def last_tips(timeline: Timeline, row: int, tip: Floats) -> Floats:
         parts.append(_done(motions, at, parts[-1][-1])[::-1])
     tips = np.concatenate(parts)
     moved = np.concatenate([[True], np.any(np.diff(tips, axis=0) != 0, axis=1)])
-    return np.asarray(tips[moved][::-1])
+    ahead: Floats = tips[moved][::-1]
+    return ahead
 
 
 def _done(motions: Motions, row: int, until: Floats) -> Floats:
     """Return places of a motion from its start on, mm; of one that is bent up to a place of it."""
     if motions.kind[row] == MotionKind.LINE:
-        return motions.start[row : row + 1]
+        return np.asarray(motions.start[row : row + 1], np.float64)
     places = np.array([place_on(motions, row, share) for share in np.linspace(0.0, 1.0, _CHORDS + 1)])
-    return places[: max(int(np.argmin(np.linalg.norm(places - until, axis=1))), 1)]
+    done: Floats = places[: max(int(np.argmin(np.linalg.norm(places - until, axis=1))), 1)]
+    return done

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QVB
 from ....core.errors import HitofudeError
 from ....model.tool import Tool, ToolKind, shape_keys
 from ....model.tool_kind import tool_kind, tool_kinds
-from ...framework.fields import ListField, NumberField, NumberSpec
+from ...framework.fields import ChoiceField, ListField, NumberField, NumberSpec
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch
 from ...framework.section import EDGE, PanelSection, hairline, heading
@@ -118,6 +118,8 @@ class SetupForm(QWidget):
         self.tools: dict[int, ToolFields] = {}
         self.stock = [NumberField(NumberSpec(axis, low=-_FAR, high=_FAR)) for axis in _AXES]
         self.compare, self.compare_row = Switch("Compare with the open drawing"), QWidget()
+        self.heights = ChoiceField("Heights", [(False, "Exact"), (True, "Facets")])
+        self.heights.setToolTip("Exact in each cell, or by facets in the depth buffer, the method of 1999")
         self.wrong = QLabel()
         self.cut, self.leave = QPushButton("Cut"), QPushButton("Leave it")
         self.area, self._column = QScrollArea(), QVBoxLayout()
@@ -169,6 +171,7 @@ class SetupForm(QWidget):
         row.addStretch(1)
         row.addWidget(self.compare)
         section.add_indented(self.compare_row)
+        section.add_indented(self.heights)
         return section
 
     def ask(self, asked: MissingSetup | None) -> None:
@@ -190,6 +193,7 @@ class SetupForm(QWidget):
         for field, value in zip(self.stock, asked.given.stock or (0.0,) * 6, strict=True):
             field.show_value(value)
         self.compare.setChecked(asked.given.compare)
+        self.heights.show_value(asked.given.published)
         self.compare_row.setVisible(asked.foreign.part is not None)
 
     def _accept(self) -> None:
@@ -199,9 +203,8 @@ class SetupForm(QWidget):
             self.wrong.setText("The stock has no volume: each “to” must be greater than its “from”.")
             self.wrong.show()
             return
-        self.accepted.emit(
-            UserSetup({number: fields.tool for number, fields in self.tools.items()}, box, self.compare.isChecked())
-        )
+        tools = {number: fields.tool for number, fields in self.tools.items()}
+        self.accepted.emit(UserSetup(tools, box, self.compare.isChecked(), self.heights.value is True))
 
     def _box(self) -> Box:
         x0, y0, z0, x1, y1, z1 = (field.number for field in self.stock)

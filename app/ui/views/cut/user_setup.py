@@ -17,9 +17,10 @@ class UserSetup:
 
     Attributes:
         tools: by T number. stock: None = as the program tells.
-        compare: with the open drawing.
+        compare: with the open drawing. published: heights by facets in the depth buffer, the method of 1999.
     """
 
     tools: Mapping[int, Tool] = field(default_factory=dict)
     stock: Box | None = None
     compare: bool = False
+    published: bool = False

@@ -11,6 +11,7 @@ from ...framework.fields import ChoiceField
 from ...framework.labels import muted
 from ...framework.section import EDGE, hairline, heading
 from ...panels.side_panel import WIDTH
+from .figure_eleven_form import FigureElevenForm
 
 if TYPE_CHECKING:
     from ....exhibits.films.step import FilmStep, TextFilm
@@ -44,6 +45,8 @@ class TextFilmPanel(QScrollArea):
         self.title, self.says, self.settled, self.table = heading(""), QLabel(), muted(), muted()
         self.save = QPushButton("Save all steps…")
         self.save.setFixedHeight(32)
+        self.figure_eleven = FigureElevenForm()
+        self.figure_eleven.hide()
         self.figures: dict[str, QLabel] = {}
         self._grid = QGridLayout()
         self._lay_out()
@@ -71,6 +74,7 @@ class TextFilmPanel(QScrollArea):
         column.addWidget(self.table)
         column.addSpacing(6)
         column.addWidget(self.save)
+        column.addWidget(self.figure_eleven)
         column.addStretch(1)
         self.setWidget(inner)
 
@@ -78,6 +82,7 @@ class TextFilmPanel(QScrollArea):
         """Tell of which text the film is."""
         self.text.setText(title)
         self.publication.setText(publication)
+        self.figure_eleven.setVisible(title.startswith("B"))
 
     def show_film(self, film: TextFilm | None) -> None:
         """Offer to write a film, where there is one."""
