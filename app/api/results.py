@@ -12,6 +12,7 @@ from typing import Any
 from ..core.atomic import write_together
 from ..core.errors import InputError
 from ..core.input_file import read_input
+from ..formats.sheet import SUFFIXES
 from ..gcode.interpreter.program import ProgramProblem
 from ..model.finding import Finding
 from ..model.job import Job
@@ -92,7 +93,7 @@ class MadeProgram:
         from ..usecases.make_files import other_files
 
         target = Path(path)
-        if target.suffix.lower() not in (".pdf", ".html"):
+        if target.suffix.lower() not in SUFFIXES:
             raise InputError(f"{target}: a sheet is .pdf or .html; change the name")
         data = None if drawing is None else read_input(Path(drawing))
         write_together({target: other_files(self.result, {"sheet": target}, data)["sheet"]})

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from .flat import FlatPolyline, flat_drawing, flat_frame
 from .page import PageContent, Pen, PlotPage, TextLine
-from .pdf_outlines import outlined_words
 from .pdf_text import is_helvetica, pdf_string, text_width
 
 _POINTS_PER_MM = 72 / 25.4
@@ -81,6 +80,8 @@ def _content(page: PlotPage, in_font: bool) -> Iterator[str]:
     if not in_font:
         yield from _lines(flat_frame(page))
         return
+    from .pdf_outlines import outlined_words  # what reads fonts, where letters are asked for
+
     frame = page.frame
     yield from _lines(flat_frame(replace(page, frame=PageContent((), frame.patches, (), frame.traces))))
     yield from _lines(flat_frame(replace(page, frame=PageContent(frame.strokes))))
