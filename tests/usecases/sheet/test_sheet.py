@@ -21,6 +21,7 @@ from app.formats.sheet.content import SetupPicture, SetupSheet, SheetColumn, She
 from app.formats.sheet.layout import HEIGHT, MARGIN, WIDTH
 from app.formats.sheet.write import sheet_bytes
 from app.geometry.transform import Similarity
+from app.model.finding import Finding, FindingKind
 from app.model.job import Job, OriginXY, OriginZ, Stock
 from app.model.operation import ContourOperation, CutParameters, PocketOperation, Side
 from app.model.tool import Tool
@@ -109,6 +110,24 @@ def test_what_does_harm_is_said_in_red(job: Job) -> None:
     sheet = made_sheet(export(wide), Path("a.ngc"), {})
     assert not sheet.good and "do not run this program" in sheet.verdict
     assert sheet.findings and any(proof.holds is False for proof in sheet.proofs)
+
+
+@pytest.mark.parametrize(
+    ("kind", "claim"),
+    [
+        (FindingKind.GOUGE, "No gouge"),
+        (FindingKind.GOUGE, "Cut, it is the part"),
+        (FindingKind.LEFT_REACHABLE, "Nothing left within reach"),
+        (FindingKind.RAPID_IN_MATERIAL, "No rapid in metal"),
+        (FindingKind.HOLDER_CONTACT, "Shank and holder keep clear"),
+        (FindingKind.PLUNGE, "Nothing else counts"),
+    ],
+)
+def test_a_claim_that_a_finding_gives_the_lie_to_does_not_hold(made: MakeResult, kind: FindingKind, claim: str) -> None:
+    harmed = replace(made, findings=(Finding(kind, "It does harm."), *made.findings))
+    sheet = made_sheet(harmed, Path("a.ngc"), {})
+    assert {proof.claim: proof.holds for proof in sheet.proofs}[claim] is False
+    assert not sheet.good and sheet.findings == ("It does harm.",)
 
 
 def test_everything_is_on_the_paper(sheet: SetupSheet) -> None:
