@@ -12,11 +12,12 @@ from ..core.file_bytes import FileBytes
 from ..core.input_file import read_input
 from ..core.progress import Progress
 from ..formats.job.toml import read_job
-from ..formats.tools.files import read_rows, read_tools
+from ..formats.tools.at_path import tools_at
+from ..formats.tools.files import read_rows
 from ..gcode.interpreter.dialect import Dialect
 from ..gcode.tool_offsets import tool_offsets
 from ..model.part import Units
-from ..model.tool_table import TableRow, ToolTable
+from ..model.tool_table import TableRow, ToolTable, row_of
 from ..usecases.cut import CutOptions, Engine
 from ..usecases.examine import ExaminedProgram, ExamineOptions, examine
 from ..usecases.setup import ReadySetup, SetupRequest
@@ -83,7 +84,7 @@ def setup_request(arguments: argparse.Namespace) -> SetupRequest:
         reported.append(_tools(arguments))
     against = FileBytes(arguments.against.name, read_input(arguments.against)) if arguments.against else None
     beside = None if against is None else lambda name: read_input(arguments.against.parent / name)
-    return _with_stock(
+    return with_stock(
         SetupRequest(
             tuple(reported),
             job,
@@ -108,6 +109,8 @@ def _rows(arguments: argparse.Namespace) -> tuple[TableRow, ...]:
     """Return the control's tool table as --tools tells it."""
     if arguments.tools is None:
         return ()
+    if arguments.tools.is_dir() or arguments.tools.suffix.lower() == ".fctl":
+        return tuple(row_of(tool) for tool in tools_at(arguments.tools).library.tools)
     return read_rows(
         arguments.tools.name, read_input(arguments.tools), Units.INCH if arguments.tool_units == "in" else Units.MM
     )
@@ -119,11 +122,11 @@ def _tools(arguments: argparse.Namespace) -> ToolSource:
     if arguments.tools.suffix.lower() == ".tbl":
         tools, _ = ToolTable(_rows(arguments)).tools(name)
         return ToolSource(name, {tool.number: tool for tool in tools}, shapeless=True)
-    library, _ = read_tools(name, read_input(arguments.tools))
+    library, _ = tools_at(arguments.tools)
     return ToolSource(name, {tool.number: tool for tool in library.tools})
 
 
-def _with_stock(request: SetupRequest, given: Corners | Path | None) -> SetupRequest:
+def with_stock(request: SetupRequest, given: Corners | Path | None) -> SetupRequest:
     """Return the wishes with the metal that --stock names."""
     if given is None:
         return request

@@ -19,7 +19,7 @@ from ..usecases.proposal.propose import ProposalOptions
 from .command import OptionParser
 from .files import check_outputs, named_files
 from .reading_options import add_reading_options, reading
-from .values import MACHINE_HELP, join_tolerance, machine_named, number, typed
+from .values import MACHINE_HELP, TOOLS_HELP, join_tolerance, machine_named, number, typed
 
 EPILOG = """\
 D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. With one tool given it does both jobs;
@@ -79,8 +79,15 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
         required=True,
         help="the NC program; written whole or not at all",
     )
-    group.add_argument(
+    job = group.add_mutually_exclusive_group()
+    job.add_argument(
         "--job", metavar="J.toml", type=Path, help="tools, operations, stock and origin; options override it"
+    )
+    job.add_argument(
+        "--template",
+        metavar="T.toml",
+        type=Path,
+        help="a job file with rules for layers, [[layer]]: each layer of this drawing that one takes gets an operation",
     )
     group.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     group.add_argument("--image", metavar="OUT.svg|png", type=Path, help="a picture of part and paths")
@@ -118,8 +125,8 @@ def _proposal_options(group: argparse._ArgumentGroup) -> None:
         "--tools",
         metavar="FILE",
         type=Path,
-        help="tools to choose from, .toml, .csv or .tbl (default: those of the job, else the mills and drills that "
-        "come with the program)",
+        help=f"tools to choose from: {TOOLS_HELP} (default: those of the job, else the mills and drills that come with "
+        "the program)",
     )
     group.add_argument(
         "--thickness",
@@ -177,6 +184,15 @@ def _tool_options(group: argparse._ArgumentGroup) -> None:
         metavar="S",
         type=number("spindle speed", unit="rpm"),
         help="spindle speed, rpm (default 12000, contour 18000)",
+    )
+    group.add_argument(
+        "--material", metavar="NAME", help="what the stock is made of, such as aluminium (hitofude feeds --help)"
+    )
+    group.add_argument(
+        "--feeds",
+        choices=["tools", "proposed"],
+        help="proposed: speed and feeds for the material, tools, engagement and machine; --speed, --feed and --plunge "
+        "go before them (default: as the job says, else those of the tools)",
     )
     side = group.add_mutually_exclusive_group()
     side.add_argument(
@@ -256,6 +272,8 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         machining=machining(arguments, bitmap is not None),
         reading=reading(arguments),
         propose=ProposalOptions(thickness=arguments.thickness) if arguments.propose else None,
+        material=arguments.material,
+        propose_feeds=arguments.feeds == "proposed",
     )
 
 
@@ -265,7 +283,10 @@ def read_make_options(arguments: argparse.Namespace) -> MakeOptions:
     Raises:
         HitofudeError: an option cannot be used, or a file cannot be read.
     """
-    return _with_tools(_with_job(make_options(arguments), arguments.job), arguments.tools)
+    options = _with_tools(_with_job(make_options(arguments), arguments.job or arguments.template), arguments.tools)
+    if arguments.template is not None and not options.rules:
+        raise InputError(f"--template {arguments.template} has no [[layer]], so it is a job file; name it with --job")
+    return replace(options, propose_feeds=False) if arguments.feeds == "tools" else options
 
 
 def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
@@ -275,17 +296,23 @@ def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
     from ..formats.job.toml import read_job
 
     file = read_job(path.name, read_input(path))
-    return replace(options, job=file.job, units=options.units or file.units)
+    return replace(
+        options,
+        job=file.job,
+        units=options.units or file.units,
+        propose_feeds=options.propose_feeds or file.proposes_feeds,
+        rules=file.rules,
+    )
 
 
 def _with_tools(options: MakeOptions, path: Path | None) -> MakeOptions:
     """Return the options with the tools that a proposal chooses from: of a library, else of the job file."""
     if options.propose is None or (path is None and options.job is None):
         return options
-    from ..formats.tools.files import read_tools
+    from ..formats.tools.at_path import tools_at
 
     own = options.job.tools if options.job is not None else ()
-    tools = own if path is None else read_tools(path.name, read_input(path)).library.tools
+    tools = own if path is None else tools_at(path).library.tools
     return replace(options, propose=replace(options.propose, tools=tuple(tools)))
 
 
@@ -300,5 +327,5 @@ def make_files(arguments: argparse.Namespace) -> dict[str, Path]:
         raise InputError(f"--image {outputs['image']}: a picture is .svg or .png; change the name")
     if "sheet" in outputs and outputs["sheet"].suffix.lower() not in SUFFIXES:
         raise InputError(f"--sheet {outputs['sheet']}: a sheet is {' or '.join(SUFFIXES)}; change the name")
-    check_outputs(outputs, [*named_files(arguments, "drawing", "job", "tools").values()])
+    check_outputs(outputs, [*named_files(arguments, "drawing", "job", "template", "tools").values()])
     return outputs

@@ -5,16 +5,15 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..core.input_file import read_input
 from ..formats.job.toml import read_units
 from ..formats.readers import offered_suffixes
-from ..formats.tools.files import read_tools
+from ..formats.tools.at_path import tools_at
 from ..model.operation import LEAST_LENGTH
 from ..toolpath.advice.time import CuttingPlan
 from ..usecases.advice import AdviceOptions
 from .command import OptionParser
 from .reading_options import add_reading_options, reading
-from .values import join_tolerance, number, typed
+from .values import TOOLS_HELP, join_tolerance, number, typed
 
 EPILOG = """\
 Prints for each area the narrowest passage, the largest disc, the smallest inner radius and the largest tool that
@@ -32,7 +31,7 @@ def add_tools_options(parser: OptionParser) -> None:
         "--tools",
         metavar="FILE",
         type=Path,
-        help="tools to choose from, .toml, .csv or .tbl (default: end mills from 1 to 25 mm as they are sold)",
+        help=f"tools to choose from: {TOOLS_HELP} (default: end mills from 1 to 25 mm as they are sold)",
     )
     parser.add_argument(
         "--depth", metavar="Z", type=number("depth", least=LEAST_LENGTH), default=2.0, help="of the floor (default 2)"
@@ -58,9 +57,7 @@ def add_tools_options(parser: OptionParser) -> None:
 
 def advice_options(arguments: argparse.Namespace) -> AdviceOptions:
     """Return what was asked for, the tools to choose from read."""
-    tools = (
-        () if arguments.tools is None else read_tools(arguments.tools.name, read_input(arguments.tools)).library.tools
-    )
+    tools = () if arguments.tools is None else tools_at(arguments.tools).library.tools
     plan = CuttingPlan(depth=arguments.depth, stepdown=min(arguments.stepdown, arguments.depth))
     return AdviceOptions(
         tuple(tools), plan, arguments.units, tuple(arguments.layer), arguments.join_tolerance, reading(arguments)

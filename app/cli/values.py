@@ -17,6 +17,10 @@ MACHINE_HELP = (
     "settings' folder machines, or a TOML file (default: timed on a router, held against none)"
 )
 
+TOOLS_HELP = (
+    ".toml, .csv, LinuxCNC's .tbl, Fusion's .tools or .json, Vectric's .vtdb, FreeCAD's .fctb, .fctl or folder of bits"
+)
+
 
 def number(what: str, *, least: float | None = None, unit: str = "mm") -> Callable[[str], float]:
     """Return a reader of numbers from `least`, or greater than 0 where there is none, to below 1e5, for argparse."""

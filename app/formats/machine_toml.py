@@ -15,6 +15,7 @@ RANGES = {
     **{f"{axis}.rapid": (1.0, 1e6) for axis in "xyz"},
     **{f"{axis}.acceleration": (1.0, 1e6) for axis in "xyz"},
     "spindle": (1.0, 1e6),
+    "spindle.power": (0.0, 1e6),
     "largest_feed": (1.0, 1e6),
     "tool_change": (0.0, 3600.0),
     "corner": (0.0, 10.0),

@@ -41,6 +41,7 @@ class Stock:
         thickness: below Z 0, mm, > 0.
         above: what more of it stands above Z 0 at first, mm, >= 0.
         under: thickness of the waste that it lies on, mm, >= 0: so far below it may tools cut, as points of drills do.
+        material: what it is made of, a word of `StockMaterial`; "" = not known.
     """
 
     margin: float = parameter(
@@ -67,6 +68,7 @@ class Stock:
     under: float = parameter(
         0.0, "under", "Waste below", "thickness of the waste that it lies on", Unit.LENGTH, high=1e5, table="stock"
     )
+    material: str = parameter("", "material", "Material", "what it is made of", Unit.TEXT, table="stock")
 
     def __post_init__(self) -> None:
         if not 0 <= self.margin < 1e5 or not 0 < self.thickness < 1e5:
@@ -263,14 +265,42 @@ class Job:
             )
         return tool
 
+    def prepared(self) -> Job:
+        """Return the job with what operations ask to come before them, behind all others in the list, so that these
+        keep their places; what is there already is not added.
+
+        Raises:
+            ParameterError: an operation has no tool, or none that can do it.
+        """
+        operations = list(self.operations)
+        for operation in self.operations:
+            if operation.cut.enabled:
+                for wanted in operation.prepared_by(self.cutter(operation)):
+                    if not any(_alike(wanted, each) for each in operations):
+                        operations.append(wanted)
+        return self if len(operations) == len(self.operations) else replace(self, operations=tuple(operations))
+
+    def prepares(self, index: int) -> int | None:
+        """Return the index of the first operation that asks for another one, by its index; None where none does."""
+        asked = self.operations[index]
+        for k, operation in enumerate(self.operations):
+            if k != index and operation.cut.enabled:
+                wanted = operation.prepared_by(self.tool(operation.cut.tool))
+                if any(_alike(each, asked) for each in wanted):
+                    return k
+        return None
+
     def same_paths(self, other: Job) -> bool:
-        """Return whether another job comes to the same paths: layers that hold nothing, colours and locks make none."""
+        """Return whether another job comes to the same paths: layers that hold nothing, colours, locks and what the
+        stock is made of make none.
+        """
         if self is other:
             return True
         mine, theirs = self.part, other.part
-        return replace(self, part=theirs) == other and replace(mine, layers=mine.machined_layers) == replace(
-            theirs, layers=theirs.machined_layers
-        )
+        stock = replace(self.stock, material=other.stock.material)
+        return replace(self, part=theirs, stock=stock) == other and replace(
+            mine, layers=mine.machined_layers
+        ) == replace(theirs, layers=theirs.machined_layers)
 
     def check_operations(self) -> None:
         """Refuse a job that cannot be computed, whichever way.
@@ -288,3 +318,15 @@ class Job:
         for operation in self.operations:
             if operation.cut.enabled:
                 self.cutter(operation)
+
+
+def _alike(wanted: Operation, operation: Operation) -> bool:
+    """Tell whether an operation does what is wanted; digits of a file may have moved its lengths."""
+    mine, theirs = wanted.cut, operation.cut
+    return (
+        type(wanted) is type(operation)
+        and theirs.enabled
+        and (mine.tool, mine.curves) == (theirs.tool, theirs.curves)
+        and abs(mine.depth - theirs.depth) < LEAST_LENGTH
+        and abs(mine.stock_to_leave - theirs.stock_to_leave) < LEAST_LENGTH
+    )

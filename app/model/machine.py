@@ -45,10 +45,16 @@ class LinearAxis:
 
 @dataclass(frozen=True, slots=True)
 class SpindleRange:
-    """Speeds that the spindle can turn at, rpm; 0 < low <= high."""
+    """What the spindle can do.
+
+    Attributes:
+        low, high: speeds that it can turn at, rpm; 0 < low <= high.
+        power: that it has at the tool, W, >= 0; 0 = not known.
+    """
 
     low: float
     high: float
+    power: float = 0.0
 
     def __post_init__(self) -> None:
         if not 0 < self.low <= self.high:
@@ -56,6 +62,8 @@ class SpindleRange:
                 f"Spindle range is {self.low:g} to {self.high:g} rpm; the low end must be greater than 0 "
                 "and the high end not less."
             )
+        if not self.power >= 0:
+            raise ParameterError(f"The spindle's power is {self.power:g} W; it must be 0 (not known) or more.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +73,7 @@ class Machine:
     Attributes:
         title: the machine's name for people.
         x, y, z: its axes.
-        spindle: its speeds.
+        spindle: its speeds and power.
         largest_feed: mm/min, > 0.
         tool_change: s from the last motion with one tool to the first with the next; >= 0.
         corner: how far the control leaves a corner where the program does not say it (G64 without P), mm, >= 0;

@@ -9,9 +9,17 @@ from typing import ClassVar
 
 from ..core.errors import ParameterError
 from .curve_selectors import Selector
-from .entry import Entry, Lead, Tabs
+from .entry import Entry, Lead, LeadKind, Tabs
 from .fields import Condition, Unit, check_ranges, parameter, part, required, required_part
 from .tool import Tool
+
+OPEN_EDGES = (
+    "open_edges",
+    "Open edges",
+    "walls that lie on the stock's edge are none: the tool comes in from outside there and goes past the edge",
+    Unit.FLAG,
+)
+"""Declared alike by all kinds that clear an area from its walls or its middle."""
 
 LEAST_LENGTH = 1e-3
 """mm; a smaller depth, step or height would vanish in the digits of an NC program."""
@@ -39,6 +47,13 @@ class Side(Enum):
     INSIDE = "inside"
     OUTSIDE = "outside"
     ON = "on"
+
+
+class CutterCompensation(Enum):
+    """Who offsets a contour to its side: the program alone, or also the control, by the wear in the tool's register."""
+
+    COMPUTER = "computer"
+    WEAR = "wear"
 
 
 class Order(Enum):
@@ -145,13 +160,36 @@ class CutParameters:
         return self.depth - self.floor_to_leave
 
 
+_WITHIN = Condition(lambda operation: operation.side is Side.INSIDE, "a path inside", 'write side = "inside"')
+_WORN = Condition(
+    lambda operation: operation.compensation is CutterCompensation.WEAR,
+    "the wear word",
+    'add compensation = "wear"',
+    "--compensation wear",
+)
 _FINISHED = Condition(lambda operation: operation.finish_width > 0, "a finish pass", "add finish_width = 0.2")
-_ENGAGED = (
+ENGAGED = (
     "most_engaged",
     "Limit of engagement",
     "of the diameter: where the cutter is engaged over more, the feed is slowed; 100 %: never",
     Unit.SHARE,
 )
+"""Declared alike by all kinds whose feed may follow what is engaged."""
+
+MOST_ENGAGED = (
+    "most_engaged_deg",
+    "Engaged at most",
+    "angle of the cutter's rim that may be in metal, anywhere; 90: half of the diameter, 60: a quarter",
+    Unit.ANGLE,
+)
+LIFT = (
+    "lift",
+    "Lift",
+    "how high the tool goes on its way back over ground that is cut; 0: it stays down",
+    Unit.LENGTH,
+)
+"""Declared alike, as the angle above, by all kinds that go in arcs."""
+
 THROUGH = (
     "through",
     "Through",
@@ -234,6 +272,10 @@ class Operation:
         """Whether it has its tool's centre on the lines, or drills, so that it bounds no area."""
         return self.wall_side in (None, Side.ON)
 
+    def line_width(self, tool: Tool) -> float | None:
+        """Return how wide the slots along the drawn lines are that bound its area, mm; None where the lines do."""
+        return None
+
     @property
     def beyond(self) -> float:
         """How far below its floor its tool goes on purpose, mm."""
@@ -242,6 +284,10 @@ class Operation:
     def deepest(self, tool: Tool) -> float:
         """Return how deep its tool goes, mm, without the point of a drill."""
         return self.cut.floor + self.beyond
+
+    def prepared_by(self, tool: Tool) -> tuple[Operation, ...]:
+        """Return the operations, with other tools, that it asks to come right before it; `tool`: its own."""
+        return ()
 
     @property
     def over_edge(self) -> float:
@@ -254,6 +300,11 @@ class Operation:
         return 0.0
 
     @property
+    def takes_points(self) -> bool:
+        """Whether drawn points are holes for it, as wide as its tool."""
+        return False
+
+    @property
     def engagement_limit(self) -> float:
         """Share of the diameter in (0, 1] beyond which the feed is slowed; 1 = never."""
         return 1.0
@@ -264,9 +315,24 @@ class Operation:
         return None
 
     @property
+    def lift_between(self) -> float:
+        """How high its tool goes between passes that keep to such an angle, over ground that is cut, mm."""
+        return 0.0
+
+    @property
+    def wear(self) -> float:
+        """How far the operator may offset its paths in the control, mm, either way; 0 = there is no word for it."""
+        return 0.0
+
+    @property
     def outer_lead(self) -> Lead | None:
         """How its paths round the outside of the drawing come to the walls; None where it has none there."""
         return None
+
+    @property
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return False
 
     @property
     def roughed_allowance(self) -> float:
@@ -333,8 +399,32 @@ class ContourOperation(Operation):
         choices=("Once", "Each depth"),
     )
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
+    compensation: CutterCompensation = parameter(
+        CutterCompensation.COMPUTER,
+        "compensation",
+        "Compensation",
+        "who offsets the path: the computer, or by a wear word (G41, G42) also the control, from 0 on",
+        Unit.CHOICE,
+        option=True,
+        group="Walls",
+        choices=("Computer", "Wear"),
+    )
+    wear_range: float = parameter(
+        0.1,
+        "wear_range",
+        "Wear range",
+        "of the radius that the operator may enter, either way; the path is proven at 0 and at both ends",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        high=5.0,
+        option=True,
+        group="Walls",
+        needs=_WORN,
+    )
+
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True, needs=_WITHIN)
 
     WORD = "contour"
     FOLLOWS_WALLS = True
@@ -347,6 +437,32 @@ class ContourOperation(Operation):
                 "take them out."
             )
 
+        if self.compensation is CutterCompensation.WEAR:
+            self._check_wear()
+
+    def _check_wear(self) -> None:
+        """Refuse what a control cannot offset."""
+        if self.side is Side.ON:
+            raise ParameterError("A path on the line has no side to offset it to; take compensation out.")
+        if self.dog_bones:
+            raise ParameterError(
+                "A control cannot offset dog-bones, where the path turns straight back; take them out, or compensation."
+            )
+        if self.lead.kind is not LeadKind.LINE:
+            raise ParameterError(
+                'A control begins and ends compensation on a straight way; with compensation = "wear" the lead must be '
+                'straight: lead = "line".'
+            )
+        if min(self.lead.overlap, self.lead.radius or self.wear_range * 2) < self.wear_range:
+            raise ParameterError(
+                f"Lead radius and lead overlap must be no less than the wear range, {self.wear_range:g} mm."
+            )
+
+    @property
+    def wear(self) -> float:
+        """How far the operator may offset its paths in the control, mm, either way; 0 = there is no word for it."""
+        return self.wear_range if self.compensation is CutterCompensation.WEAR else 0.0
+
     @property
     def wall_side(self) -> Side | None:
         """On which side of the drawn lines its cutter is."""
@@ -356,6 +472,11 @@ class ContourOperation(Operation):
     def engagement_limit(self) -> float:
         """Share of the diameter beyond which the feed is slowed."""
         return self.most_engaged
+
+    @property
+    def opens_edges(self) -> bool:
+        """Whether its paths go on past the stock's edges, where walls lie on them."""
+        return self.open_edges and self.side is Side.INSIDE
 
     @property
     def outer_lead(self) -> Lead | None:
@@ -391,8 +512,10 @@ class PocketOperation(Operation):
         short="Begin",
     )
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
+
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True)
 
     WORD = "pocket"
     CLEARS = True
@@ -412,6 +535,11 @@ class PocketOperation(Operation):
         return self.stepover
 
     @property
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return self.open_edges
+
+    @property
     def on_pixels(self) -> bool:
         """Pockets are what the way of 1986 was made for."""
         return True
@@ -422,24 +550,11 @@ class AdaptiveOperation(Operation):
     """Clear the area inside with a cutter whose rim is nowhere engaged by more than an angle."""
 
     most_engaged_deg: float = parameter(
-        math.radians(60),
-        "most_engaged_deg",
-        "Engaged at most",
-        "angle of the cutter's rim that may be in metal, anywhere; 90: half of the diameter, 60: a quarter",
-        Unit.ANGLE,
-        low=math.radians(15),
-        high=math.radians(90),
-        option=True,
+        math.radians(60), *MOST_ENGAGED, low=math.radians(15), high=math.radians(90), option=True
     )
-    lift: float = parameter(
-        0.2,
-        "lift",
-        "Lift",
-        "how high the tool goes on its way back over ground that is cut; 0: it stays down",
-        Unit.LENGTH,
-        high=100.0,
-        option=True,
-    )
+    lift: float = parameter(0.2, *LIFT, high=100.0, option=True)
+
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True)
 
     WORD = "adaptive"
     CLEARS = True
@@ -454,9 +569,14 @@ class AdaptiveOperation(Operation):
         return self.most_engaged_deg
 
     @property
-    def limit_deg(self) -> float:
-        """The limit in degrees."""
-        return round(math.degrees(self.most_engaged_deg), 6)
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return self.open_edges
+
+    @property
+    def lift_between(self) -> float:
+        """How high the tool goes on its way back over ground that is cut, mm."""
+        return self.lift
 
 
 @dataclass(frozen=True, slots=True)
@@ -465,7 +585,7 @@ class RestOperation(Operation):
 
     stepover: float | None = parameter(None, *STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
 
     WORD = "rest"
@@ -489,6 +609,18 @@ class RestOperation(Operation):
 class VcarveOperation(Operation):
     """Carve the area inside with a V cutter that touches both walls at the surface; `depth` is the greatest."""
 
+    flat_tool: int | None = parameter(
+        None,
+        "flat_tool",
+        "Flat tool",
+        "T number of the flat mill that clears the floor first, where the area is wider than the cone",
+        Unit.COUNT,
+        low=1,
+        high=1e9,
+        option=True,
+        auto="none",
+    )
+
     WORD = "vcarve"
     CARVES = True
     LEVELS = False
@@ -496,6 +628,20 @@ class VcarveOperation(Operation):
 
     def __post_init__(self) -> None:
         check_ranges(self)
+
+    def prepared_by(self, tool: Tool) -> tuple[Operation, ...]:
+        """Return the pocket that clears the flat floor: all that lies deeper than the slanted walls."""
+        if self.flat_tool is None:
+            return ()
+        cut = CutParameters(
+            self.flat_tool,
+            self.cut.depth,
+            self.cut.stepdown,
+            self.cut.depth * math.tan(tool.tip_angle / 2),
+            enabled=self.cut.enabled,
+            curves=self.cut.curves,
+        )
+        return (PocketOperation(cut),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -587,6 +733,15 @@ class DrillOperation(HoleOperation):
     dwell: float = parameter(0.0, *DWELL, high=60.0, option=True)
     through: float = parameter(0.0, *THROUGH, high=1000.0, option=True)
 
+    points: bool = parameter(
+        False,
+        "points",
+        "Points too",
+        "drawn points are holes, too, as if they were circles as wide as the drill",
+        Unit.FLAG,
+        option=True,
+    )
+
     WORD = "drill"
     DRILLS = True
     UNUSED = STRAIGHT_DOWN
@@ -600,3 +755,8 @@ class DrillOperation(HoleOperation):
     def dwell_s(self) -> float:
         """How long the drill turns at the bottom, s."""
         return self.dwell
+
+    @property
+    def takes_points(self) -> bool:
+        """Whether it drills drawn points."""
+        return self.points

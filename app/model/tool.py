@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from enum import Enum
 from functools import cache
 from itertools import pairwise
 
@@ -11,7 +12,7 @@ from ..core.errors import ParameterError
 from .fields import Parameter, Unit, declared_of, parameter, required
 from .tool_kind import ToolKind, ToolProfile, ToolShape, shape_keys
 
-__all__ = ["LEAST_RATE", "MOST_LENGTH", "FeedRow", "HolderPoint", "Tool", "ToolKind", "shape_keys"]
+__all__ = ["LEAST_RATE", "MOST_LENGTH", "FeedRow", "HolderPoint", "Tool", "ToolKind", "ToolMaterial", "shape_keys"]
 
 LEAST_RATE = 1.0
 """mm/min; a slower feed would be rounded away in the digits of F."""
@@ -27,6 +28,14 @@ LEAST_DIAMETER = 1e-3
 """mm; what is thinner is no cutter, and its paths in any drawing would have no end."""
 
 _NOT_ABOVE = (("flute_length", "overall_length"), ("stick_out", "overall_length"))
+
+
+class ToolMaterial(Enum):
+    """What a tool's edges are made of."""
+
+    UNKNOWN = "unknown"
+    HSS = "hss"
+    CARBIDE = "carbide"
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,6 +135,14 @@ class Tool:
     )
     remark: str = parameter("", "remark", "Remark", "anything else worth knowing", Unit.TEXT)
     feeds: tuple[FeedRow, ...] = parameter((), "feeds", "Feeds", "by material", Unit.FEEDS)
+    tool_material: ToolMaterial = parameter(
+        ToolMaterial.UNKNOWN,
+        "tool_material",
+        "Edges of",
+        "what its edges are made of: unknown, high-speed steel or carbide",
+        Unit.CHOICE,
+        choices=("Unknown", "HSS", "Carbide"),
+    )
 
     def __post_init__(self) -> None:
         if not 1 <= self.number <= 9999:
@@ -204,6 +221,13 @@ class Tool:
     def radius(self) -> float:
         """Half the diameter, mm."""
         return self.diameter / 2
+
+    @property
+    def edges(self) -> ToolMaterial:
+        """What its edges are made of; where nobody tells it, carbide, and high-speed steel of what goes into holes."""
+        if self.tool_material is not ToolMaterial.UNKNOWN:
+            return self.tool_material
+        return ToolMaterial.HSS if self.kind.drills else ToolMaterial.CARBIDE
 
     @property
     def shape(self) -> ToolShape:

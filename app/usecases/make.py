@@ -7,11 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import accumulate
 
 import numpy as np
 
-from ..core.errors import GeometryError
+from ..core.beside import beside
+from ..core.errors import GeometryError, InputError
+from ..core.memory import give_back
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..formats.drawing import Drawing
@@ -42,17 +45,25 @@ from .cut import CutProgram
 from .cut_job import MeasuredMoves, cut_job, news
 from .engagement_proofs import engagement_proofs
 from .face_proofs import face_proofs
+from .feeds import JobWithFeeds
+from .layer_operations import with_layer_rules
 from .machining import check_order
-from .options import MakeOptions, job_with_options
+from .options import MakeOptions, job_with_options, with_feeds
 from .own_job import with_own_job
 from .plausible import read_for
 from .proposal.propose import Proposal
 from .proposed_job import with_proposal
 from .report import MakeReport, ReportData, make_report, rings_in_words
 from .thread_proofs import thread_proofs
+from .wear_proofs import wear_proofs
 from .written import WrittenMotions, write_and_check
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
+
+_MOST_BESIDE = 1_000_000
+"""Moves up to which they are measured while they are written and cut; of more the memory of one after the other is
+enough.
+"""
 
 NAMED, LETTERS = 3, 340
 """How many findings the one line names that says why nothing can be cut, and letters beyond which it names no further
@@ -75,6 +86,8 @@ class MakeResult:
         coverage: what is left on the floor, with outlines.
         cut: the files cut out of the stock and compared with the drawing; None when no move was made.
         proposal: that the operations are of; None where none was asked for.
+        feeds: the speeds and feeds that were proposed; None where they are those of the job.
+        ruled: what rules for layers have made, a line a layer.
     """
 
     job: Job
@@ -86,6 +99,8 @@ class MakeResult:
     coverage: Coverage
     cut: CutProgram | None
     proposal: Proposal | None = None
+    feeds: JobWithFeeds | None = None
+    ruled: tuple[str, ...] = ()
 
     @property
     def nc(self) -> NcText:
@@ -145,6 +160,9 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     made = _finished(program, context, progress.part(context.computed_at, 1.0))
     if (proposal := context.proposal) is not None:
         made = replace(made, report=made.report.with_proposal(proposal.report()), proposal=proposal)
+    made = replace(made, ruled=context.ruled)
+    if (feeds := context.feeds) is not None:
+        made = replace(made, report=made.report.with_feeds(feeds.report()), feeds=feeds)
     if not len(made.program.moves):
         raise GeometryError(_nothing(name, made.findings))
     return made
@@ -162,6 +180,8 @@ class MakeContext:
         compute: makes the moves.
         computed_at: share of the progress at which they are made.
         proposal: the operations that were proposed; None where they were given.
+        feeds: the speeds and feeds that were proposed; None where they were given.
+        ruled: what rules for layers have made, a line a layer.
     """
 
     job: Job
@@ -171,21 +191,33 @@ class MakeContext:
     compute: Callable[[Progress], Program]
     computed_at: float = 0.64
     proposal: Proposal | None = None
+    feeds: JobWithFeeds | None = None
+    ruled: tuple[str, ...] = ()
 
 
 def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
     """Return how a drawing is machined on its exact lines and arcs."""
     drawing = read_for(name, data, options)
-    options, proposal = with_proposal(drawing.part, options, progress)
-    found = drawing.findings if proposal is None else (*proposal.findings, *drawing.findings)
-    return replace(_exact_context(job_from_drawing(drawing, options), found, options.machine), proposal=proposal)
+    ruled = with_layer_rules(drawing.part, options)
+    options, proposal = with_proposal(drawing.part, ruled.options, progress)
+    found = (*ruled.findings, *(proposal.findings if proposal else ()), *drawing.findings)
+    fed = with_feeds(job_from_drawing(drawing, options), options)
+    return replace(
+        _exact_context(fed.job, found, options.machine), proposal=proposal, feeds=_proposed(fed), ruled=ruled.lines
+    )
+
+
+def _proposed(fed: JobWithFeeds) -> JobWithFeeds | None:
+    return fed if fed.proposals else None
 
 
 def _exact_context(job: Job, findings: tuple[Finding, ...], machine: Machine | None) -> MakeContext:
     from ..operations.compute import compute
 
     job.check_operations()
-    return MakeContext(job, load_post(job.post), machine, findings, lambda progress: compute(job, progress))
+    whole = job.prepared()
+    whole.check_operations()
+    return MakeContext(whole, load_post(job.post), machine, findings, lambda progress: compute(whole, progress))
 
 
 def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
@@ -193,14 +225,18 @@ def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress)
     from .bitmap_job import bitmap_job
     from .bitmap_way import compute_on_bitmap
 
+    if options.rules:
+        raise InputError("Rules for layers have no effect on pixels, which have none; leave the template away.")
     ready = bitmap_job(name, data, options)
+    fed = with_feeds(ready.job, options)
     return MakeContext(
-        ready.job,
-        load_post(ready.job.post),
+        fed.job,
+        load_post(fed.job.post),
         options.machine,
         ready.findings,
-        lambda progress: compute_on_bitmap(ready.job, ready.part, progress).program,
+        lambda progress: compute_on_bitmap(fed.job, ready.part, progress).program,
         computed_at=0.5,
+        feeds=_proposed(fed),
     )
 
 
@@ -264,25 +300,27 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     from ..toolpath.engagement.feed import followed  # compiled code: loaded where it is used
 
     job = context.job
+    give_back()  # contours, rings and strokes were very many small things
     program = followed(program, job, progress.part(0.0, 0.1))
-    progress.step(0.1, "Writing NC")
-    written = write_and_check(program, job, context.post, context.machine, progress.part(0.1, 0.2))
-    lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
-    program = replace(program, moves=replace(program.moves, line=lines))
-    progress.step(0.2, "Checking clearance")
-    motions = WrittenMotions.of(written, program, job)
-    proofs = engagement_proofs(job, motions, progress.part(0.2, 0.21))
-    carvings = carving_proofs(program, job, motions, progress.part(0.21, 0.22))
-    threads = thread_proofs(program, job, motions)
-    faced = face_proofs(program, job, motions)
-    depths = gouge_depths(program, job, progress=progress.part(0.22, 0.28))
-    rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
+    measured_first = partial(_measured, program, job)
+    with beside(measured_first, progress.part(0.6, 0.85), len(program.moves) <= _MOST_BESIDE) as measuring:
+        progress.step(0.1, "Writing NC")
+        written = write_and_check(program, job, context.post, context.machine, progress.part(0.1, 0.2))
+        lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
+        program = replace(program, moves=replace(program.moves, line=lines))
+        give_back()
+        motions = WrittenMotions.of(written, program, job)
+        proofs = engagement_proofs(job, motions, progress.part(0.2, 0.21))
+        carvings = carving_proofs(program, job, motions, progress.part(0.21, 0.22))
+        threads = thread_proofs(program, job, motions)
+        faced = face_proofs(program, job, motions)
+        worn = wear_proofs(program, job, written, motions, progress.part(0.219, 0.22))
+        rapids = rapids_in_material(program, job, progress.part(0.22, 0.25))
+        metal = cut_job(program, job, written, measuring.result, progress.part(0.25, 0.98)) if written.files else None
+        depths, coverage = measuring.result()
     deepest = deepest_of(depths)
-    coverage = measure_beside_clear(program, job, clear_moves(program.moves, depths, CHORD), progress.part(0.3, 0.7))
     clamped = deepest_of(clamps_met(program, job, depths))
     unsafe = (*_gouge_findings(deepest, program), *_clamp_findings(clamped, program), *_rapid_findings(rapids, program))
-    moves = MeasuredMoves(depths, coverage)
-    metal = cut_job(program, job, written, moves, progress.part(0.7, 0.98)) if written.files else None
     own = (
         *unsafe,
         *(news(metal, unsafe) if metal is not None else ()),
@@ -290,6 +328,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
         *(finding for carving in carvings.values() for finding in carving.findings()),
         *(finding for thread in threads.values() for finding in thread.findings()),
         *(finding for each in faced.values() for finding in each.findings()),
+        *(finding for each in worn.values() for finding in each.findings()),
         *_shape_findings(program, job),
         *written.coarseness(job.out_units),
         *(written.misfits() if context.machine else ()),
@@ -300,10 +339,20 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     findings = worst_first((*own, *program.findings, *context.drawing_findings))
     progress.step(1.0, "Done")
     measured = ReportData(
-        program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings, threads, faced
+        program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings, threads, faced, worn
     )
     report = make_report(measured)
     return MakeResult(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
+
+
+def _measured(program: Program, job: Job, progress: Progress) -> MeasuredMoves:
+    """Return what closed forms say of computed moves; nothing of it needs their text."""
+    progress.step(0.0, "Checking clearance")
+    depths = gouge_depths(program, job, progress=progress.part(0.0, 0.2))
+    clear = clear_moves(program.moves, depths, CHORD)
+    measured = MeasuredMoves(depths, measure_beside_clear(program, job, clear, progress.part(0.2, 1.0)))
+    give_back()
+    return measured
 
 
 def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:

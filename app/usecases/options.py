@@ -5,14 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from ..core.errors import ParameterError
+from ..formats.tools.materials import stock_material
 from ..model.fields import parameters_of, with_values
 from ..model.job import Job, OriginXY, OriginZ, Stock
+from ..model.layer_rules import LayerRule
 from ..model.machine import Machine
 from ..model.operation import LEAST_LENGTH, Operation, Order, Side
 from ..model.part import Part, Units
 from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.tool import Tool
 from .bitmap_options import BitmapOptions
+from .feeds import FeedsOptions, JobWithFeeds, with_proposed_feeds
 from .layers import layers_to_read, with_layers_spelled
 from .machining import MachiningOptions, contours_alone, no_effect, with_drills, with_machining
 from .proposal.propose import ProposalOptions
@@ -64,6 +67,10 @@ class MakeOptions:
         machining: sides, entries, leads, tabs, drills, copies, clamps.
         reading: what else is said about reading the drawing.
         propose: propose the operations; None = they are those of the job.
+        rules: for layers, which make operations behind those of the job.
+        material: of the stock; None = as the job says.
+        propose_feeds: give the tools the speed and the feeds that are proposed for the material; `feed`, `plunge` and
+            `speed` go before that.
     """
 
     job: Job | None = None
@@ -89,6 +96,9 @@ class MakeOptions:
     machining: MachiningOptions = field(default_factory=MachiningOptions)
     reading: DrawingOptions = AS_DRAWN
     propose: ProposalOptions | None = None
+    rules: tuple[LayerRule, ...] = ()
+    material: str | None = None
+    propose_feeds: bool = False
 
 
 def job_with_options(part: Part, options: MakeOptions) -> Job:
@@ -130,6 +140,25 @@ def job_with_options(part: Part, options: MakeOptions) -> Job:
             exact_path=options.exact_path or base.exact_path,
         )
     )
+
+
+def with_feeds(job: Job, options: MakeOptions) -> JobWithFeeds:
+    """Return a job with the material that was asked for, and where they were with the speeds and feeds for it.
+
+    Raises:
+        InputError: there is no such material. ParameterError: feeds are to be proposed, and nobody says for what.
+    """
+    material = options.material or job.stock.material
+    if not options.propose_feeds:
+        word = stock_material(options.material).word if options.material else material
+        return JobWithFeeds(replace(job, stock=replace(job.stock, material=word)))
+    if not material:
+        raise ParameterError(
+            "Feeds are to be proposed, and nobody says what the stock is made of; add --material NAME, or material to "
+            "the job's [stock]."
+        )
+    made = with_proposed_feeds(job, FeedsOptions(material, options.machine))
+    return replace(made, job=replace(made.job, tools=tuple(_speeds(tool, options) for tool in made.job.tools)))
 
 
 def layers_of_drawing(options: MakeOptions) -> tuple[str, ...]:

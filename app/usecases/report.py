@@ -29,6 +29,7 @@ from .engagement_proofs import OperationProof
 from .face_proofs import FaceProof
 from .report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
 from .thread_proofs import ThreadProof
+from .wear_proofs import WearProof
 from .written import WrittenProgram
 
 ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
@@ -66,6 +67,7 @@ class ReportData:
         cut: the files, cut out of the stock; None without files.
         proofs: of the engaged angle, by index of the operation. carvings: of what V cutters leave, alike. threads: of
             threads, alike. faced: of the stock's top, alike.
+        worn: of contours that the control offsets by wear, alike.
     """
 
     program: Program
@@ -80,6 +82,7 @@ class ReportData:
     carvings: Mapping[int, CarvingProof] = field(default_factory=dict)
     threads: Mapping[int, ThreadProof] = field(default_factory=dict)
     faced: Mapping[int, FaceProof] = field(default_factory=dict)
+    worn: Mapping[int, WearProof] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -103,6 +106,10 @@ class MakeReport:
     def with_proposal(self, proposal: Json) -> MakeReport:
         """Return it with what was proposed, and why."""
         return MakeReport({**self.data, "proposal": proposal})
+
+    def with_feeds(self, feeds: Json) -> MakeReport:
+        """Return it with the speeds and feeds that were proposed, and why."""
+        return MakeReport({**self.data, "feeds": feeds})
 
     def summary(self, output: str) -> str:
         """Return it in one line for people."""
@@ -190,7 +197,9 @@ def _proven(measured: ReportData, index: int) -> Json:
     engaged = {"engaged": measured.proofs[index].values()} if index in measured.proofs else {}
     carved = {"carved": measured.carvings[index].values()} if index in measured.carvings else {}
     threaded = {"cut_thread": measured.threads[index].values()} if index in measured.threads else {}
-    return engaged | carved | threaded | ({"faced": measured.faced[index].values()} if index in measured.faced else {})
+    faced = {"faced": measured.faced[index].values()} if index in measured.faced else {}
+    worn = {"worn": measured.worn[index].values()} if index in measured.worn else {}
+    return engaged | carved | threaded | faced | worn
 
 
 def _of(measured: ReportData, *kinds: FindingKind) -> list[Finding]:

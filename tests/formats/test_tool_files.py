@@ -35,7 +35,7 @@ def test_every_kind_gives_the_rows_of_a_control():
 @pytest.mark.parametrize(
     ("name", "data", "told"),
     [
-        ("tools.xls", b"", r"tools\.xls: tools are read and written as \.toml, \.csv, \.tbl"),
+        ("tools.xls", b"", r"tools\.xls: tools are read as \.toml, \.csv, \.tbl"),
         ("t.tbl", b"T1 P1\n", r"t\.tbl:1: T1: diameter is 0 mm"),
     ],
 )

@@ -31,7 +31,7 @@ from app.model.job import Job
 from app.model.operation import ContourOperation, CutParameters, DrillOperation, Operation, Side
 from app.model.operation_kinds import register
 from app.model.part import Part
-from app.model.tool import FeedRow, Tool, ToolKind
+from app.model.tool import FeedRow, Tool, ToolKind, ToolMaterial
 from app.usecases.options import job_with_options
 from app.usecases.parameter_table import parameter_table
 from app.usecases.report_path import _parameters
@@ -189,6 +189,7 @@ def test_a_tools_parameters_are_told_alike_by_all_files() -> None:
         ((0.0, 10.0), (25.0, 15.0)),
         "r",
         (FeedRow("brass", 90.0, 0.03),),
+        ToolMaterial.HSS,
     )
     library = read_library("l", write_library(ToolLibrary("l", (whole,)))).tools
     assert library == read_tool_csv("l", write_tool_csv(ToolLibrary("l", (whole,))))[0].tools == (whole,)

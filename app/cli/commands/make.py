@@ -33,6 +33,8 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     others = by_path(outputs, other_files(made, outputs, drawing))
     _ensure_apart(outputs["output"], [*programs], [*others])
     proposed = made.proposal.lines() if made.proposal is not None else []
+    proposed += made.ruled
+    proposed += made.feeds.lines() if made.feeds is not None else []
     lines = [made.report.summary(", ".join(map(str, programs))), *proposed, *finding_lines(made.findings)]
     lines += times.lines() if times else []
     return CommandOutcome(others | programs, lines, not made.clean).delivered(arguments, progress)

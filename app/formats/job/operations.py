@@ -30,10 +30,10 @@ def operations_of(tables: list[JobTable], kept: bool = False) -> Iterator[Operat
         table.done(", ".join(("kind", *declared())))
         for key in ("kind", "tool"):
             if key not in table.taken:
-                raise table.error(key, f"is missing in this [[operation]]; add {key} = …")
+                raise table.error(key, f"is missing in this [[{table.path}]]; add {key} = …")
         kind: type[Operation] = table.taken.pop("kind")
         _refuse_strange_keys(table, kind, given, kept)
-        operation = table.text.built("operation", table.index, lambda kind=kind, taken=table.taken: built(kind, taken))  # type: ignore[misc]
+        operation = table.text.built(table.path, table.index, lambda kind=kind, taken=table.taken: built(kind, taken))  # type: ignore[misc]
         if not kept:
             _refuse_idle_values(table, operation, given)
         yield operation

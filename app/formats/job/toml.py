@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -11,6 +11,7 @@ from ...core.errors import InputError
 from ...core.toml_tables import brief, parsed
 from ...model.fields import ParameterPlace, declared_of, with_values
 from ...model.job import Job, OriginXY, OriginZ
+from ...model.layer_rules import LayerRule
 from ...model.part import Part, Units
 from ...model.tool import Tool
 from .operations import operations_of
@@ -18,6 +19,7 @@ from .tables import (
     JobTable,
     JobText,
     one_of,
+    read_text,
     reader_of,
     word,
 )
@@ -39,10 +41,15 @@ ORIGIN_XY = {
     "center": OriginXY.CENTRE,
 }
 ORIGIN_Z = {"top": OriginZ.TOP, "bottom": OriginZ.BOTTOM}
+FEEDS = {"tools": False, "proposed": True}
 SETTINGS = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out")
 """Tables that hold the job's own parameters, in the order in which they are written."""
 
 TABLES = (*SETTINGS, "tool", "operation")
+"""Of a job, in files of any kind."""
+
+_RULES = "layer"
+"""Of a job file alone: rules for layers; a project's table of that name holds the drawing's."""
 
 
 @dataclass(frozen=True)
@@ -128,11 +135,15 @@ class JobFile:
         job: with an empty part.
         units: of a drawing that names none, or None.
         tables: that are in the file; what belongs to others has its default.
+        rules: what is done on layers of any drawing; they make operations behind those of the job.
+        proposes_feeds: whether tools are to get the speed and the feeds that are proposed for the stock's material.
     """
 
     job: Job
     units: Units | None
     tables: frozenset[str] = frozenset()
+    proposes_feeds: bool = False
+    rules: tuple[LayerRule, ...] = ()
 
 
 def read_job(name: str, data: bytes) -> JobFile:
@@ -200,6 +211,10 @@ def with_line(message: str, text: str) -> str:
     return f"{text.count(chr(10)) + 1}: {message.removesuffix(' (at end of document)')}"
 
 
+_BEFORE, _BEHIND = {"drawing": ("units",)}, {"stock": ("feeds",)}
+"""Keys that stand beside the job's parameters in its tables: what is asked for when a job is made of the file."""
+
+
 class _JobReader:
     """Reads the tables of one file; every error names the line."""
 
@@ -227,34 +242,62 @@ class _JobReader:
     def job_file(self) -> JobFile:
         """Return everything that the file says."""
         for key in self._tree:
-            if key not in TABLES:
-                raise self._wrong(key, f"is no table of a job file; use {', '.join(TABLES)}")
+            if key not in (*TABLES, _RULES):
+                raise self._wrong(key, f"is no table of a job file; use {', '.join((*TABLES, _RULES))}")
         tables = {path: self._settings(path) for path in SETTINGS if path != "copies"}
         self._check_drawing(tables["drawing"])
         self._check_keep_out(tables["keep_out"])
         values = {key: value for table in tables.values() for key, value in table.taken.items()}
         units = values.pop("units", None)
+        proposes = values.pop("feeds", False)
+        if proposes and not values.get("material"):
+            raise tables["stock"].error("feeds", "needs a material; add material = 'aluminium', or take it out")
         job = self._text.built("stock", 0, lambda: with_values(Job(Part()), values))
         tools, operations = self._tool_list(), tuple(operations_of(self._tables("operation"), self._kept))
         tools = tools if "tool" in self._tree and (tools or self._kept) else job.tools
-        operations = operations if "operation" in self._tree and (operations or self._kept) else job.operations
+        rules = tuple(self._rules())
+        ruled = "operation" in self._tree and (operations or self._kept)
+        operations = operations if ruled or rules else job.operations
         copies = self._settings("copies")
         self._check_copies(copies)
         job = self._text.built("copies", 0, lambda: with_values(job, copies.taken))
         job = replace(job, tools=tools, operations=operations)
         for index, operation in enumerate(operations if "operation" in self._tree and not self._kept else ()):
             self._text.built("operation", index, lambda each=operation: job.cutter(each))  # type: ignore[misc]
-        return JobFile(job, units, frozenset(self._tree))
+        for index, rule in enumerate(rules):
+            self._text.built("layer", index, lambda each=rule.operation: job.cutter(each))  # type: ignore[misc]
+        return JobFile(job, units, frozenset(self._tree), proposes, rules)
+
+    def _rules(self) -> Iterator[LayerRule]:
+        """Yield what is done on layers: an operation each, without curves."""
+        tables = self._tables(_RULES)
+        told: list[dict[str, Any]] = []
+        for table in tables:
+            for key in ("curves", "layers"):
+                if key in table.values:
+                    raise table.error(
+                        key, "has no effect in a [[layer]], which says so by name and colour; take it out"
+                    )
+            table.take("name", read_text)
+            table.take("colour", read_text)
+            if table.values.get("depth") == "name":
+                table.taken["depth_in_name"] = bool(table.values.pop("depth"))
+            told.append(dict(table.taken))
+            table.taken.clear()
+        for index, (operation, values) in enumerate(zip(operations_of(tables, self._kept), told, strict=True)):
+            yield self._text.built("layer", index, lambda op=operation, more=values: LayerRule(op, **more))  # type: ignore[misc]
 
     def _settings(self, path: str) -> JobTable:
         """Return a table of the job's parameters, its keys taken by those of the parameters."""
         table, declared = self._table(path), settings_of(path)
         if path == "drawing":
             table.take("units", word(UNITS, "unit"))
+        if path == "stock":
+            table.take("feeds", word(FEEDS, "source of speeds and feeds"))
         for key, placed in declared.items():
             known = WORDS.get(placed.key)
             table.take(key, word(known.words, known.what) if known else reader_of(placed), placed.key)
-        table.done(", ".join((*(("units",) if path == "drawing" else ()), *declared)))
+        table.done(", ".join((*_BEFORE.get(path, ()), *declared, *_BEHIND.get(path, ()))))
         return table
 
     def _check_drawing(self, table: JobTable) -> None:

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 from ...core.errors import HitofudeError, InputError, printable
 from ...core.toml_tables import QUOTED, brief
 from ...model.fields import Unit, declared_of
-from ...model.tool import FeedRow, HolderPoint, Tool
+from ...model.tool import FeedRow, HolderPoint, Tool, ToolMaterial
 from ...model.tool_kind import ToolKind, tool_kinds
 from .holders import outline_of
 from .library import ReadTools, ToolLibrary, check_numbers, shortest_degrees
@@ -60,7 +60,7 @@ ALSO = {
     "feed": "feed_rate",
     "plunge": "plunge_rate",
 }
-TEXTS = ("name", "kind", "remark", "holder")
+TEXTS = ("name", "kind", "tool_material", "remark", "holder")
 COMMA = re.compile(r"[+-]?(\d{1,3}(\.\d{3})+|\d+),\d+")
 THOUSANDS = re.compile(r"[+-]?\d{1,3}(\.\d{3})+")
 
@@ -195,6 +195,8 @@ class _Spreadsheet:
         unit = DECLARED.get(column.field)
         if unit is Unit.TEXT:
             return cell
+        if column.field == "tool_material":
+            return _built(lambda: _tool_material(cell), place)
         if unit is Unit.CHOICE:
             return _built(lambda: _kind(cell), place)
         if unit is Unit.OUTLINE:
@@ -249,6 +251,14 @@ def _kind(cell: str) -> ToolKind:
     if found is None:
         raise InputError(f"'{brief(cell, QUOTED)}' is no kind of tool; use {', '.join(ToolKind.words())}.")
     return found
+
+
+def _tool_material(cell: str) -> ToolMaterial:
+    try:
+        return ToolMaterial(cell.lower().strip())
+    except ValueError as error:
+        known = ", ".join(each.value for each in ToolMaterial)
+        raise InputError(f"'{brief(cell, QUOTED)}' is nothing that edges are made of; use {known}.") from error
 
 
 def _holder(cell: str) -> tuple[HolderPoint, ...]:
@@ -310,6 +320,8 @@ def _cell(tool: Tool, field: str) -> str | int | float:
         return "; ".join(f"{height!r} x {radius!r}" for height, radius in tool.holder)
     if field == "kind":
         return tool.kind.value
+    if field == "tool_material":
+        return "" if tool.tool_material is ToolMaterial.UNKNOWN else tool.tool_material.value
     if field == "tip_angle" and value:
         return shortest_degrees(value)
     if value == 0:

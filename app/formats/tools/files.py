@@ -1,5 +1,5 @@
-"""Tools in and out by the kind of file: a library (.toml), a spreadsheet (.csv), LinuxCNC's tool table (.tbl); others
-can be registered.
+"""Tools in and out by the kind of file: a library (.toml), a spreadsheet (.csv), LinuxCNC's tool table (.tbl); in
+alone: libraries of Fusion, FreeCAD and Vectric. Others can be registered.
 """
 
 from __future__ import annotations
@@ -24,13 +24,14 @@ class ToolFormat:
         suffix: of its files, in lower case, with the dot.
         read: returns the tools of a file's bytes, and a sentence for each thing left out; it takes the file's name and
             the units of lengths that name none, and raises InputError.
-        write: returns a file's bytes; the units are those in which a kind that names none is written.
+        write: returns a file's bytes; the units are those in which a kind that names none is written; None = the kind
+            is read alone.
         rows: returns what a control's tool table would hold, where a file says that itself; None = of its tools.
     """
 
     suffix: str
     read: Callable[[str, bytes, Units], ReadTools]
-    write: Callable[[ToolLibrary, Units], bytes]
+    write: Callable[[ToolLibrary, Units], bytes] | None = None
     rows: Callable[[str, bytes, Units], tuple[TableRow, ...]] | None = None
 
 
@@ -85,13 +86,22 @@ def write_tools(name: str, library: ToolLibrary, units: Units = Units.MM) -> byt
     Raises:
         InputError: the suffix is none of these, or two tools have the same number.
     """
-    return _format(name).write(library, units)
+    write = _format(name).write
+    if write is None:
+        known = ", ".join(suffix for suffix, each in _FORMATS.items() if each.write)
+        raise InputError(f"{name}: tools of this kind are read alone; write them as {known}.")
+    return write(library, units)
+
+
+def suffixes() -> tuple[str, ...]:
+    """Return the suffixes of all kinds of files that are read."""
+    return tuple(_FORMATS)
 
 
 def _format(name: str) -> ToolFormat:
     suffix = PurePath(name).suffix.lower()
     if suffix not in _FORMATS:
-        raise InputError(f"{name}: tools are read and written as {', '.join(_FORMATS)}; choose a file that ends so.")
+        raise InputError(f"{name}: tools are read as {', '.join(_FORMATS)}; choose a file that ends so.")
     return _FORMATS[suffix]
 
 
@@ -105,6 +115,24 @@ def _read_table(name: str, data: bytes, units: Units) -> ReadTools:
     if not tools:
         raise InputError(left_out[0])
     return ReadTools(ToolLibrary(PurePath(name).stem, tools), left_out)
+
+
+def _read_fusion(name: str, data: bytes, units: Units) -> ReadTools:
+    from .fusion import read_fusion  # archives and databases: few commands read one
+
+    return read_fusion(name, data)
+
+
+def _read_bit(name: str, data: bytes, units: Units) -> ReadTools:
+    from .freecad import read_bit
+
+    return read_bit(name, data)
+
+
+def _read_vectric(name: str, data: bytes, units: Units) -> ReadTools:
+    from .vectric import read_vectric
+
+    return read_vectric(name, data)
 
 
 register(
@@ -123,3 +151,7 @@ register(
         lambda name, data, units: read_tool_table(name, data, units).rows,
     )
 )
+register(ToolFormat(".tools", _read_fusion))
+register(ToolFormat(".json", _read_fusion))
+register(ToolFormat(".fctb", _read_bit))
+register(ToolFormat(".vtdb", _read_vectric))

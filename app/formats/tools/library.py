@@ -29,6 +29,7 @@ HEADER = """\
 #                    thread-mill
 #   name, remark     texts
 #   flutes           cutting edges
+#   tool_material    what they are made of: unknown, hss (high-speed steel) or carbide
 #   spindle_speed, feed_rate, plunge_rate
 #   corner_radius    bull: of the rounded corner
 #   tip_angle        v, drill, taper: full angle of the point or cone

@@ -95,11 +95,13 @@ class HoleBlocks:
     Attributes:
         waits: that let the tool wait; the events tell where.
         starts: that stand before tapping cycles, each right before one. tap: number of its G word; "" = there is none.
+        offsets: that begin and end cutter compensation; where they do, reading with a wear in the registers tells.
     """
 
     waits: frozenset[str] = frozenset()
     starts: frozenset[str] = frozenset()
     tap: str = ""
+    offsets: frozenset[str] = frozenset()
 
     @staticmethod
     def of(post: Post, job: Job) -> HoleBlocks:
@@ -111,10 +113,14 @@ class HoleBlocks:
             if each.TAPS:
                 tool = job.tool(each.cut.tool)
                 starts.add(drilling.tap_start.format(tool=tool.number, speed=round(tool.spindle_speed)))
+        worn = {each.cut.tool for each in job.operations if each.wear}
+        words = post.compensation
+        offsets = {template.format(tool=tool) for tool in worn for template in (words.left, words.right, words.off)}
         return HoleBlocks(
             frozenset(_code(text, post) for text in waits),
             frozenset(_code(text, post) for text in starts if text),
             drilling.tap.lower(),
+            frozenset(_code(text, post) for text in offsets if text),
         )
 
     def may_stand(self, code: str, following: str) -> bool:
@@ -123,7 +129,7 @@ class HoleBlocks:
         Args:
             code, following: what the control obeys of it, and of the line behind it.
         """
-        return code in self.waits or (code in self.starts and self.taps(following))
+        return code in self.waits or code in self.offsets or (code in self.starts and self.taps(following))
 
     def taps(self, code: str) -> bool:
         """Tell whether a block begins a tapping cycle."""

@@ -180,7 +180,11 @@ def _tool_table(job: Job) -> dict[int, ToolOffset]:
     """Return a length for each tool, no two alike: so a tool whose length is not taken, or another's, shows in its
     path.
     """
-    return {tool.number: ToolOffset((0.0, 0.0, float(rank))) for rank, tool in enumerate(job.tools, start=1)}
+    worn = {each.cut.tool for each in job.operations if each.wear}
+    return {
+        tool.number: ToolOffset((0.0, 0.0, float(rank)), diameter_known=tool.number in worn)
+        for rank, tool in enumerate(job.tools, start=1)
+    }
 
 
 def _problems(compared: _FileCheck, mine: MotionOwners, far: np.ndarray) -> Iterator[ProgramProblem]:

@@ -78,8 +78,9 @@ class Control:
             began, program coordinates and units. before_cycle: the motion before it.
         curve: the spline over several blocks that is being written, None outside of one. last_offset: P, Q of the last
             G5, mm.
-        compensation: G41 or G42, None = G40. stray: where the tool itself is when that is not where the program takes
-            it to be, after G40.
+        compensation: G41 or G42, None = G40, or a radius of 0. stray: where the tool itself is when that is not where
+            the program takes it to be, after G40. side: the G word of compensation, also where the radius is 0.
+        registers_hold_wear: whether a D word whose register nobody tells means 0.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
         requested: parameters that the machine tells, or that nobody has set, and the line that read each first.
         columns, splines, events, homeward, warnings: what comes out; a warning is a text, and of which word.
@@ -103,6 +104,8 @@ class Control:
         self.curve: OpenNurbs | OpenFanucNurbs | None = None
         self.compensation: Compensation | None = None
         self.stray: Place | None = None
+        self.side = ""
+        self.registers_hold_wear = False
         self.last_offset = (0.0, 0.0)
         self.line = self.unrolled = 0
         self.columns = MotionColumns()
@@ -268,6 +271,7 @@ class Control:
             self.compensation.flush(self.columns)
             self.stray = self.compensation.place
             self.compensation = None
+        self.side = ""
 
     def feed_along(self, length: float) -> float:
         """Return the feed of a motion of some length, mm/min.

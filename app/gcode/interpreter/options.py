@@ -37,11 +37,12 @@ class ToolOffset:
 
     Attributes:
         offset: what G43 H takes off along X, Y, Z, mm.
-        diameter: mm, 0 = not known.
+        diameter: mm, 0 = not known, but where `diameter_known` says that it is.
     """
 
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
     diameter: float = 0.0
+    diameter_known: bool = False
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,10 @@ from .notes_words import Comments
 from .program import HeaderNote, KeepOutNote, OperationNote, PlungeRateNote, StockNote, ToolNote
 
 MARK, MARK_ON = b"hitofude:", b"hitofude+"
+_HEAD = 1 << 20
+"""Bytes in which our header stands."""
+
+_WEAR = re.compile(rb"hitofude: registers=wear\b", re.IGNORECASE)
 """What the comments of the header begin with, and those that go on with the one before."""
 
 _MOST = 20_000
@@ -58,6 +62,11 @@ class ProgramNotes(NamedTuple):
     tools: tuple[ToolNote, ...] = ()
     stock: StockNote | None = None
     header: HeaderNote | None = None
+
+
+def registers_hold_wear(data: bytes) -> bool:
+    """Tell whether a program of our own says that its registers hold the wear of tools, from 0 on, and no diameters."""
+    return _WEAR.search(data[:_HEAD]) is not None
 
 
 def own_notes(comments: Comments) -> ProgramNotes:

@@ -15,6 +15,7 @@ from .compensation import Compensation
 from .control import Control
 from .expression import whole
 from .feeds import set_feed
+from .foreign_codes import REMEDY
 from .offsets import ZERO, Place, added, offset_name, replaced, taken
 from .options import ToolOffset
 from .program import EventKind
@@ -118,6 +119,7 @@ def _radius(control: Control, block: Block) -> None:
     if control.modal.plane is Plane.YZ:
         raise BlockFault(f"{code} works in the planes G17 and G18.", letter="g")
     radius = _cutter_diameter(control, block, code) / 2
+    control.side = code
     if radius:
         sign = 1 if code.startswith("G41") else -1
         control.compensation = Compensation(sign * radius, control.modal.plane, control.stray or control.at)
@@ -134,7 +136,9 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
     if number == 0:
         return 0.0
     row = control.tool_table.get(number)
-    if row is None or not row.diameter:
+    if row is None or not (row.diameter or row.diameter_known):
+        if control.registers_hold_wear:
+            return 0.0
         letter = "d" if block.has("d") else "g"
         raise BlockFault(
             f"{code} needs the diameter of tool {number}, which is in no tool table; read the program with one.", letter
@@ -246,7 +250,7 @@ def _refused(control: Control, block: Block) -> None:
     refused = {"G7": "the diameter mode of lathes", "G16": "polar coordinates", "G51": "scaling", "G68": "rotation"}
     for code in block.codes.values():
         if code in refused:
-            raise BlockFault(f"{refused[code]} ({code}) is not followed; the reader stops here.", letter="g")
+            raise BlockFault(f"{refused[code]} ({code}) is not followed; {REMEDY}", letter="g")
 
 
 _STEPS: tuple[tuple[ModalGroup, Callable[[Control, Block], None]], ...] = (

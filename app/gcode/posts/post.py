@@ -247,6 +247,20 @@ class NurbsWords:
 
 
 @dataclass(frozen=True, slots=True)
+class CompensationWords:
+    """Blocks that let the control offset the path by what stands in the tool's register; "" = it cannot.
+
+    Attributes:
+        left, right: templates with the field {tool}: the tool is at the left of the contour, at its right.
+        off: block that ends it.
+    """
+
+    left: str = ""
+    right: str = ""
+    off: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Post:
     """One control's dialect.
 
@@ -273,6 +287,7 @@ class Post:
     program: ProgramLines
     drilling: DrillingWords
     nurbs: NurbsWords
+    compensation: CompensationWords = CompensationWords()
 
     def digits(self, units: Units) -> WordDecimals:
         """Return the digits of each word in a program of these units."""

@@ -25,6 +25,7 @@ EVERYWHERE = frozenset({"units", "blending", "program"})
 WITH_TOOL = EVERYWHERE | {"tool", "speed", "dwell_s", "dwell_ms", "coolant_on", "coolant_off", "preselect"}
 COUNTS = frozenset({"program", "tool", "speed", "dwell_ms"})
 FIELDS = {"tool": WITH_TOOL | {"clearance"}, "leave": WITH_TOOL}
+_SIDES = {"left": frozenset({"tool"}), "right": frozenset({"tool"}), "off": frozenset[str]()}
 RANGES = {
     "decimals": (0, 6),
     "comments.width": (60, 250),
@@ -185,6 +186,8 @@ def _check_templates(post: Post, file: str) -> None:
     """Check that templates name only fields that there are."""
     _check_template(post.blending.blend, frozenset({"blend"}), f"{file}: blending.blend")
     _check_template(post.drilling.wait, frozenset({"dwell_s", "dwell_ms"}), f"{file}: drilling.wait")
+    for side, known in _SIDES.items():
+        _check_template(getattr(post.compensation, side), known, f"{file}: compensation.{side}")
     _check_template(post.drilling.tap_start, frozenset({"tool", "speed"}), f"{file}: drilling.tap_start")
     for field in fields(ProgramLines):
         if field.name != "number":

@@ -196,7 +196,7 @@ def _check_begin(control: Control, data: bytes, line: int) -> None:
             f"Line {line} is within the run of a canned cycle; start at the line that begins it, "
             f"{_cycle_line(data, line)}."
         )
-    if control.stray is not None or control.compensation is not None:
+    if control.stray is not None or control.side:
         raise InputError(
             f"Line {line} is under cutter compensation or directly behind it; start before its G41 or G42, or behind "
             "the first move after G40."

@@ -19,6 +19,7 @@ from ...model.stock_box import stock_box, work_origin
 from ..posts.post import Post
 from .arcs import ArcRules
 from .blocks import Blocks
+from .compensation import compensation_blocks
 from .drilling import CycleHole, CycleRules, holes_of, untapped, waits_of
 from .header import HeaderContent, heading_lines, operation_words, tool_words
 from .header_notes import heading_notes
@@ -227,6 +228,7 @@ class _ProgramWriter:
         rules = CycleRules(post.drilling, round(self.z_scale), peck, chip, near, _dwells(job), self._taps())
         self.holes: dict[int, CycleHole] = holes_of(moves, rules)
         self.waits = waits_of(moves, rules, self.holes)
+        self.offsets = compensation_blocks(moves, job, post)
         if untapped(moves, rules, self.holes):
             raise ParameterError(
                 f"{post.title} has no cycle that taps: the spindle would not turn back; mill the thread, or take the "
@@ -285,7 +287,7 @@ class _ProgramWriter:
         """Return before which moves more than motions may have to be written, and the number of moves."""
         tool, operation = self.moves.tool, self.moves.operation
         changes = np.flatnonzero((tool[1:] != tool[:-1]) | (operation[1:] != operation[:-1])) + 1
-        own = [len(self.moves), *self.holes, *self.waits, *remarks.before]
+        own = [len(self.moves), *self.holes, *self.waits, *self.offsets, *remarks.before]
         return np.unique(np.concatenate([changes, np.array(own, np.int64)]))
 
     def _head(self, i: int, remarks: Remarks) -> None:
@@ -301,6 +303,7 @@ class _ProgramWriter:
         for comment in remarks.before.get(i, ()):
             self.blocks.comment(comment)
         self.blocks.block(self.waits.get(i, ""))
+        self.blocks.block(self.offsets.get(i, ""))
 
     def _change_tool(self, i: int) -> None:
         """Leave the tool before, if there is one, and take the tool of move i."""

@@ -190,7 +190,8 @@ class DepthPasses:
         if not again:  # asked before the way back, which takes longer to make: mostly the next stroke is far off
             here = (*last.start, last.begins_at(z))
             on = way_straight(stroke, here, air, self.ground, self.label.feed)
-        back = way_back(last, z, air, self.label.feed) if again or on is not None else None
+        along = (again or on is not None) and not self.ground.worn
+        back = way_back(last, z, air, self.label.feed) if along else None
         if back is None:
             return ()
         return (back,) if on is None else (back, on)

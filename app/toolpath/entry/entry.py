@@ -59,6 +59,8 @@ class EntryContext:
         beside: whether it may leave the path.
         cleared: ground cut so far.
         tabs: that stand.
+        worn: whether the control offsets the path by the wear of its tool, and so nothing else that runs along it:
+            then nothing does.
     """
 
     tool: Tool
@@ -69,6 +71,7 @@ class EntryContext:
     direction: Direction
     cleared: ClearedGround
     tabs: Sequence[Tab] = ()
+    worn: bool = False
 
     def allowed(self, place: Point) -> float:
         """Return how near to walls an entry at the beginning of a path may come: no nearer than the path does there,
@@ -111,7 +114,7 @@ def descent(stroke: Stroke, z: float, kind: EntryKind, ground: EntryContext) -> 
     that fits.
     """
     found = _helix(stroke, z, ground) if kind in (EntryKind.HELIX, EntryKind.PREDRILLED) else None
-    if found is None and kind is not EntryKind.PLUNGE:
+    if found is None and kind is not EntryKind.PLUNGE and not ground.worn:
         found = _ramp(stroke, z, ground)
     if found is None:
         top = _above(ground.cleared.floor(ground.tool, stroke.start))

@@ -8,14 +8,18 @@ from dataclasses import replace
 
 from PySide6.QtWidgets import QLabel
 
+from ...model.fields import declared_of
 from ...model.job import Job
-from ...model.tool import LEAST_RATE, Tool, ToolKind, shape_keys
+from ...model.tool import LEAST_RATE, Tool, ToolKind, ToolMaterial, shape_keys
 from ...model.tool_kind import tool_kind
 from ..framework.fields import ListField, NumberField, NumberSpec
 from ..framework.form import FormSection
 from .changes import for_material, material_of, with_tool
+from .feed_proposal_group import FeedProposalGroup
 from .tool_assembly_group import ToolAssemblyGroup
 from .tool_kinds import listed_kinds
+
+_EDGES = declared_of(Tool)["tool_material"].parameter.choices
 
 
 class ToolForm(FormSection):
@@ -46,6 +50,12 @@ class ToolForm(FormSection):
         self.flutes = self._add(
             NumberSpec("Flutes", "", 1, 100, 0, False), lambda tool, v: replace(tool, flutes=int(v))
         )
+        self.edges = ListField("Edges of", [(each, word) for each, word in zip(ToolMaterial, _EDGES, strict=True)])
+        self.add_choice(
+            "Edges",
+            self.edges,
+            lambda job, v: self._edit(job, lambda tool: replace(tool, tool_material=ToolMaterial(v))),
+        )
         self.material = ListField("Feeds for", [])
         self.add_choice("Feeds", self.material, lambda job, v: self._edit(job, lambda tool: for_material(tool, str(v))))
         self.speed = self._add(
@@ -57,6 +67,7 @@ class ToolForm(FormSection):
         self.plunge = self._add(
             NumberSpec("Plunge", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v)
         )
+        self.proposal = FeedProposalGroup(self, lambda: self._number)
         self.chip = QLabel()
         self.chip.setWordWrap(True)
         self.chip.setContentsMargins(0, 4, 0, 0)
@@ -80,12 +91,16 @@ class ToolForm(FormSection):
         self.diameter.show_value(tool.diameter)
         self._show_shape(tool)
         self.flutes.show_value(tool.flutes)
+        self.edges.show_value(tool.tool_material)
         self.material.set_choices([(row.material, row.material.capitalize()) for row in tool.feeds])
         self.material.show_value(material_of(tool))
         self.material.setVisible(bool(tool.feeds))
         self.speed.show_value(tool.spindle_speed)
         self.feed.show_value(tool.feed_rate)
         self.plunge.show_value(tool.plunge_rate)
+        self.proposal.show(job, tool)
+        for field, key in ((self.speed, "spindle_speed"), (self.feed, "feed_rate"), (self.plunge, "plunge_rate")):
+            field.setToolTip(self.proposal.reason(tool, key))
         self.chip.setText(chip_load_words(tool))
         self.hold.show(tool)
 

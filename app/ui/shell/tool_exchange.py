@@ -7,16 +7,17 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
 
-from ...core.atomic import read_whole, write_atomically
+from ...core.atomic import write_atomically
 from ...core.errors import HitofudeError, InputError
-from ...formats.tools.files import read_tools, write_tools
+from ...formats.tools.at_path import tools_at
+from ...formats.tools.files import suffixes, write_tools
 from ...formats.tools.library import ToolLibrary, own_folder, write_library
 from ...model.part import Units
 from ..framework.figures import counted
 from ..framework.workspace import Workspace
 from ..panels.side_panel import SidePanel
 
-IN = "Tools (*.toml *.csv *.tbl);;All files (*)"
+IN = f"Tools ({' '.join(f'*{suffix}' for suffix in (*suffixes(), '.fctl'))});;All files (*)"
 LIBRARY, SHEET, TABLE_MM, TABLE_INCH = (
     "Tool library (*.toml)",
     "Spreadsheet (*.csv)",
@@ -78,7 +79,7 @@ class ToolExchange(QObject):
             )
             return
         try:
-            library, left_out = read_tools(path.name, _bytes(path), units)
+            library, left_out = tools_at(path, units)
             _write(place, write_library(library))
         except HitofudeError as error:
             self._panel.refused.emit(str(error))
@@ -112,13 +113,6 @@ class ToolExchange(QObject):
             return
         self._log.note(f"export {path.name}", f"{counted(len(tools), 'tool')} written to {path}")
         self.said.emit(f"{path.name} is written.")
-
-
-def _bytes(path: Path) -> bytes:
-    try:
-        return read_whole(path)
-    except OSError as error:
-        raise InputError(f"Cannot read {path}: {error.strerror}; choose another file.") from error
 
 
 def _write(place: Path, data: bytes) -> None:

@@ -19,6 +19,7 @@ from ..framework.view import View, views
 from ..framework.workspace import Workspace
 from ..panels.changes import Subject, SubjectKind
 from ..views.canvas.modes import CanvasTool
+from ..views.curves.better_controller import BetterController
 from ..views.curves.controller import SmoothingController
 from ..views.cut.controller import CutController
 from ..views.cut.image_controller import ImageController
@@ -63,6 +64,7 @@ from .shortcuts import Shortcuts
 from .snap_controller import SnapController
 from .start_page.controller import StartController
 from .tab_controller import TabController
+from .template_controller import TemplateController
 from .tool_exchange import ToolExchange
 from .tour import Landmarks, Tour
 from .translation import TranslationController
@@ -134,6 +136,7 @@ class WindowController(QObject):
         self.film_controller = TextFilmController(views.stages, window.film_panel, own.of, workspace)
         self.import_controller = ImportController(views.stages, window.import_panel, workspace)
         self.smoothing_controller = SmoothingController(views.curves, window.curves_panel, self.nc, workspace)
+        self.better_controller = BetterController(views.curves, window.curves_panel, self.nc, workspace)
         self.scenes = SceneController(views.surfaces, window.scene_side, window.scene, workspace)
         self.scene_export = SceneExportController(views.surfaces, lambda: self.scenes.work.proven, workspace)
         self.plot_controller = PlotController(views.plot, window.plot_panel, workspace)
@@ -160,6 +163,7 @@ class WindowController(QObject):
         self.files.save_controller.beside.watch(self.underlay_controller, self.language.control)
         self.advice_controller = AdviceController(window.panel, workspace)
         self.proposal_controller = ProposalController(window.panel, workspace, commands)
+        self.template_controller = TemplateController(window.panel, workspace, commands)
         self.owned_curves = OwnedCurvesController(window.panel, canvas, workspace)
         self.drawing_page_controller = DrawingPageController(window.drawing_page, window.notice, commands)
         self.cleanup_controller = CleanUpController(window.drawing_page.cleanup, canvas, workspace)
@@ -184,9 +188,16 @@ class WindowController(QObject):
         self._on("sheet", self.sheet_export.start)
         for exporting in (self.drawing_export, self.sheet_export):
             exporting.failed.connect(self._say_error)
-        for part in (self.drawing_export, self.sheet_export, self.tools, self.proposal_controller):
+        for part in (
+            self.drawing_export,
+            self.sheet_export,
+            self.tools,
+            self.proposal_controller,
+            self.template_controller,
+        ):
             part.said.connect(self._say)
         self.proposal_controller.failed.connect(self._say_error)
+        self.template_controller.failed.connect(self._say_error)
         self.underlay_controller.refused.connect(lambda text: window.status.show_message(text, error=True))
         window.panel.advice.place_requested.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
         self.drawing_page_controller.front_requested.connect(partial(self._show_side_page, DRAWING_PAGE))
@@ -205,6 +216,7 @@ class WindowController(QObject):
         self._connect_controller(self.image_controller, View.CUT)
         self._connect_controller(self.recorder, View.CUT)
         self._connect_controller(self.smoothing_controller, View.CURVES)
+        self._connect_controller(self.better_controller, View.CURVES)
         self._connect_controller(self.scenes, View.SURFACES)
         self._connect_controller(self.scene_export, View.SURFACES)
         self._connect_controller(self.nc, View.NC)
@@ -357,7 +369,8 @@ class WindowController(QObject):
         files.begun.connect(self.open_start)
 
     def open_start(self) -> None:
-        """Show the last files, samples, and what a new part is to be."""
+        """Show the last files, samples, and what a new part is to be; what was said of the part before goes."""
+        self.window_.notice.dismiss()
         self.start_controller.open(self.window_.theme)
         self.window_.views.start.new.lengths[0].edit.setFocus()
 

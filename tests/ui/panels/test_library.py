@@ -19,7 +19,8 @@ from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.tool_kinds import icon_of, listed_kinds, use_of
-from app.ui.shell.tool_exchange import ToolExchange
+from app.ui.shell.tool_exchange import IN, ToolExchange
+from tests.formats.foreign_tools import fusion_archive, fusion_tool
 
 
 @pytest.fixture
@@ -238,7 +239,7 @@ def test_what_is_wrong_with_a_file_is_said_and_nothing_is_kept(tmp_path, exchang
     exchange.take(tmp_path / "bad.csv")
     assert workspace.notice.text.text().startswith("bad.csv:2: diameter_mm is 'six'")
     exchange.take(tmp_path / "gone.csv")
-    assert "Cannot read" in workspace.notice.text.text()
+    assert "gone.csv does not exist" in workspace.notice.text.text()
     assert not own_folder().exists()
 
 
@@ -250,7 +251,7 @@ def test_the_jobs_tools_are_exported(tmp_path, exchange, workspace, name, units)
     library, _ = read_tools(name, (tmp_path / name).read_bytes(), units)
     assert [(tool.number, round(tool.diameter, 6)) for tool in library.tools] == [(1, 6.0), (2, 3.0)]
     exchange.write(tmp_path / "t.xls")
-    assert "tools are read and written as .toml, .csv, .tbl" in workspace.notice.text.text()
+    assert "tools are read as .toml, .csv, .tbl, .tools, .json, .fctb, .vtdb" in workspace.notice.text.text()
 
 
 @pytest.mark.parametrize("kind", listed_kinds())
@@ -268,3 +269,13 @@ def test_every_kind_has_its_fields_and_can_be_cut_with(document, panel, kind):
     }
     assert shown == shape_keys(kind)
     cutter_of(tool)
+
+
+def test_tools_of_another_program_come_in_by_the_same_door(tmp_path, exchange, workspace):
+    entries = [fusion_tool(number=3), fusion_tool("dovetail mill", 4)]
+    (tmp_path / "shop.tools").write_bytes(fusion_archive(entries))
+    assert all(suffix in IN for suffix in ("*.tools", "*.json", "*.fctb", "*.fctl", "*.vtdb", "*.tbl"))
+    exchange.take(tmp_path / "shop.tools")
+    assert "1 tool of shop.tools in the library" in workspace.notice.text.text()
+    assert "dovetail mill 4 is left out" in workspace.notice.text.text()
+    assert any(tool.name == "flat end mill 3" and tool.stick_out == 25.0 for tool in exchange._panel.library.shown)

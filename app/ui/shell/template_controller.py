@@ -1,0 +1,127 @@
+"""A template's rules made into the operations of the drawing, as one step; read and applied on a worker of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QFileDialog
+
+from ...core.errors import InputError
+from ...core.input_file import read_input
+from ...core.progress import Progress
+from ...model.finding import Finding
+from ...model.job import Job
+from ..framework.commands import Commands, on_trigger
+from ..framework.figures import counted
+from ..framework.worker import JobOutcome, Worker
+from ..framework.workspace import Workspace
+from ..panels.changes import Subject, SubjectKind
+from ..panels.side_panel import SidePanel
+from .proposal_controller import NOTHING_DRAWN
+
+TEMPLATES = "Templates and job files (*.toml);;All files (*)"
+
+
+@dataclass(frozen=True)
+class AppliedTemplate:
+    """A job with what a template says.
+
+    Attributes:
+        name: of its file. lines: what was made of each layer. findings: what was not.
+    """
+
+    name: str
+    job: Job
+    lines: tuple[str, ...]
+    findings: tuple[Finding, ...]
+
+
+def applied(path: Path, job: Job, progress: Progress) -> AppliedTemplate:
+    """Return a job with the tools, the settings and the operations that a template says for its drawing; tables that
+    the file does not have stay as they are.
+
+    Raises:
+        InputError: the file is no job file, has no rules, or none of them takes a layer.
+    """
+    from ...formats.job.toml import SETTINGS, read_job, settings_of
+    from ...model.fields import with_values
+    from ...usecases.layer_operations import with_layer_rules  # imports the engines: never on the window's thread
+    from ...usecases.options import MakeOptions, with_feeds
+
+    progress.step(0.0, f"Reading {path.name}")
+    file = read_job(path.name, read_input(path))
+    if not file.rules:
+        raise InputError(f"{path.name} has no rules for layers, [[layer]]; choose a template that has some.")
+    told = {
+        placed.key: placed.of(file.job)
+        for table in SETTINGS
+        if table in file.tables
+        for placed in settings_of(table).values()
+    }
+    base = replace(
+        with_values(job, told),
+        tools=file.job.tools if "tool" in file.tables else job.tools,
+        operations=file.job.operations if "operation" in file.tables else (),
+    )
+    options = MakeOptions(job=base, rules=file.rules, propose_feeds=file.proposes_feeds)
+    ruled = with_layer_rules(job.part, options)
+    made = ruled.options.job
+    assert made is not None
+    return AppliedTemplate(path.name, with_feeds(made, options).job, ruled.lines, ruled.findings)
+
+
+class TemplateController(QObject):
+    """Asks for a template and applies it.
+
+    Signals:
+        failed(sentence): what went wrong. said(sentence): what was done.
+    """
+
+    failed = Signal(str)
+    said = Signal(str)
+
+    def __init__(self, panel: SidePanel, workspace: Workspace, commands: Commands) -> None:
+        super().__init__(panel)
+        self._panel, self._workspace, self._commands = panel, workspace, commands
+        self.worker = Worker(self)
+        workspace.activity.follow(self.worker, "Applying the template…")
+        self.worker.done.connect(self._on_done)
+        self.worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
+        on_trigger(commands, "apply_template", self.choose_file)
+
+    def choose_file(self) -> None:
+        """Ask for a file, and apply it."""
+        folder = self._workspace.preferences.settings.last_folder
+        name, _ = QFileDialog.getOpenFileName(self._panel, "Apply template", folder, TEMPLATES)
+        if name:
+            self.apply(Path(name))
+
+    def apply(self, path: Path) -> None:
+        """Have the rules of a file made into operations."""
+        document = self._workspace.document
+        if not document.job.part.entities:
+            self.said.emit(NOTHING_DRAWN)
+            return
+        self._workspace.notice.dismiss()
+        job = document.job
+        self.worker.start(lambda progress: applied(path, job, progress), document.revision)
+
+    def _on_done(self, answer: JobOutcome) -> None:
+        document, made = self._workspace.document, answer.value
+        assert isinstance(made, AppliedTemplate)
+        if answer.revision != document.revision:
+            self.said.emit("The drawing was changed meanwhile; ask for the operations again.")
+            return
+        self._panel.subject = Subject(SubjectKind.OPERATION, 0)
+        document.change_job("Apply template", made.job)
+        self._workspace.log.note(f"template {made.name}", "\n".join(line.strip() for line in made.lines))
+        for finding in made.findings:
+            self._workspace.log.note(f"template {made.name}", finding.text, error=finding.counts)
+        count = counted(len(made.job.operations), "operation")
+        self._workspace.notice.ask(
+            f"{made.name}: {count} by the drawing's layers; the log says which.",
+            [(text, self._commands[name].trigger) for text, name in (("Compute", "compute"), ("Undo", "undo"))],
+        )
+        self.said.emit(f"{made.name} is applied.")
