@@ -28,6 +28,7 @@ from ..model.part import Units
 from ..model.slot_operation import SlotOperation
 from ..model.tool import Tool
 from ..model.tool_kind import ToolKind
+from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
 from ..usecases.cut import CutOptions
 from ..usecases.examine import ExamineOptions
 from ..usecases.machining import MachiningOptions
@@ -36,11 +37,15 @@ from ..usecases.proposal.propose import ProposalOptions
 from ..usecases.setup import SetupRequest
 from ..usecases.setup_stock import box_stock
 from ..usecases.smooth_result import OutputForm, SmoothOptions
-from .calls import check, cut, make, read, smooth, surface
+from .calls import BatchPart, batch, check, cut, make, read, smooth, surface
 from .results import CheckedProgram, CutMetal, MadeProgram, MadeSurface, SmoothedText
 
 __all__ = [
     "AdaptiveOperation",
+    "BatchPart",
+    "BatchResult",
+    "BatchRow",
+    "BatchVerdict",
     "BoreOperation",
     "Cancelled",
     "ChamferOperation",
@@ -81,6 +86,7 @@ __all__ = [
     "ToolKind",
     "Units",
     "VcarveOperation",
+    "batch",
     "box_stock",
     "check",
     "cut",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..core.file_bytes import FileBytes
@@ -17,6 +18,9 @@ from ..model.part import Units
 from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.tool import Tool
 from ..usecases import make as usecase
+from ..usecases.batch.lanes import ExecutorLane, ProcessLane
+from ..usecases.batch.run import BatchRun
+from ..usecases.batch.task import BatchKind, BatchResult, BatchTask
 from ..usecases.cut import CutOptions
 from ..usecases.cut import cut as cut_programs
 from ..usecases.cut_report import cut_report
@@ -110,6 +114,46 @@ def cut(
     ready = setup_of(examined, request, progress.part(0.2, 0.25))
     done = cut_programs(ready.setup, options or CutOptions(), progress.part(0.25, 1.0))
     return CutMetal(cut_report(done, ready), done, paths[0].name)
+
+
+@dataclass(frozen=True)
+class BatchPart:
+    """A part of a batch: a file, and with which options it is made, checked or smoothed."""
+
+    path: FilePath
+    options: MakeOptions | ExamineOptions | SmoothOptions
+
+
+def batch(
+    parts: Sequence[BatchPart],
+    jobs: int | None = None,
+    executor: Executor | None = None,
+    progress: Progress = NO_PROGRESS,
+) -> tuple[BatchResult, ...]:
+    """Return what became of each part, in their order; one that fails, or whose process is killed, harms none.
+
+    Args:
+        parts: the same file may be among them with several options, which makes a study.
+        jobs: parts at a time; None = one a core.
+        executor: where they are done, such as Dask's `Client.get_executor()`; None = in processes of this machine, so
+            that a script has to stand under `if __name__ == "__main__":`.
+
+    Raises:
+        InputError: a file cannot be read.
+        Cancelled: by progress.
+    """
+    tasks = [_task(number, part) for number, part in enumerate(parts)]
+    count = max(1, min(jobs or os.cpu_count() or 1, len(tasks)))
+    lanes = [ProcessLane() if executor is None else ExecutorLane(executor) for _ in range(count)]
+    done: dict[int, BatchResult] = {}
+    BatchRun(tasks, lanes, done.__setitem__).run(progress)
+    return tuple(done[number] for number in range(len(tasks)))
+
+
+def _task(number: int, part: BatchPart) -> BatchTask:
+    path = Path(part.path)
+    kinds = {MakeOptions: BatchKind.MAKE, ExamineOptions: BatchKind.CHECK, SmoothOptions: BatchKind.SMOOTH}
+    return BatchTask(path.name, read_input(path), kinds[type(part.options)], part.options, f"{number}/{path.stem}.ngc")
 
 
 def smooth(program: FilePath, options: SmoothOptions | None = None, progress: Progress = NO_PROGRESS) -> SmoothedText:

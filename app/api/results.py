@@ -10,6 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from ..core.atomic import write_together
+from ..core.errors import InputError
+from ..core.input_file import read_input
+from ..formats.sheet import SUFFIXES
 from ..gcode.interpreter.program import ProgramProblem
 from ..model.finding import Finding
 from ..model.job import Job
@@ -77,6 +80,24 @@ class MadeProgram:
         files = {file.named(Path(path)): file.nc.text.encode("ascii") for file in self.result.files}
         write_together(files)
         return tuple(files)
+
+    def sheet(self, path: str | os.PathLike[str], drawing: str | os.PathLike[str] | None = None) -> Path:
+        """Write the sheet that goes to the machine; return its path.
+
+        Args:
+            path: ends in .pdf or .html. drawing: whose SHA-256 is to stand on it.
+
+        Raises:
+            InputError: it cannot be written, or is neither.
+        """
+        from ..usecases.make_files import other_files
+
+        target = Path(path)
+        if target.suffix.lower() not in SUFFIXES:
+            raise InputError(f"{target}: a sheet is .pdf or .html; change the name")
+        data = None if drawing is None else read_input(Path(drawing))
+        write_together({target: other_files(self.result, {"sheet": target}, data)["sheet"]})
+        return target
 
     def svg(self) -> str:
         """Return the picture of part and paths."""

@@ -12,7 +12,7 @@ from ..core.input_file import read_input
 from ..drafting.expressions.numbers import length
 from ..formats.job.toml import ORIGIN_HELP, StatedOrigin, parse_origin, read_out_units, read_units
 from ..formats.readers import offered_suffixes
-from ..formats.sheet.write import SUFFIXES
+from ..formats.sheet import SUFFIXES
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover

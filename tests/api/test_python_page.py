@@ -34,11 +34,11 @@ def examples() -> list[str]:
 def test_the_examples_run(beside: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "hitofude", hitofude)
     names: dict[str, object] = {}
-    assert len(examples()) == 4
+    assert len(examples()) == 6
     for code in examples():
         exec(code, names)
     written = {path.name for path in beside.iterdir()} - set(SAMPLES)
-    assert written == {"fig2.ngc", "job_1_T1.nc", "job_2_T2.nc", "smooth.ngc", "spheres.ngc"}
+    assert written == {"fig2.ngc", "fig2.pdf", "job_1_T1.nc", "job_2_T2.nc", "smooth.ngc", "spheres.ngc"}
 
 
 def test_its_program_is_that_of_the_command_line(beside: Path) -> None:
@@ -56,6 +56,19 @@ def test_importing_it_loads_nothing() -> None:
         "assert {'make', 'Job', 'cut'} <= set(dir(app))\n"
     )
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
+
+
+def test_importing_it_takes_no_fifth_of_a_second() -> None:
+    code = "import time; begin = time.process_time(); import app; print(time.process_time() - begin)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True, capture_output=True, text=True)
+    assert float(done.stdout) < 0.2
+
+
+def test_a_sheet_is_one_of_two_kinds_of_files(beside: Path) -> None:
+    made = hitofude.make("fig2.dxf")
+    with pytest.raises(hitofude.HitofudeError, match=r"is \.pdf or \.html"):
+        made.sheet("fig2.doc")
+    assert made.sheet("fig2.html").read_bytes().startswith(b"<!DOCTYPE html>")
 
 
 def test_every_name_is_there_and_no_other() -> None:

@@ -40,7 +40,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
     try:
         with _lanes(arguments, len(batch.pending)) as lanes:
-            share = budget_limit() // len(lanes)
+            share = None if arguments.scheduler else budget_limit() // len(lanes)  # other machines have their own
             tasks = [replace(part.task, memory=share) for part in batch.pending]
             BatchRun(tasks, lanes, finished, arguments.limit * 60).run(progress)
     finally:

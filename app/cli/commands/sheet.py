@@ -8,7 +8,8 @@ from pathlib import Path
 from ...core.errors import HitofudeError, InputError
 from ...core.input_file import read_input
 from ...core.progress import Progress
-from ...formats.sheet.write import SUFFIXES, sheet_bytes
+from ...formats.sheet import SUFFIXES
+from ...formats.sheet.write import sheet_bytes
 from ...usecases.cut import cut
 from ...usecases.cut_report import cut_report
 from ...usecases.examine import ExaminedProgram

@@ -6,12 +6,12 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.stroke_font import engraving, placed
+from ...geometry.stroke_font import StrokeFont, engraving, placed
 from ...geometry.transform import Similarity, transformed
 from ...model.curves import Curve
 from .page import PageContent, Pen, PlotPage, TextLine, chains, segments
@@ -76,18 +76,23 @@ def _letters(words: TextLine, place: Similarity) -> Iterator[FlatPolyline]:
     """Yield a text in the engraving face; a letter that it lacks is a question mark."""
     face = engraving()
     text = "".join(letter if letter in face.glyphs else "?" for letter in words.text)
-    letters = list(placed(face, text))
+    pen = Pen(words.pen.number, words.pen.colour, words.height * _LETTER_WIDTH)
+    for points in letters_in(face, replace(words, text=text), place):
+        yield FlatPolyline(pen, points)
+
+
+def letters_in(face: StrokeFont, words: TextLine, place: Similarity) -> Iterator[Floats]:
+    """Yield the curves of a text's letters in a face, as polylines on paper; every letter must be one of the face."""
+    letters = list(placed(face, words.text))
     if not letters:
         return
     size = words.height * _CAPITAL / face.capital
     long = letters[-1][1] + letters[-1][0].advance - face.between
     turn = cmath.rect(1.0, words.angle)
     foot = complex(*place(words.at)) + turn * complex(-words.anchor * long * size, words.lift)
-    pen = Pen(words.pen.number, words.pen.colour, words.height * _LETTER_WIDTH)
     for glyph, at in letters:
         to = Similarity(turn * size, foot + turn * size * at)
-        for points in _polylines([transformed(curve, to) for curve in glyph.curves]):
-            yield FlatPolyline(pen, points)
+        yield from _polylines([transformed(curve, to) for curve in glyph.curves])
 
 
 def dashes(points: Floats, pattern: Sequence[float]) -> Iterator[Floats]:

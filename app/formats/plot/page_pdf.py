@@ -9,6 +9,9 @@ import zlib
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .flat import FlatPolyline, flat_drawing, flat_frame
 from .page import PageContent, Pen, PlotPage, TextLine
 from .pdf_text import is_helvetica, pdf_string, text_width
@@ -77,13 +80,24 @@ def _content(page: PlotPage, in_font: bool) -> Iterator[str]:
     if not in_font:
         yield from _lines(flat_frame(page))
         return
+    from .pdf_outlines import outlined_words  # what reads fonts, where letters are asked for
+
     frame = page.frame
-    drawn = tuple(words for words in frame.words if not is_helvetica(words.text))
     yield from _lines(flat_frame(replace(page, frame=PageContent((), frame.patches, (), frame.traces))))
-    yield from _lines(flat_frame(replace(page, frame=PageContent(frame.strokes, (), drawn))))
+    yield from _lines(flat_frame(replace(page, frame=PageContent(frame.strokes))))
     for words in frame.words:
-        if words not in drawn:
+        if is_helvetica(words.text):
             yield _text(words)
+        elif (outlines := outlined_words(words)) is not None:
+            yield _filled(words.pen, outlines)
+        else:
+            yield from _lines(flat_frame(replace(page, frame=PageContent(words=(words,)))))
+
+
+def _filled(pen: Pen, outlines: Iterable[NDArray[np.float64]]) -> str:
+    """Return what fills contours even-odd."""
+    runs = (" l ".join(f"{x:.4f} {y:.4f}" for x, y in points.tolist()).replace(" l ", " m ", 1) for points in outlines)
+    return f"{_colour(pen)} rg {' '.join(f'{run} l h' for run in runs)} f*"
 
 
 def _text(words: TextLine) -> str:

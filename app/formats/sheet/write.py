@@ -7,14 +7,12 @@ from .content import SetupSheet
 from .html import sheet_html
 from .layout import sheet_pages
 
-SUFFIXES = (".pdf", ".html")
-
 
 def sheet_bytes(sheet: SetupSheet, suffix: str) -> bytes:
     """Return a sheet as a file's bytes.
 
     Args:
-        suffix: one of `SUFFIXES`.
+        suffix: one of the folder's `SUFFIXES`.
     """
     if suffix == ".html":
         return sheet_html(sheet)

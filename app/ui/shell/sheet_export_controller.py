@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from ...core.atomic import write_atomically
 from ...core.progress import Progress
 from ...drafting.language.write import draw_text
+from ...formats.sheet import SUFFIXES
 from ...formats.sheet.write import sheet_bytes
 from ...gcode.posts.posts import load_post
 from ...usecases.make import MakeResult
@@ -102,6 +103,6 @@ def _write(made: MakeResult, path: Path, progress: Progress) -> _WrittenSheet:
     program = path.with_suffix(load_post(made.job.post).extension)
     sources = {"drawing, as .draw writes it": draw_text(made.job.part).text.encode()}
     sheet = made_sheet(made, program, sources)
-    suffix = path.suffix.lower() if path.suffix.lower() in (".pdf", ".html") else ".pdf"
+    suffix = path.suffix.lower() if path.suffix.lower() in SUFFIXES else ".pdf"
     write_atomically(path, sheet_bytes(sheet, suffix))
     return _WrittenSheet(path, sheet.verdict)
