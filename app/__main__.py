@@ -15,7 +15,11 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # imports and small jobs make many objects and hardly any rings: looking for these took a fifth of `make`
 gc.set_threshold(300_000, 20, 20)
 
-from .cli.main import BAD_INPUT  # noqa: E402 (both first: importing makes most of the objects, and reads the environment)
+from .core.quick_dataclasses import make_dataclasses_quickly  # noqa: E402
+
+make_dataclasses_quickly()
+
+from .cli.main import BAD_INPUT  # noqa: E402 (all three first: importing makes most of the objects, reads the environment)
 from .cli.main import main as command_line  # noqa: E402
 from .cli.output import say  # noqa: E402
 from .core.errors import shortened  # noqa: E402

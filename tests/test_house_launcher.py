@@ -3,6 +3,7 @@ called.
 """
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from app.cli.program import SUMMARIES
 from tests.conftest import ROOT
 
 pytestmark = pytest.mark.skipif(shutil.which("sh") is None, reason="no POSIX shell on this machine")
@@ -86,3 +88,10 @@ def test_a_checkout_that_was_moved_is_set_up_again(checkout: Path, tmp_path: Pat
         "esac\n"
     )
     assert "setting up" in call(checkout / "hitofude", "make", folder=tmp_path).stderr
+
+
+def test_no_command_but_that_of_graphics_hardware_waits_for_the_libraries_of_the_window() -> None:
+    pattern = re.search(
+        r"^    ([a-z0-9 |]+) \| -\*\) install_project ''", (ROOT / "hitofude").read_text(), re.MULTILINE
+    )
+    assert pattern is not None and set(pattern[1].split(" | ")) == set(SUMMARIES) - {"figure11"}

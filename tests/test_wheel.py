@@ -14,6 +14,7 @@ from tests.conftest import ROOT
 
 pytestmark = pytest.mark.exhaustive
 
+DESKTOP = "resources/desktop"
 OPEN_AND_CLOSE = """
 import sys
 from PySide6.QtCore import QTimer
@@ -74,6 +75,33 @@ def test_make_writes_the_program(installed: Path, tmp_path: Path) -> None:
     done = run(tmp_path, str(installed / "hitofude"), "make", "fig2.dxf", "-o", "fig2.ngc", "--post", "grbl")
     assert done.returncode == 0, done.stderr
     assert sorted(path.name for path in tmp_path.glob("*.ngc")) == ["fig2_1_T1.ngc", "fig2_2_T2.ngc"]
+
+
+def test_desktops_find_entry_icon_kinds_of_files_and_manual_page(installed: Path) -> None:
+    share = installed.parent / "share"
+    assert (share / "applications/hitofude.desktop").read_bytes() == (ROOT / DESKTOP / "hitofude.desktop").read_bytes()
+    assert {path.relative_to(share).as_posix() for path in share.rglob("hitofude*") if path.is_file()} == {
+        "applications/hitofude.desktop",
+        "icons/hicolor/scalable/apps/hitofude.svg",
+        "mime/packages/hitofude.xml",
+        "man/man1/hitofude.1",
+    }
+
+
+def test_many_parts_their_sheets_and_the_manual(installed: Path, tmp_path: Path) -> None:
+    (tmp_path / "parts").mkdir()
+    for name in ("a", "b"):
+        (tmp_path / "parts" / f"{name}.draw").write_text("rect 0,0 20,15\n")
+    command = str(installed / "hitofude")
+    done = run(tmp_path, command, "batch", "parts", "-o", "out", "--jobs", "2", "--sheets", "pdf")
+    assert done.returncode == 0, done.stderr
+    tree = tmp_path / "tree.ngc"
+    own = [sys.executable, "-P", "-m", "app", "make", str(tmp_path / "parts/a.draw"), "-o", str(tree)]
+    subprocess.run(own, cwd=ROOT, check=True)
+    assert (tmp_path / "out/a.ngc").read_bytes() == tree.read_bytes()
+    assert (tmp_path / "out/b.pdf").read_bytes().startswith(b"%PDF")
+    assert run(tmp_path, command, "manual", "-o", "site").returncode == 0 and (tmp_path / "site/index_ja.html").exists()
+    assert "LGPL" in run(tmp_path, command, "licences").stdout
 
 
 def test_the_window_opens_with_its_sample_and_computes_it(installed: Path, tmp_path: Path) -> None:

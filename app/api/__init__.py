@@ -25,6 +25,7 @@ from ..model.operation import (
     VcarveOperation,
 )
 from ..model.part import Units
+from ..model.slot_operation import SlotOperation
 from ..model.tool import Tool
 from ..model.tool_kind import ToolKind
 from ..usecases.cut import CutOptions
@@ -69,6 +70,7 @@ __all__ = [
     "RestOperation",
     "SetupRequest",
     "Side",
+    "SlotOperation",
     "SmoothOptions",
     "SmoothedText",
     "Stepover",

@@ -64,19 +64,39 @@ def tool_given(text: str) -> tuple[int, Tool]:
     Raises:
         InputError: it is not of that form, or its numbers make no tool.
     """
-    match = re.fullmatch(r"\s*(\d{1,4})\s*=\s*([a-z-]+)\s*:(.*)", text, re.IGNORECASE)
-    kind = ToolKind.words().get(match[2].lower()) if match else None
-    if match is None or kind is None:
+    match = re.fullmatch(r"\s*(\d{1,4})\s*=(.*)", text)
+    if match is None or _kind_given(match[2]) is None:
         raise InputError(f"'{text}' is no tool; write NUMBER=KIND:DIAMETER, such as 1=ball:6: {_shapes()}")
-    values = match[3].split(":")
+    return int(match[1]), shape_given(match[2], max(int(match[1]), 1), text)
+
+
+def shape_given(text: str, number: int = 1, written: str = "") -> Tool:
+    """Return a tool of a number by a text such as `ball:6` or `v:1/4in:90`.
+
+    Args:
+        written: what it is part of, for errors.
+
+    Raises:
+        InputError: it is not of that form, or its numbers make no tool.
+    """
+    kind, written = _kind_given(text), written or text
+    if kind is None:
+        raise InputError(f"'{written}' is no tool; write KIND:DIAMETER, such as ball:6: {_shapes()}")
+    values = text.split(":")[1:]
     if not len(kind.given) - kind.omissible <= len(values) <= len(kind.given):
-        raise InputError(f"'{text}' has {_counted(values)} behind {kind.value}; write one of {_shapes()}")
+        raise InputError(f"'{written}' has {_counted(values)} behind {kind.value}; write one of {_shapes()}")
     try:
-        return int(match[1]), _shaped(max(int(match[1]), 1), kind, values)
+        return _shaped(number, kind, values)
     except CommandError as error:
-        raise InputError(f"'{text}': {error.reason}") from error
+        raise InputError(f"'{written}': {error.reason}") from error
     except HitofudeError as error:
-        raise InputError(f"'{text}': {error}") from error
+        raise InputError(f"'{written}': {error}") from error
+
+
+def _kind_given(text: str) -> ToolKind | None:
+    """Return the kind that a text such as `ball:6` begins with."""
+    word, colon, _ = text.partition(":")
+    return ToolKind.words().get(word.strip().lower()) if colon else None
 
 
 def _shaped(tool: int, kind: ToolKind, values: list[str]) -> Tool:

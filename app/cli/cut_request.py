@@ -84,7 +84,7 @@ def setup_request(arguments: argparse.Namespace) -> SetupRequest:
         reported.append(_tools(arguments))
     against = FileBytes(arguments.against.name, read_input(arguments.against)) if arguments.against else None
     beside = None if against is None else lambda name: read_input(arguments.against.parent / name)
-    return _with_stock(
+    return with_stock(
         SetupRequest(
             tuple(reported),
             job,
@@ -126,7 +126,7 @@ def _tools(arguments: argparse.Namespace) -> ToolSource:
     return ToolSource(name, {tool.number: tool for tool in library.tools})
 
 
-def _with_stock(request: SetupRequest, given: Corners | Path | None) -> SetupRequest:
+def with_stock(request: SetupRequest, given: Corners | Path | None) -> SetupRequest:
     """Return the wishes with the metal that --stock names."""
     if given is None:
         return request

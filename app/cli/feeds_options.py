@@ -17,7 +17,7 @@ from ..model.tool import Tool, ToolMaterial
 from ..toolpath.feeds.proposal import CutEngagement
 from ..usecases.feeds import FeedsOptions, engagement_asked
 from .command import OptionParser
-from .cut_options import tool_given
+from .cut_options import shape_given
 from .values import MACHINE_HELP, TOOLS_HELP, machine_named, number, typed
 
 EPILOG = """\
@@ -35,7 +35,7 @@ def add_feeds_options(parser: OptionParser) -> None:
     )
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument(
-        "--tool", metavar="SHAPE", type=typed(_tool), help="a tool, such as flat:6 or ball:3 (kind:diameter)"
+        "--tool", metavar="SHAPE", type=typed(shape_given), help="a tool, such as flat:6 or ball:3 (kind:diameter)"
     )
     which.add_argument(
         "--tools",
@@ -65,10 +65,6 @@ def add_feeds_options(parser: OptionParser) -> None:
 
 def _known() -> str:
     return ", ".join(each.word for each in stock_materials())
-
-
-def _tool(text: str) -> Tool:
-    return tool_given(f"1={text}")[1]
 
 
 def _flutes(text: str) -> int:

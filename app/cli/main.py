@@ -39,11 +39,12 @@ def main(argv: Sequence[str]) -> int:
     Args:
         argv: the arguments behind the program's name.
     """
+    stopped = StopFlag()
     try:
         sweep(state_folder(), config_folder())
         with (
             budgeted(argv),
-            stoppable() as stopped,
+            stoppable(stopped),
             WaitLine("--quiet" in argv) as line,
             waits_reported_to(partial(_wait, stopped, line), everywhere=True),
         ):
@@ -57,10 +58,10 @@ def main(argv: Sequence[str]) -> int:
                     raise Stopped(stopped.number) from error
                 raise
     except Stopped as stop:
-        _say("cancelled; no file was written")
+        _say(f"cancelled; {stopped.kept}")
         return stop.status
     except (KeyboardInterrupt, Cancelled):
-        _say("cancelled; no file was written")
+        _say(f"cancelled; {stopped.kept}")
         return CANCELLED
     except HitofudeError as error:
         _say(str(error))

@@ -11,6 +11,7 @@ from ..core.input_file import read_input
 from ..drafting.expressions.numbers import length
 from ..formats.job.toml import ORIGIN_HELP, StatedOrigin, parse_origin, read_out_units, read_units
 from ..formats.readers import offered_suffixes
+from ..formats.sheet.write import SUFFIXES
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover
@@ -90,6 +91,12 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     group.add_argument("--image", metavar="OUT.svg|png", type=Path, help="a picture of part and paths")
+    group.add_argument(
+        "--sheet",
+        metavar="OUT.pdf|html",
+        type=Path,
+        help="the sheet for the machine: picture, zero, stock, tools, operations, times, certificate",
+    )
     group.add_argument("--timings", action="store_true", help="tell how long each stage took, here and in the report")
     group.add_argument(
         "--post",
@@ -315,8 +322,10 @@ def make_files(arguments: argparse.Namespace) -> dict[str, Path]:
     Raises:
         InputError: one cannot be written, or is no picture.
     """
-    outputs = named_files(arguments, "output", "report", "image", "write_job")
+    outputs = named_files(arguments, "output", "report", "image", "sheet", "write_job")
     if "image" in outputs and outputs["image"].suffix.lower() not in (".svg", ".png"):
         raise InputError(f"--image {outputs['image']}: a picture is .svg or .png; change the name")
+    if "sheet" in outputs and outputs["sheet"].suffix.lower() not in SUFFIXES:
+        raise InputError(f"--sheet {outputs['sheet']}: a sheet is {' or '.join(SUFFIXES)}; change the name")
     check_outputs(outputs, [*named_files(arguments, "drawing", "job", "template", "tools").values()])
     return outputs

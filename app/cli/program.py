@@ -31,15 +31,24 @@ class CommandSummary:
 
 SUMMARIES = {
     "make": CommandSummary("make DRAWING -o OUT.ngc", "a drawing into tool paths for pockets, contours and holes"),
+    "inlay": CommandSummary("inlay DRAWING --job J.toml -o OUT", "a V-carved pocket and the plug that fits into it"),
     "tools": CommandSummary("tools DRAWING", "which tools a drawing wants: what passes, what clears, how long"),
-    "feeds": CommandSummary("feeds --material M --tool D", "how fast a tool may turn and feed in a material, and why"),
+    "feeds": CommandSummary("feeds --material M", "how fast a tool may turn and feed in a material, and why"),
     "cut": CommandSummary("cut PROGRAM.ngc", "any NC program cut out of its stock: what is left, gouges, rapids"),
     "check": CommandSummary("check PROGRAM.ngc", "any NC program: what is wrong, how far it goes, how long it takes"),
+    "sheet": CommandSummary("sheet PROGRAM.ngc -o OUT", "the paper for the machine: set-up, tools, times, certificate"),
     "smooth": CommandSummary(
         "smooth PROGRAM.ngc -o OUT", "any NC program's chords into lines, arcs or splines, proven"
     ),
+    "better": CommandSummary(
+        "better PROGRAM.ngc -o OUT", "passes over a surface made anew, smooth; cut again, compared"
+    ),
     "surface": CommandSummary("surface SCENE.toml -o OUT", "tool paths over compound surfaces, each move proven"),
+    "batch": CommandSummary("batch FOLDER -o OUT", "many parts made, checked or smoothed, and a table of them"),
     "stages": CommandSummary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
+    "desktop": CommandSummary("desktop", "the entry of the desktop's menu, icon and kinds of files, for this user"),
+    "manual": CommandSummary("manual -o OUT", "the manual as pages for browsers, with search, in both languages"),
+    "licences": CommandSummary("licences", "whose work is inside, and under which licence"),
     "figure11": CommandSummary("figure11", "how long software and depth buffer take for the cuts of 1999"),
 }
 """In the order of the help. A command is the `COMMAND` of the module of its name in `commands`."""

@@ -44,11 +44,13 @@ class StopFlag(threading.Event):
         number: the signal that asked for it.
         tick: is called about once a second, on the thread that listens beside the job.
         waited: when the command was told last that it waits, s, `time.monotonic`; 0 = never.
+        kept: what becomes of what was done, as people are told.
     """
 
     stage, number = "", int(signal.SIGINT)
     tick: Callable[[], None] | None = None
     waited = 0.0
+    kept = "no file was written"
 
 
 GRACE_S = 1.0
@@ -58,11 +60,14 @@ _ENDS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") 
 
 
 @contextmanager
-def stoppable() -> Iterator[StopFlag]:
+def stoppable(flag: StopFlag | None = None) -> Iterator[StopFlag]:
     """Let a signal raise Stopped, and set the event, for the case that a library swallows the exception; end what hears
     neither.
+
+    Args:
+        flag: the event; None = a new one.
     """
-    stopped = StopFlag()
+    stopped = StopFlag() if flag is None else flag
 
     def stop(number: int, frame: FrameType | None) -> NoReturn:
         stopped.number = number
@@ -115,7 +120,7 @@ class _Watch:
                     return
             if self._over.is_set():
                 return
-            say("hitofude: cancelled; no file was written")
+            say(f"hitofude: cancelled; {self._stopped.kept}")
             last = threading.Timer(GRACE_S / 2, os._exit, [128 + number])
             last.daemon = True
             last.start()

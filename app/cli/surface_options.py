@@ -7,7 +7,10 @@ from pathlib import Path
 
 from ..core.errors import InputError
 from ..formats.plot.surface_plot import VIEWS, PlotColouring
+from ..usecases.better.improve import BetterOptions
+from ..usecases.smooth_result import OutputForm
 from ..usecases.surface_plot import FORMATS, PlotScene, PlottedPart
+from ..usecases.surface_smooth import CurvesOverSurfaces
 from .command import OptionParser
 from .files import check_outputs, named_files
 from .values import number
@@ -61,6 +64,26 @@ def add_surface_options(parser: OptionParser) -> None:
         type=number("loop"),
         help="with --report: the program is cut, smoothed within T mm and cut again, all told in the report",
     )
+    group = parser.add_argument_group("curves", "the program as arcs or splines that go into no surface")
+    group.add_argument(
+        "--smooth",
+        metavar="T",
+        type=number("smooth"),
+        help="one tolerance a surface for facets, chords, curves and digits, all of it on the open side (mm)",
+    )
+    group.add_argument(
+        "--as",
+        dest="form",
+        choices=[form.value for form in OutputForm],
+        help="with --smooth or --facets: what curves are written as (default arcs)",
+    )
+    group.add_argument(
+        "--facets",
+        metavar="T",
+        type=number("facets"),
+        help="surfaces are polyhedra: passes go by the places where facets meet, told across neighbouring passes, and "
+        "their cut is within T of that of the facets, up or down (mm; a ball, parallel planes)",
+    )
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
@@ -79,8 +102,29 @@ def surface_files(arguments: argparse.Namespace) -> dict[str, Path]:
         raise InputError(f"--plot {outputs['plot']}: a plot is one of {', '.join(FORMATS)}; change the name")
     if arguments.loop is not None and "report" not in outputs:
         raise InputError("--loop tells what it finds in the report; add --report R.json")
+    ways = [name for name in ("loop", "smooth", "facets") if getattr(arguments, name) is not None]
+    if len(ways) > 1:
+        raise InputError(f"--{ways[0]} and --{ways[1]} make another program each; give one of them")
+    if arguments.form is not None and not {"smooth", "facets"} & set(ways):
+        raise InputError("--as belongs to --smooth T or --facets T; give one of these too")
     check_outputs(outputs, [arguments.scene])
     return outputs
+
+
+def curves_over(arguments: argparse.Namespace) -> CurvesOverSurfaces | None:
+    """Return how the program is to become curves; None: it is not."""
+    if arguments.smooth is None:
+        return None
+    return CurvesOverSurfaces(arguments.smooth, _form(arguments))
+
+
+def facets_of(arguments: argparse.Namespace) -> BetterOptions | None:
+    """Return how the program is to go by its surfaces' facets; None: it does not."""
+    return None if arguments.facets is None else BetterOptions(arguments.facets, form=_form(arguments))
+
+
+def _form(arguments: argparse.Namespace) -> OutputForm:
+    return OutputForm(arguments.form or OutputForm.ARCS.value)
 
 
 def plot_scene(arguments: argparse.Namespace) -> PlotScene:

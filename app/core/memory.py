@@ -7,11 +7,13 @@ them work.
 
 from __future__ import annotations
 
+import ctypes
 import math
 import os
 import re
+import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -23,6 +25,9 @@ LEAST = 1_000_000
 
 _SMALL = 4_000_000
 """Bytes; so little is not refused, whatever is left."""
+
+_MUCH = 500_000_000
+"""Bytes; a process that holds less is not asked to give back what is free of it."""
 
 _UNITS = {"": 1, "K": 10**3, "M": 10**6, "G": 10**9, "T": 10**12}
 _SIZE = re.compile(r"\s*(\d{1,15}(?:\.\d{1,9})?)\s*([KMGT]?)(?:I?B)?\s*", re.IGNORECASE)
@@ -265,3 +270,15 @@ def free_memory() -> int | None:
 
 _USUAL = Budget(half_of_machine(), _ITSELF)
 _BUDGET = ContextVar("budget", default=_USUAL)
+
+
+def give_back() -> None:
+    """Give memory that is free back to the system, of a process that holds much.
+
+    The allocator keeps what many small things leave free for small things to come; a job that goes on with large ones
+    would hold both. Where it cannot be asked to, nothing is done.
+    """
+    if not sys.platform.startswith("linux") or resident() < _MUCH:
+        return
+    with suppress(OSError, AttributeError):  # a library without that call
+        ctypes.CDLL(None).malloc_trim(0)

@@ -224,7 +224,8 @@ def on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:
     kept = tuple(entity for entity in part.entities if entity.layer.casefold() in requested)
     if not kept:
         raise InputError(f"{name}: layer {', '.join(layers)} has no lines, arcs or curves; choose another.")
-    return Part(kept, part.layers, part.units, part.name)
+    notes = tuple(note for note in part.notes if note.layer.casefold() in requested)
+    return Part(kept, part.layers, part.units, part.name, notes=notes)
 
 
 def remark(text: str, amount: float | None = None) -> Finding:
@@ -274,7 +275,7 @@ def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
 
 def _remedy(left_out: Counter[str]) -> str:
     """Return what to do about texts that are not read as they stand, or nothing."""
-    ways = [(" (in columns)", "set texts to no columns"), (" (vertical)", "let letters run to the right")]
+    ways = [("in columns)", "set texts to no columns"), ("to fill a length)", "let letters run to the right")]
     named = [way for kind, way in ways if any(each.endswith(kind) for each in left_out)]
     return f" To machine them, {' and '.join(named)}, or turn them into curves, where they were drawn." if named else ""
 

@@ -15,7 +15,9 @@ from .tool import Tool
 class ChamferOperation(Operation):
     """Break the edges along contours with the flank of a V cutter; a narrow one deburrs."""
 
-    side: Side = parameter(Side.OUTSIDE, *SIDE, option=True, choices=("Inside", "Outside", "On line"))
+    side: Side = parameter(
+        Side.OUTSIDE, *SIDE, option=True, choices=("Inside", "Outside", "On line"), not_taken=(Side.ON,)
+    )
     width: float = parameter(
         0.5,
         "width",

@@ -77,6 +77,7 @@ class Parameter:
         table, word: of a job's parameter: the table of a job file that it stands in, and its key there, where that is
             another one.
         choices: words for the members of its enum in forms, for False and True of a flag that is no switch.
+        not_taken: members of its enum that this kind of operation refuses, so that its form does not offer them.
     """
 
     key: str
@@ -91,6 +92,7 @@ class Parameter:
     needs: Condition | None = None
     on_pixels: bool = False
     choices: tuple[str, ...] = ()
+    not_taken: tuple[Enum, ...] = ()
     short: str = ""
     table: str = ""
     word: str = ""

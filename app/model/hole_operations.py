@@ -171,6 +171,17 @@ class ThreadOperation(HoleOperation):
         short="Where",
     )
 
+    left_hand: bool = parameter(
+        False,
+        "left_hand",
+        "Left-handed",
+        "the thread turns to the left: it goes down as a helix that is turned counter-clockwise",
+        Unit.FLAG,
+        option=True,
+        choices=("Right", "Left"),
+        short="Hand",
+    )
+
     WORD = "thread"
     TOOL = "thread-mill"
     UNUSED = STRAIGHT_DOWN - {"direction"}

@@ -265,6 +265,31 @@ class Job:
             )
         return tool
 
+    def prepared(self) -> Job:
+        """Return the job with what operations ask to come before them, behind all others in the list, so that these
+        keep their places; what is there already is not added.
+
+        Raises:
+            ParameterError: an operation has no tool, or none that can do it.
+        """
+        operations = list(self.operations)
+        for operation in self.operations:
+            if operation.cut.enabled:
+                for wanted in operation.prepared_by(self.cutter(operation)):
+                    if not any(_alike(wanted, each) for each in operations):
+                        operations.append(wanted)
+        return self if len(operations) == len(self.operations) else replace(self, operations=tuple(operations))
+
+    def prepares(self, index: int) -> int | None:
+        """Return the index of the first operation that asks for another one, by its index; None where none does."""
+        asked = self.operations[index]
+        for k, operation in enumerate(self.operations):
+            if k != index and operation.cut.enabled:
+                wanted = operation.prepared_by(self.tool(operation.cut.tool))
+                if any(_alike(each, asked) for each in wanted):
+                    return k
+        return None
+
     def same_paths(self, other: Job) -> bool:
         """Return whether another job comes to the same paths: layers that hold nothing, colours, locks and what the
         stock is made of make none.
@@ -293,3 +318,15 @@ class Job:
         for operation in self.operations:
             if operation.cut.enabled:
                 self.cutter(operation)
+
+
+def _alike(wanted: Operation, operation: Operation) -> bool:
+    """Tell whether an operation does what is wanted; digits of a file may have moved its lengths."""
+    mine, theirs = wanted.cut, operation.cut
+    return (
+        type(wanted) is type(operation)
+        and theirs.enabled
+        and (mine.tool, mine.curves) == (theirs.tool, theirs.curves)
+        and abs(mine.depth - theirs.depth) < LEAST_LENGTH
+        and abs(mine.stock_to_leave - theirs.stock_to_leave) < LEAST_LENGTH
+    )

@@ -97,6 +97,19 @@ def arc_paths(motions: Motions, first: int = 0, stop: int | None = None) -> ArcP
     )
 
 
+def motion_rows(motions: Motions) -> Floats:
+    """Return motions as rows (n, 8) of `app.geometry.primitives`, seen from above: arcs that do not lie flat, and
+    splines, as their chords.
+    """
+    kind = motions.kind
+    arc = ((kind == MotionKind.ARC_CW) | (kind == MotionKind.ARC_CCW)) & (motions.plane == Plane.XY)
+    centre = np.where(arc[:, None], np.nan_to_num(motions.centre[:, :2]), 0.0)
+    start, end = motions.start[:, :2], motions.end[:, :2]
+    radius = np.where(arc, (np.hypot(*(start - centre).T) + np.hypot(*(end - centre).T)) / 2, 0.0)
+    turn = np.where(arc, np.where(kind == MotionKind.ARC_CCW, 1.0, -1.0), 0.0)
+    return np.column_stack([start, end, centre, radius, turn])
+
+
 def spline_points(spline: Nurbs, count: int = SPLINE_PIECES + 1) -> Floats:
     """Return (count, 3) points of a spline, evenly spread over its parameter, its ends among them."""
     return _points_at(spline, np.linspace(*_span(spline), count))

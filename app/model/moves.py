@@ -123,12 +123,14 @@ class Area:
         lines: where its centre stays on lines: these, open and closed; the regions then are what keeps it off clamps.
         whole: True: the operation is to clear all of its regions; False: what its path covers.
         bare: outlines that are kept off but not followed: clamps, and the frame round an area outside.
+        air: outlines of what of the regions lies beyond the stock's edges, where nothing stands that is to be cleared.
     """
 
     regions: tuple[Region, ...] = ()
     lines: tuple[Contour, ...] = ()
     whole: bool = False
     bare: tuple[Contour, ...] = ()
+    air: tuple[Contour, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,14 @@ from .entry import Entry, Lead, LeadKind, Tabs
 from .fields import Condition, Unit, check_ranges, parameter, part, required, required_part
 from .tool import Tool
 
+OPEN_EDGES = (
+    "open_edges",
+    "Open edges",
+    "walls that lie on the stock's edge are none: the tool comes in from outside there and goes past the edge",
+    Unit.FLAG,
+)
+"""Declared alike by all kinds that clear an area from its walls or its middle."""
+
 LEAST_LENGTH = 1e-3
 """mm; a smaller depth, step or height would vanish in the digits of an NC program."""
 
@@ -152,6 +160,7 @@ class CutParameters:
         return self.depth - self.floor_to_leave
 
 
+_WITHIN = Condition(lambda operation: operation.side is Side.INSIDE, "a path inside", 'write side = "inside"')
 _WORN = Condition(
     lambda operation: operation.compensation is CutterCompensation.WEAR,
     "the wear word",
@@ -159,12 +168,28 @@ _WORN = Condition(
     "--compensation wear",
 )
 _FINISHED = Condition(lambda operation: operation.finish_width > 0, "a finish pass", "add finish_width = 0.2")
-_ENGAGED = (
+ENGAGED = (
     "most_engaged",
     "Limit of engagement",
     "of the diameter: where the cutter is engaged over more, the feed is slowed; 100 %: never",
     Unit.SHARE,
 )
+"""Declared alike by all kinds whose feed may follow what is engaged."""
+
+MOST_ENGAGED = (
+    "most_engaged_deg",
+    "Engaged at most",
+    "angle of the cutter's rim that may be in metal, anywhere; 90: half of the diameter, 60: a quarter",
+    Unit.ANGLE,
+)
+LIFT = (
+    "lift",
+    "Lift",
+    "how high the tool goes on its way back over ground that is cut; 0: it stays down",
+    Unit.LENGTH,
+)
+"""Declared alike, as the angle above, by all kinds that go in arcs."""
+
 THROUGH = (
     "through",
     "Through",
@@ -247,6 +272,10 @@ class Operation:
         """Whether it has its tool's centre on the lines, or drills, so that it bounds no area."""
         return self.wall_side in (None, Side.ON)
 
+    def line_width(self, tool: Tool) -> float | None:
+        """Return how wide the slots along the drawn lines are that bound its area, mm; None where the lines do."""
+        return None
+
     @property
     def beyond(self) -> float:
         """How far below its floor its tool goes on purpose, mm."""
@@ -255,6 +284,10 @@ class Operation:
     def deepest(self, tool: Tool) -> float:
         """Return how deep its tool goes, mm, without the point of a drill."""
         return self.cut.floor + self.beyond
+
+    def prepared_by(self, tool: Tool) -> tuple[Operation, ...]:
+        """Return the operations, with other tools, that it asks to come right before it; `tool`: its own."""
+        return ()
 
     @property
     def over_edge(self) -> float:
@@ -267,6 +300,11 @@ class Operation:
         return 0.0
 
     @property
+    def takes_points(self) -> bool:
+        """Whether drawn points are holes for it, as wide as its tool."""
+        return False
+
+    @property
     def engagement_limit(self) -> float:
         """Share of the diameter in (0, 1] beyond which the feed is slowed; 1 = never."""
         return 1.0
@@ -277,6 +315,11 @@ class Operation:
         return None
 
     @property
+    def lift_between(self) -> float:
+        """How high its tool goes between passes that keep to such an angle, over ground that is cut, mm."""
+        return 0.0
+
+    @property
     def wear(self) -> float:
         """How far the operator may offset its paths in the control, mm, either way; 0 = there is no word for it."""
         return 0.0
@@ -285,6 +328,11 @@ class Operation:
     def outer_lead(self) -> Lead | None:
         """How its paths round the outside of the drawing come to the walls; None where it has none there."""
         return None
+
+    @property
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return False
 
     @property
     def roughed_allowance(self) -> float:
@@ -351,7 +399,7 @@ class ContourOperation(Operation):
         choices=("Once", "Each depth"),
     )
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
     compensation: CutterCompensation = parameter(
         CutterCompensation.COMPUTER,
@@ -375,6 +423,8 @@ class ContourOperation(Operation):
         group="Walls",
         needs=_WORN,
     )
+
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True, needs=_WITHIN)
 
     WORD = "contour"
     FOLLOWS_WALLS = True
@@ -424,6 +474,11 @@ class ContourOperation(Operation):
         return self.most_engaged
 
     @property
+    def opens_edges(self) -> bool:
+        """Whether its paths go on past the stock's edges, where walls lie on them."""
+        return self.open_edges and self.side is Side.INSIDE
+
+    @property
     def outer_lead(self) -> Lead | None:
         """How it comes to the walls where it runs outside of them."""
         return self.lead if self.side is Side.OUTSIDE else None
@@ -457,8 +512,10 @@ class PocketOperation(Operation):
         short="Begin",
     )
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
+
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True)
 
     WORD = "pocket"
     CLEARS = True
@@ -478,6 +535,11 @@ class PocketOperation(Operation):
         return self.stepover
 
     @property
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return self.open_edges
+
+    @property
     def on_pixels(self) -> bool:
         """Pockets are what the way of 1986 was made for."""
         return True
@@ -488,24 +550,11 @@ class AdaptiveOperation(Operation):
     """Clear the area inside with a cutter whose rim is nowhere engaged by more than an angle."""
 
     most_engaged_deg: float = parameter(
-        math.radians(60),
-        "most_engaged_deg",
-        "Engaged at most",
-        "angle of the cutter's rim that may be in metal, anywhere; 90: half of the diameter, 60: a quarter",
-        Unit.ANGLE,
-        low=math.radians(15),
-        high=math.radians(90),
-        option=True,
+        math.radians(60), *MOST_ENGAGED, low=math.radians(15), high=math.radians(90), option=True
     )
-    lift: float = parameter(
-        0.2,
-        "lift",
-        "Lift",
-        "how high the tool goes on its way back over ground that is cut; 0: it stays down",
-        Unit.LENGTH,
-        high=100.0,
-        option=True,
-    )
+    lift: float = parameter(0.2, *LIFT, high=100.0, option=True)
+
+    open_edges: bool = parameter(False, *OPEN_EDGES, option=True)
 
     WORD = "adaptive"
     CLEARS = True
@@ -520,9 +569,14 @@ class AdaptiveOperation(Operation):
         return self.most_engaged_deg
 
     @property
-    def limit_deg(self) -> float:
-        """The limit in degrees."""
-        return round(math.degrees(self.most_engaged_deg), 6)
+    def opens_edges(self) -> bool:
+        """Whether its area goes on past the stock's edges, where walls lie on them."""
+        return self.open_edges
+
+    @property
+    def lift_between(self) -> float:
+        """How high the tool goes on its way back over ground that is cut, mm."""
+        return self.lift
 
 
 @dataclass(frozen=True, slots=True)
@@ -531,7 +585,7 @@ class RestOperation(Operation):
 
     stepover: float | None = parameter(None, *STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
     most_engaged: float = parameter(
-        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+        1.0, *ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
 
     WORD = "rest"
@@ -555,6 +609,18 @@ class RestOperation(Operation):
 class VcarveOperation(Operation):
     """Carve the area inside with a V cutter that touches both walls at the surface; `depth` is the greatest."""
 
+    flat_tool: int | None = parameter(
+        None,
+        "flat_tool",
+        "Flat tool",
+        "T number of the flat mill that clears the floor first, where the area is wider than the cone",
+        Unit.COUNT,
+        low=1,
+        high=1e9,
+        option=True,
+        auto="none",
+    )
+
     WORD = "vcarve"
     CARVES = True
     LEVELS = False
@@ -562,6 +628,20 @@ class VcarveOperation(Operation):
 
     def __post_init__(self) -> None:
         check_ranges(self)
+
+    def prepared_by(self, tool: Tool) -> tuple[Operation, ...]:
+        """Return the pocket that clears the flat floor: all that lies deeper than the slanted walls."""
+        if self.flat_tool is None:
+            return ()
+        cut = CutParameters(
+            self.flat_tool,
+            self.cut.depth,
+            self.cut.stepdown,
+            self.cut.depth * math.tan(tool.tip_angle / 2),
+            enabled=self.cut.enabled,
+            curves=self.cut.curves,
+        )
+        return (PocketOperation(cut),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -653,6 +733,15 @@ class DrillOperation(HoleOperation):
     dwell: float = parameter(0.0, *DWELL, high=60.0, option=True)
     through: float = parameter(0.0, *THROUGH, high=1000.0, option=True)
 
+    points: bool = parameter(
+        False,
+        "points",
+        "Points too",
+        "drawn points are holes, too, as if they were circles as wide as the drill",
+        Unit.FLAG,
+        option=True,
+    )
+
     WORD = "drill"
     DRILLS = True
     UNUSED = STRAIGHT_DOWN
@@ -666,3 +755,8 @@ class DrillOperation(HoleOperation):
     def dwell_s(self) -> float:
         """How long the drill turns at the bottom, s."""
         return self.dwell
+
+    @property
+    def takes_points(self) -> bool:
+        """Whether it drills drawn points."""
+        return self.points

@@ -21,6 +21,7 @@ from .operation import (
     RestOperation,
     VcarveOperation,
 )
+from .slot_operation import SlotOperation
 
 OPERATION_KINDS: dict[str, type[Operation]] = {}
 """By the words of job files, reports and NC headers; `register` adds to it."""
@@ -41,6 +42,7 @@ for _kind in (
     AdaptiveOperation,
     RestOperation,
     ContourOperation,
+    SlotOperation,
     VcarveOperation,
     ChamferOperation,
     DrillOperation,

@@ -94,10 +94,10 @@ class Part:
         """Return an entity's curve, or None when the part does not have it."""
         return next((e.curve for e in self.entities if e.id == entity_id), None)
 
-    def with_curves(self, curves: Iterable[Curve], layer: str) -> Part:
-        """Return the part with curves added on fresh ids; the layer is added where it is new."""
+    def with_curves(self, curves: Iterable[Curve], layer: str, lettering: bool = False) -> Part:
+        """Return the part with curves, or strokes of letters, added on fresh ids; a layer that is new is added."""
         first = self.next_id()
-        new = tuple(Entity(first + n, curve, layer) for n, curve in enumerate(curves))
+        new = tuple(Entity(first + n, curve, layer, lettering) for n, curve in enumerate(curves))
         layers = self.layers if any(known.name == layer for known in self.layers) else (*self.layers, Layer(layer))
         return replace(self, entities=self.entities + new, layers=layers, used_id=first + len(new) - 1)
 

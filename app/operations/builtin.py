@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import adaptive, bore, chamfer, contour, countersink, drill, face, pocket, ream, rest, tap, thread, vcarve
+from . import adaptive, bore, chamfer, contour, countersink, drill, face, pocket, ream, rest, slot, tap, thread, vcarve
 
 __all__ = [
     "adaptive",
@@ -15,6 +15,7 @@ __all__ = [
     "pocket",
     "ream",
     "rest",
+    "slot",
     "tap",
     "thread",
     "vcarve",

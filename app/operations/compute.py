@@ -28,8 +28,8 @@ from ..toolpath.operation_context import OperationContext
 from ..toolpath.selected import selected, selection_findings
 from ..toolpath.witness import region_findings
 from . import builtin  # noqa: F401 (registers the kinds)
+from .preparing import carry_out
 from .reckoning import job_effort
-from .registry import method_of
 
 
 def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | None = None) -> Program:
@@ -54,9 +54,7 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     context.findings.extend(under_clamps(job, parts, context.regions))
     operations = in_order(job)
     context.findings.extend(unfaced(job, operations))
-    for k, index in enumerate(operations):
-        begins, ends = (0.05 + 0.95 * at / len(operations) for at in (k, k + 1))
-        method_of(job.operations[index]).paths(context, index, progress.part(begins, ends))
+    carry_out(context, operations, progress.part(0.05, 1.0))
     if job.order is Order.PATENT_1986:
         context.findings.extend(slotting(job))
     areas = context.areas.areas()
@@ -160,9 +158,13 @@ def under_clamps(job: Job, parts: DrawnContours, regions: Sequence[Region]) -> l
 
 
 def in_order(job: Job) -> list[int]:
-    """Return indices of the enabled operations in the order of cutting: the list's, or all contours first (1986)."""
+    """Return indices of the enabled operations in the order of cutting: the list's, what an operation asks for right
+    before it, or all contours first (1986).
+    """
     enabled = [k for k, operation in enumerate(job.operations) if operation.cut.enabled]
-    return sorted(enabled, key=lambda k: job.order is Order.PATENT_1986 and not job.operations[k].FOLLOWS_WALLS)
+    before = {k: owner for k in enabled if (owner := job.prepares(k)) is not None and owner < k}
+    listed = sorted(enabled, key=lambda k: before[k] - 0.5 if k in before else float(k))
+    return sorted(listed, key=lambda k: job.order is Order.PATENT_1986 and not job.operations[k].FOLLOWS_WALLS)
 
 
 def unfaced(job: Job, operations: Sequence[int]) -> list[Finding]:

@@ -132,6 +132,13 @@ def circle_findings(holes: DrillHoles, job: Job, operation: HoleOperation, verb:
                 kept[0].y,
                 amount=float(len(kept)),
             )
+    outline = f"not {verb.done}, as other contours lie inside; to have that done, name it in curves, or its diameter"
+    for kept, why in ((holes.outlines, outline), (holes.emptied, f"{verb.done} with the contours that lie inside")):
+        if kept:
+            one = f"{_counted(kept)}, {'' if len(kept) == 1 else 'the first '}at ({kept[0].x:.3f}, {kept[0].y:.3f}),"
+            text = f"{who}: {one} {'is' if len(kept) == 1 else 'are'} {why}."
+            x, y = kept[0].x, kept[0].y
+            yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(len(kept)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from ..model.finding import Finding
 from ..model.operation import Operation
 from ..model.tool import Tool
 from ..toolpath.machining_areas import MachiningArea, MachiningAreas
-from ..toolpath.operation_context import OperationContext
+from ..toolpath.operation_context import OperationContext, PreparedStrokes
 from .effort import Workload, along_walls
 
 
@@ -25,6 +25,8 @@ class OperationMethod:
         missed: what an operation asks for and no path of it will make, from the drawing alone; without a sheet for one
             that makes none, which is asked of nobody else's area.
         effort: how long paths and their proof take, s, about, by what the contours come to.
+        prepared: the strokes of an operation that asks nothing of what those before it have cut, so that they can be
+            made beside these; None = where it has nothing to machine. No function: it asks.
     """
 
     paths: Callable[[OperationContext, int, Progress], None]
@@ -32,6 +34,7 @@ class OperationMethod:
         lambda areas, operation, area: ()
     )
     effort: Callable[[Workload, Operation, Tool], float] = along_walls
+    prepared: Callable[[OperationContext, int, Progress], PreparedStrokes | None] | None = None
 
 
 _WAYS: dict[type[Operation], OperationMethod] = {}

@@ -20,10 +20,11 @@ from ..geometry.even_odd import even_odd
 from ..geometry.overlay.overlay import without_crossings
 from ..geometry.primitives import contour_rows, sample, signed_area
 from ..geometry.region import holders, reversed_contour
-from ..model.curve_selectors import layer_names
+from ..model.curve_selectors import CurveNumber, OnLayer, Selector, layer_names
 from ..model.curves import Arc, Circle, Line, Point, Primitive
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
+from ..model.notes import Mark, Note
 from ..model.part import Contour, Region
 from ..model.stock_box import extent
 from .text_strokes import strokes_of
@@ -93,7 +94,7 @@ def drawn_contours(job: Job) -> DrawnContours:
     strokes, about_strokes = strokes_of(
         [e for e in job.part.entities if e.layer in layers and e.lettering], job.join_tolerance
     )
-    closed = [contour for contour in chaining.contours if contour.closed]
+    closed = [contour for contour in chaining.contours if contour.closed] + _point_holes(job, layers)
     lines = [contour for contour in chaining.contours if not contour.closed]
     doubts = chaining_findings(entities, chaining, job.join_tolerance)
     clamps, about = clamps_of(job)
@@ -103,6 +104,26 @@ def drawn_contours(job: Job) -> DrawnContours:
     copies = _copied(closed, shifts)
     findings = (*chaining.findings, *doubts, *about, *meet, *_under_clamps(copies, clamps), *about_strokes)
     return DrawnContours(copies, _copied([*lines, *strokes], shifts), crossing, clamps, findings)
+
+
+def _point_holes(job: Job, layers: frozenset[str]) -> list[Contour]:
+    """Return a circle at each drawn point for every width of the tools of operations that take points, once a place."""
+    points = [(note, note.shape.at) for note in job.part.notes if isinstance(note.shape, Mark) and note.layer in layers]
+    taking = [each for each in job.operations if each.cut.enabled and each.takes_points]
+    if not points or not taking:
+        return []
+    found: dict[tuple[Point, float], Contour] = {}
+    for operation in taking:
+        radius = job.tool(operation.cut.tool).radius
+        for note, at in points:
+            if _names(operation.cut.curves, note):
+                found.setdefault((at, radius), Contour((Circle(at, radius),), True, note.layer, (note.id,)))
+    return list(found.values())
+
+
+def _names(curves: Sequence[Selector], note: Note) -> bool:
+    """Tell whether selectors take a point in: by its number, by its layer, or because there are none."""
+    return not curves or any(each in (CurveNumber(note.id), OnLayer(note.layer)) for each in curves)
 
 
 def _crosses(findings: Sequence[Finding]) -> bool:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from ..core.tolerances import CURVE
 from ..geometry.as_circle import as_circle
@@ -19,6 +21,8 @@ from ..model.tool import Tool
 from .coverage.flat import region_shapes
 from .drawn_contours import DrawnContours
 from .selected import selected
+
+Floats = NDArray[np.float64]
 
 _CHORD = 1e-3
 
@@ -46,12 +50,16 @@ class DrillHoles:
         narrow: circles that were asked for and that its tool does not fit.
         held: circles over which clamps lie, or so near to one that tool or holder would touch it.
         others: circles of other diameters.
+        outlines: circles that hold other closed contours and so are no holes; nobody has named them.
+        emptied: circles that hold other closed contours, worked on because somebody has named them.
     """
 
     drilled: tuple[CircleHole, ...] = ()
     narrow: tuple[CircleHole, ...] = ()
     held: tuple[CircleHole, ...] = ()
     others: tuple[CircleHole, ...] = ()
+    outlines: tuple[CircleHole, ...] = ()
+    emptied: tuple[CircleHole, ...] = ()
 
 
 def circle_of(contour: Contour) -> CircleHole | None:
@@ -68,11 +76,51 @@ def holes_of(job: Job, drawn: DrawnContours, operation: HoleOperation) -> DrillH
     ]
     wanted = [_asked(operation, tool, hole.diameter) for hole in circles]
     requested = [hole for hole, wants in zip(circles, wanted, strict=True) if wants]
+    full = frozenset[CircleHole]() if operation.on_bosses else _full(requested, drawn)
+    named = bool(operation.cut.curves) or operation.least is not None or operation.most is not None
+    outlines = () if named else tuple(hole for hole in requested if hole in full)
+    requested = [hole for hole in requested if named or hole not in full]
     others = tuple(hole for hole, wants in zip(circles, wanted, strict=True) if not wants)
     fit = [hole for hole in requested if operation.takes(hole.diameter, tool)]
     narrow = tuple(hole for hole in requested if not operation.takes(hole.diameter, tool))
     free, held = _free(_once_a_place(fit), job, drawn, operation)
-    return DrillHoles(tuple(free), narrow, tuple(held), others)
+    emptied = tuple(hole for hole in free if hole in full)
+    return DrillHoles(tuple(free), narrow, tuple(held), others, outlines, emptied)
+
+
+def _full(circles: Sequence[CircleHole], drawn: DrawnContours) -> frozenset[CircleHole]:
+    """Return the circles inside of which other closed contours lie whole, but for circles about the same centre."""
+    if not circles:
+        return frozenset()
+    from scipy.spatial import cKDTree  # takes longer to import than most drawings to read
+
+    points = [_corners(contour) for contour in drawn.closed]
+    centres = np.array([(hole.x, hole.y) for hole in circles])
+    radii = np.array([hole.diameter / 2 for hole in circles]) - CURVE
+    near = cKDTree([each[0] for each in points]).query_ball_point(centres, radii)
+    return frozenset(
+        hole
+        for hole, centre, radius, found in zip(circles, centres, radii, near, strict=True)
+        if any(_lies_in(points[k], centre, radius) and not _about(drawn.closed[k], hole) for k in found)
+    )
+
+
+def _corners(contour: Contour) -> Floats:
+    """Return (n, 2) where the primitives of a contour begin; the middle and four points of a circle."""
+    if len(contour.primitives) == 1 and isinstance(circle := contour.primitives[0], Circle):
+        (x, y), r = circle.centre, circle.radius
+        return np.array([(x, y), (x + r, y), (x, y + r), (x - r, y), (x, y - r)])
+    return np.array([each.start for each in contour.primitives])
+
+
+def _lies_in(points: Floats, centre: Floats, radius: float) -> bool:
+    return bool(np.hypot(*(points - centre).T).max() < radius)
+
+
+def _about(contour: Contour, hole: CircleHole) -> bool:
+    """Tell whether a contour is a circle about the centre of another."""
+    circle = circle_of(contour)
+    return circle is not None and math.dist((circle.x, circle.y), (hole.x, hole.y)) <= CURVE
 
 
 def _asked(operation: HoleOperation, tool: Tool, diameter: float) -> bool:

@@ -4,6 +4,7 @@ the clamps.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.distance import DistanceField
+from ..geometry.offset.grown_lines import grown_lines
 from ..geometry.offset.offset import OffsetLevel, offset_levels
 from ..geometry.overlay.overlay import OverlayResult, without_crossings, without_outlines
 from ..geometry.primitives import Primitives, contour_rows, pack, points_at
@@ -28,8 +30,9 @@ from ..model.stock_box import extent
 from .drawn_contours import DrawnContours
 from .drill_holes import CircleHole, circle_of, hole_regions, made_by_drills
 from .leads.lead import lead_size
+from .open_edges import BoxSides, OpenedArea, opened
 from .selected import selected
-from .witness import region_findings
+from .witness import grown_findings, region_findings
 
 _ON_CLAMP = 2e-5
 """mm; a wall all of which is this near to a clamp's outline is the clamp's: ends that meet are put together by as
@@ -44,6 +47,9 @@ nothing that concerns them.
 _SPARE = 1.0
 """mm that the frame is farther off than the leads need."""
 
+_SAME = 1e-9
+"""mm by which a slot may be wider than the tool that goes along its middle alone."""
+
 
 @dataclass(frozen=True, eq=False)
 class MachiningArea:
@@ -55,7 +61,8 @@ class MachiningArea:
         bare: (n,) True where a row bounds a clamp, or is the frame round the area outside: it is kept off, not
             followed.
         lines: contours that a path on the line follows, open and closed.
-        outlines: of clamps and frame.
+        outlines: of clamps and frame, and of what lies beyond the stock's open edges.
+        air: of the last alone.
     """
 
     regions: tuple[Region, ...]
@@ -64,19 +71,23 @@ class MachiningArea:
     bare: NDArray[np.bool_]
     lines: tuple[Contour, ...] = ()
     outlines: tuple[Contour, ...] = ()
+    air: tuple[Contour, ...] = ()
     _frames: dict[float, OffsetLevel] = field(default_factory=dict, repr=False)
+    _making: threading.Lock = field(default_factory=threading.Lock, repr=False)
 
     def frame(self, distance: float, progress: Progress = NO_PROGRESS) -> OffsetLevel:
         """Return the outermost frame of a cutter, its centre at a distance from the walls, mm, see `offset_levels`.
 
-        What is left is looked for along the frame that contours follow later: it is made once.
+        What is left is looked for along the frame that contours follow later, or are prepared along meanwhile: it is
+        made once.
 
         Raises:
             Cancelled: by progress.
         """
-        if distance not in self._frames:
-            (self._frames[distance],) = offset_levels(self.primitives, [distance], progress, frame=True)
-        return self._frames[distance]
+        with self._making:
+            if distance not in self._frames:
+                (self._frames[distance],) = offset_levels(self.primitives, [distance], progress, frame=True)
+            return self._frames[distance]
 
     def follows_bare(self, rows: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return for each row (n, 8) of a ring whether what it follows at its middle is bare."""
@@ -84,6 +95,21 @@ class MachiningArea:
             return np.zeros(len(rows), np.bool_)
         nearest: NDArray[np.bool_] = self.bare[self.distances.nearest(points_at(rows, np.full(len(rows), 0.5)))[1]]
         return nearest
+
+
+@dataclass(frozen=True)
+class _AreaKey:
+    """What operations have alike that share an area.
+
+    Attributes:
+        width: of slots along the lines, mm; 0 = the lines bound it.
+        past: how far it goes past the stock's edges where walls lie on them, mm; 0 = these are walls.
+    """
+
+    curves: frozenset[Selector]
+    side: Side
+    width: float = 0.0
+    past: float = 0.0
 
 
 @dataclass
@@ -97,14 +123,16 @@ class MachiningAreas:
     job: Job
     drawn: DrawnContours
     findings: list[Finding] = field(default_factory=list)
-    _made: dict[tuple[frozenset[Selector], Side], MachiningArea | None] = field(default_factory=dict)
+    _made: dict[_AreaKey, MachiningArea | None] = field(default_factory=dict)
 
     def of(self, operation: Operation) -> MachiningArea | None:
         """Return the sheet of an operation; None where it has nothing to machine."""
-        side = operation.wall_side or Side.INSIDE
-        key = frozenset(operation.cut.curves), side
+        tool, side = self.job.tool(operation.cut.tool), operation.wall_side or Side.INSIDE
+        width = operation.line_width(tool) or 0.0
+        width = width if width > tool.diameter + _SAME else 0.0
+        key = _AreaKey(frozenset(operation.cut.curves), side, width, self._past(operation))
         if key not in self._made:
-            self._made[key] = self._sheet(*key)
+            self._made[key] = self._slots(key) if key.width else self._sheet(key)
         return self._made[key]
 
     def areas(self) -> tuple[Area, ...]:
@@ -120,23 +148,24 @@ class MachiningAreas:
         area = self.of(operation) if operation.cut.enabled else None
         if area is None:
             return Area()
-        return Area(area.regions, area.lines, operation.CLEARS, area.outlines)
+        return Area(area.regions, area.lines, operation.CLEARS, area.outlines, area.air)
 
-    def _sheet(self, curves: frozenset[Selector], side: Side) -> MachiningArea | None:
-        found = selected(self.drawn, tuple(curves))
-        closed, lines = list(found.closed), list(found.open)
-        if self._made_by_drills:
-            closed = [contour for contour in closed if circle_of(contour) not in self._made_by_drills]
+    def _sheet(self, key: _AreaKey) -> MachiningArea | None:
+        side, found = key.side, selected(self.drawn, tuple(key.curves))
+        closed, lines = self._milled(found.closed), list(found.open)
         frame = self._frame((*closed, *lines, *(c for region in self.drawn.clamps for c in region.contours)))
         if frame is None or (side is not Side.ON and not closed):
             return None
         regions = self._regions({Side.INSIDE: closed, Side.OUTSIDE: [frame, *closed], Side.ON: [frame]}[side])
         if not regions:
             return None
+        air: tuple[Contour, ...] = ()
+        if key.past and self.stock is not None:
+            past = opened(regions, self.stock, key.past)
+            air, regions = past.strips, self._opened(past) if past.strips else regions
         primitives = pack(regions)
-        outlines = tuple(c for region in self.drawn.clamps for c in region.contours) + (
-            () if side is Side.INSIDE else (frame,)
-        )
+        outlines = (*(c for region in self.drawn.clamps for c in region.contours), *air)
+        outlines += () if side is Side.INSIDE else (frame,)
         bare = lies_on(primitives, outlines)
         return MachiningArea(
             regions,
@@ -145,7 +174,57 @@ class MachiningAreas:
             bare,
             (*closed, *lines) if side is Side.ON else (),
             outlines,
+            air,
         )
+
+    def _past(self, operation: Operation) -> float:
+        """Return how far an operation's area goes past the stock's edges: so far that its whole tool is beside the
+        stock, also where another tool follows the walls, mm; 0 = not at all.
+        """
+        if not operation.opens_edges:
+            return 0.0
+        tools = [self.job.tool(each.cut.tool) for each in self.job.operations if each.cut.enabled]
+        leave = max(each.cut.stock_to_leave for each in self.job.operations)
+        tool = self.job.tool(operation.cut.tool)
+        return tool.diameter + max(each.diameter for each in tools) / 2 + leave + _SPARE
+
+    @cached_property
+    def stock(self) -> BoxSides | None:
+        """The sides of the stock, mm; None where nothing is drawn."""
+        followed = [each.cut.curves for each in self.job.operations if each.wall_side is Side.ON and each.cut.enabled]
+        lines = [line for curves in followed for line in selected(self.drawn, curves).open]
+        box = extent((*self.drawn.closed, *lines))
+        return None if box is None else BoxSides(*box).grown(self.job.stock.margin)
+
+    def _slots(self, key: _AreaKey) -> MachiningArea | None:
+        """Return what lies within half of a width of the lines, without what clamps hold."""
+        found = selected(self.drawn, tuple(key.curves))
+        lines = (*self._milled(found.closed), *found.open)
+        grown = grown_lines(lines, key.width / 2)
+        clamps = tuple(clamp.boundary for clamp in self.drawn.clamps)
+        free = without_outlines(grown, clamps)
+        nesting = nested(free.contours)
+        self.findings += [*grown_findings(lines, key.width / 2, grown), *free.findings]
+        self.findings += region_findings(grown, clamps, nesting)
+        if not nesting.regions:
+            return None
+        primitives = pack(nesting.regions)
+        outlines = tuple(c for region in self.drawn.clamps for c in region.contours)
+        walls = DistanceField.of(primitives.rows)
+        return MachiningArea(nesting.regions, primitives, walls, lies_on(primitives, outlines), (), outlines)
+
+    def _milled(self, contours: Sequence[Contour]) -> list[Contour]:
+        """Return contours but for the circles that drills make."""
+        made = self._made_by_drills
+        return [each for each in contours if circle_of(each) not in made] if made else list(contours)
+
+    def _opened(self, past: OpenedArea) -> tuple[Region, ...]:
+        """Return the regions of an area that goes on past the stock's edges, without what clamps hold."""
+        outlines = [clamp.boundary for clamp in self.drawn.clamps]
+        free = without_outlines(past.contours, outlines)
+        nesting = nested(free.contours)
+        self.findings += [*past.findings, *free.findings, *region_findings(past.contours, outlines, nesting)]
+        return nesting.regions
 
     def _regions(self, contours: Sequence[Contour]) -> tuple[Region, ...]:
         """Return the regions that contours bound even-odd, without what clamps hold; the witness is asked about

@@ -26,6 +26,7 @@ from .depth.depth import DepthLevels, DepthPasses, pass_heights
 from .entry.entry import EntryContext
 from .entry.hole import drilled, usable
 from .machining_areas import MachiningArea, MachiningAreas
+from .open_edges import BoxSides
 from .ordering.depth_order import in_order
 
 
@@ -58,9 +59,34 @@ class OperationContext:
     dog_bones: list[DogBone] = field(default_factory=list)
     at: tuple[float, float] = (0.0, 0.0)
 
+    def apart(self) -> OperationContext:
+        """Return a context of the same job that collects for itself, for an operation that is prepared beside
+        others.
+        """
+        return OperationContext(self.job, self.regions, self.areas, observer=self.observer)
+
+    def take(self, prepared: OperationContext) -> None:
+        """Put what was collected apart behind what there is."""
+        self.findings += prepared.findings
+        self.tabs += prepared.tabs
+        self.dog_bones += prepared.dog_bones
+        self.polyline_rings += prepared.polyline_rings
+        self.on_bitmap = prepared.on_bitmap or self.on_bitmap
+
     def note(self, levels: Sequence[OffsetLevel]) -> None:
         """Count rings that are polylines."""
         self.polyline_rings += sum(ring.polyline for level in levels for ring in level.rings)
+
+
+@dataclass(frozen=True, eq=False)
+class PreparedStrokes:
+    """What an operation cuts: the area that it keeps within, and the strokes, not yet in order; the stock's sides where
+    the area is open past them.
+    """
+
+    area: MachiningArea
+    strokes: Sequence[Stroke]
+    open_stock: BoxSides | None = None
 
 
 def emit(
@@ -83,7 +109,7 @@ def emit(
         return
     tool = job.tool(cut.tool)
     operation = job.operations[index]
-    beside = operation.wall_side is not Side.ON
+    beside = operation.wall_side is not Side.ON or not area.lines
     keep, worn = tool.radius + cut.stock_to_leave + operation.wear, operation.wear > 0
     ground = EntryContext(
         tool, cut.entry, area.distances, keep, beside, cut.direction, context.cleared, context.tabs, worn

@@ -7,6 +7,7 @@ and what it has to be is known without it; a link that lost something is told, a
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -24,7 +25,7 @@ from ..geometry.distance import DistanceField
 from ..geometry.even_odd import even_odd
 from ..geometry.outlines import Outlines
 from ..geometry.overlay.overlay import differing
-from ..geometry.primitives import points_at
+from ..geometry.primitives import contour_rows, points_at, sample
 from ..geometry.region import NestingResult
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Primitive, Spline
 from ..model.finding import Finding, FindingKind
@@ -39,6 +40,9 @@ _CHORD = 1e-4
 
 _FINEST = 14
 """Halvings of a spline's pieces after which its chords are taken as they are."""
+
+_QUARTER = 64
+"""Chords of a quarter turn of a polygon round a line."""
 
 _NAMED = 5
 """So many curves are named in a sentence."""
@@ -146,6 +150,25 @@ def region_findings(contours: Sequence[Contour], outlines: Sequence[Contour], ne
         text = f"Left out: {count} thinner than 1 um, {thin:.4f} mm2 in all, at {at((x, y))} for one."
         found.append(Finding(FindingKind.LEFT_OUT, text, x, y, False, nesting.thin[0].entity_ids, thin))
     return found
+
+
+def grown_findings(lines: Sequence[Contour], distance: float, grown: Sequence[Contour]) -> list[Finding]:
+    """Return the finding that outlines do not hold what lies within a distance of lines, mm, as polygons measure it."""
+    if not lines:
+        return []
+    ways = [np.concatenate([sample(rows, _CHORD), rows[-1:, 2:4]]) for rows in map(contour_rows, lines)]
+    around = shapely.union_all(shapely.buffer(list(map(shapely.LineString, ways)), distance, quad_segs=_QUARTER))
+    made = even_odd(grown).area if grown else 0.0
+    off = abs(float(around.area) - made)
+    if off <= float(around.length) * (_CHORD + distance * (1 - math.cos(math.pi / 4 / _QUARTER))):
+        return []
+    x, y = lines[0].primitives[0].start
+    text = (
+        f"The slot along the line that begins at {at((x, y))} came out {off:.4f} mm2 off; do not use this program, "
+        "draw what overlaps there once and compute again."
+    )
+    ids = tuple(dict.fromkeys(number for line in lines for number in line.entity_ids))
+    return [Finding(FindingKind.AREA, text, x, y, entity_ids=ids, amount=off)]
 
 
 def _about_edges(curves: Sequence[Contour], regions: Sequence[Region]) -> list[Finding]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -74,6 +74,12 @@ class CutSetup:
             return line
         return f"{line} of {self.names[file] if self.names else f'program {file + 1}'}"
 
+    def measured(self, exact: ExactDeviations) -> CutSetup:
+        """Return the setup with what is known to be cleared of its drawing."""
+        if exact.coverage is None or not isinstance(self.part, FlatPart):
+            return self
+        return replace(self, part=replace(self.part, floors=exact.coverage.targets))
+
     def lines(self) -> NDArray[np.int32]:
         """Return the line of each motion of all programs, in its own file."""
         return np.concatenate([program.motions.line for program in self.programs])
@@ -141,13 +147,14 @@ def cut(
     setup: CutSetup,
     options: CutOptions = CutOptions(),
     progress: Progress = NO_PROGRESS,
-    exact: ExactDeviations | None = None,
+    exact: Callable[[], ExactDeviations] | None = None,
     graphics: Graphics = GRAPHICS,
 ) -> CutProgram:
     """Cut programs out of their stock, and judge what is left.
 
     Args:
-        exact: what closed forms say against a drawing, where the caller knows it; else it is measured.
+        exact: tells what closed forms say against a drawing, where the caller knows it, asked once all is cut; else it
+            is measured.
         graphics: what computes heights where the options ask for it.
 
     Raises:
@@ -158,7 +165,12 @@ def cut(
     if exact is None:  # else the caller has announced all of its job
         announce(run.effort(), progress)
     done = run.cut(progress.part(0.0, 0.4))
-    judgement = run.judged(done.cut, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
+    known = None
+    if exact is not None:
+        known = exact()
+        setup = setup.measured(known)
+        run = replace(run, setup=setup)
+    judgement = run.judged(done.cut, known, progress.part(0.4, 1.0)) if setup.part is not None else None
     outside = beyond(setup.part, run.box()) if setup.part is not None and options.judge else ()
     judged = findings_of(judgement, setup.where) if judgement is not None else ()
     findings = worst_first(
@@ -323,7 +335,7 @@ class _CutRun:
         if exact is None and self.options.judge and isinstance(part, FlatPart):
             exact = exact_of(part, [known.course for known in self.courses], self.box(), progress.part(0.3, 0.7))
         certificate = (
-            certify(self.workpiece, target, self.cutters, self.trimmed, progress.part(0.7, 1.0))
+            certify(self.workpiece, target, self.cutters, self.trimmed, progress.part(0.7, 0.95))
             if self.options.judge
             else None
         )
@@ -332,7 +344,8 @@ class _CutRun:
         # of surfaces the cells tell enough
         if isinstance(part, SolidPart) and part.block is None and self.options.judge:
             probe = WallProbe(part, self._lowest, self.workpiece)
-        return judge(JudgementInput(part, cut, target, exact, lines, lowest, probe), certificate)
+        judging = JudgementInput(part, cut, target, exact, lines, lowest, probe)
+        return judge(judging, certificate, progress.part(0.95, 1.0))
 
     def unseen(self) -> Iterator[Finding]:
         """Yield what of a solid could not be looked at as closely as the cells are."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,8 +24,7 @@ from .written import WrittenProgram
 _TOLD_ELSEWHERE = (FindingKind.LEFT_REACHABLE, FindingKind.LEFT_UNREACHABLE, FindingKind.SKIN)
 
 
-@dataclass(frozen=True, eq=False)
-class MeasuredMoves:
+class MeasuredMoves(NamedTuple):
     """What closed forms say of the computed moves.
 
     Attributes:
@@ -39,7 +40,7 @@ def cut_job(
     program: Program,
     job: Job,
     written: WrittenProgram,
-    measured: MeasuredMoves,
+    measured: Callable[[], MeasuredMoves],
     progress: Progress = NO_PROGRESS,
 ) -> CutProgram:
     """Cut what was written.
@@ -47,7 +48,7 @@ def cut_job(
     Args:
         program: what was computed; its regions are the part.
         written: at least one file.
-        measured: what closed forms say of the computed moves.
+        measured: waits for what closed forms say of the computed moves; asked once they are cut.
 
     Raises:
         HitofudeError: a tool makes no shape.
@@ -70,7 +71,6 @@ def cut_job(
         clamps=program.clamps,
         tabs=program.tabs,
         dog_bones=program.dog_bones,
-        floors=measured.coverage.targets,
     )
     # where the control changes no tools, the file names none
     programs = tuple(
@@ -82,8 +82,12 @@ def cut_job(
         )
         for file, read in zip(written.files, written.programs, strict=True)
     )
-    motion = np.minimum(np.searchsorted(written.move, measured.depths.move), len(written.move) - 1)
-    exact = ExactDeviations(replace(measured.depths, move=motion), measured.coverage)
+
+    def exact() -> ExactDeviations:
+        depths, coverage = measured()
+        motion = np.minimum(np.searchsorted(written.move, depths.move), len(written.move) - 1)
+        return ExactDeviations(replace(depths, move=motion), coverage)
+
     return cut(
         CutSetup(programs, {tool.number: tool for tool in job.tools}, stock, part), progress=progress, exact=exact
     )

@@ -7,11 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import accumulate
 
 import numpy as np
 
+from ..core.beside import beside
 from ..core.errors import GeometryError, InputError
+from ..core.memory import give_back
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..formats.drawing import Drawing
@@ -56,6 +59,11 @@ from .wear_proofs import wear_proofs
 from .written import WrittenMotions, write_and_check
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
+
+_MOST_BESIDE = 1_000_000
+"""Moves up to which they are measured while they are written and cut; of more the memory of one after the other is
+enough.
+"""
 
 NAMED, LETTERS = 3, 340
 """How many findings the one line names that says why nothing can be cut, and letters beyond which it names no further
@@ -207,7 +215,9 @@ def _exact_context(job: Job, findings: tuple[Finding, ...], machine: Machine | N
     from ..operations.compute import compute
 
     job.check_operations()
-    return MakeContext(job, load_post(job.post), machine, findings, lambda progress: compute(job, progress))
+    whole = job.prepared()
+    whole.check_operations()
+    return MakeContext(whole, load_post(job.post), machine, findings, lambda progress: compute(whole, progress))
 
 
 def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
@@ -290,26 +300,27 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     from ..toolpath.engagement.feed import followed  # compiled code: loaded where it is used
 
     job = context.job
+    give_back()  # contours, rings and strokes were very many small things
     program = followed(program, job, progress.part(0.0, 0.1))
-    progress.step(0.1, "Writing NC")
-    written = write_and_check(program, job, context.post, context.machine, progress.part(0.1, 0.2))
-    lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
-    program = replace(program, moves=replace(program.moves, line=lines))
-    progress.step(0.2, "Checking clearance")
-    motions = WrittenMotions.of(written, program, job)
-    proofs = engagement_proofs(job, motions, progress.part(0.2, 0.21))
-    carvings = carving_proofs(program, job, motions, progress.part(0.21, 0.22))
-    threads = thread_proofs(program, job, motions)
-    faced = face_proofs(program, job, motions)
-    worn = wear_proofs(program, job, written, motions, progress.part(0.219, 0.22))
-    depths = gouge_depths(program, job, progress=progress.part(0.22, 0.28))
-    rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
+    measured_first = partial(_measured, program, job)
+    with beside(measured_first, progress.part(0.6, 0.85), len(program.moves) <= _MOST_BESIDE) as measuring:
+        progress.step(0.1, "Writing NC")
+        written = write_and_check(program, job, context.post, context.machine, progress.part(0.1, 0.2))
+        lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
+        program = replace(program, moves=replace(program.moves, line=lines))
+        give_back()
+        motions = WrittenMotions.of(written, program, job)
+        proofs = engagement_proofs(job, motions, progress.part(0.2, 0.21))
+        carvings = carving_proofs(program, job, motions, progress.part(0.21, 0.22))
+        threads = thread_proofs(program, job, motions)
+        faced = face_proofs(program, job, motions)
+        worn = wear_proofs(program, job, written, motions, progress.part(0.219, 0.22))
+        rapids = rapids_in_material(program, job, progress.part(0.22, 0.25))
+        metal = cut_job(program, job, written, measuring.result, progress.part(0.25, 0.98)) if written.files else None
+        depths, coverage = measuring.result()
     deepest = deepest_of(depths)
-    coverage = measure_beside_clear(program, job, clear_moves(program.moves, depths, CHORD), progress.part(0.3, 0.7))
     clamped = deepest_of(clamps_met(program, job, depths))
     unsafe = (*_gouge_findings(deepest, program), *_clamp_findings(clamped, program), *_rapid_findings(rapids, program))
-    moves = MeasuredMoves(depths, coverage)
-    metal = cut_job(program, job, written, moves, progress.part(0.7, 0.98)) if written.files else None
     own = (
         *unsafe,
         *(news(metal, unsafe) if metal is not None else ()),
@@ -332,6 +343,16 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     )
     report = make_report(measured)
     return MakeResult(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
+
+
+def _measured(program: Program, job: Job, progress: Progress) -> MeasuredMoves:
+    """Return what closed forms say of computed moves; nothing of it needs their text."""
+    progress.step(0.0, "Checking clearance")
+    depths = gouge_depths(program, job, progress=progress.part(0.0, 0.2))
+    clear = clear_moves(program.moves, depths, CHORD)
+    measured = MeasuredMoves(depths, measure_beside_clear(program, job, clear, progress.part(0.2, 1.0)))
+    give_back()
+    return measured
 
 
 def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:

@@ -10,12 +10,13 @@ from .make import MakeResult
 _JOB_HEAD = "# A job file of Hitofude for {}: `hitofude make DRAWING -o OUT.ngc --job` this file."
 
 
-def other_files(made: MakeResult, requested: Mapping[str, Path]) -> dict[str, bytes]:
+def other_files(made: MakeResult, requested: Mapping[str, Path], drawing: bytes | None = None) -> dict[str, bytes]:
     """Return the bytes of what was asked for beside the program, by what it is.
 
     Args:
-        requested: names of files by what they are to hold: report, image (.svg or .png), write_job; others are passed
-            over.
+        requested: names of files by what they are to hold: report, image (.svg or .png), sheet (.pdf or .html),
+            write_job; others are passed over, but that of the program, output, stands on the sheet.
+        drawing: its bytes, for the sheet; None where it is no file.
     """
     texts = {}
     if "report" in requested:
@@ -30,4 +31,12 @@ def other_files(made: MakeResult, requested: Mapping[str, Path]) -> dict[str, by
 
         picture = picture_of(made.job.part.name, made.program, made.coverage)
         texts["image"] = plot(picture, requested["image"].suffix.lower())
+    if "sheet" in requested:
+        from ..formats.sheet.write import sheet_bytes
+        from .sheet.made import made_sheet
+
+        program = requested.get("output", requested["sheet"].with_suffix(".ngc"))
+        sources = {} if drawing is None else {f"drawing {made.job.part.name}": drawing}
+        sheet = made_sheet(made, program, sources)
+        texts["sheet"] = sheet_bytes(sheet, requested["sheet"].suffix.lower())
     return texts

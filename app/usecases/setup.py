@@ -287,7 +287,7 @@ def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], re
     drawing = read_plausible(
         name, data, ReadingOptions(units, layers_to_read(requested), reading.how), lambda _: diameters
     )
-    job = with_layers_spelled(replace(requested, part=drawing.part))
+    job = with_layers_spelled(replace(requested, part=drawing.part)).prepared()
     parts = drawn_contours(job)
     made, lines = machined_regions(parts), followed_lines(job, parts)
     regions = made.regions

@@ -69,6 +69,11 @@ class SourceProgram:
         return int(self.source.motions.line[rows[0]]), int(self.source.motions.line[rows[-1]])
 
 
+def usual_post(dialect: Dialect) -> str:
+    """Return the name of the post of a control's own language."""
+    return _POSTS.get(dialect, "linuxcnc")
+
+
 def read_source(
     name: str,
     data: bytes,
@@ -87,7 +92,7 @@ def read_source(
         InputError: it cannot be read to its end, or holds what the other control cannot be told.
     """
     dialect = dialect or guess_dialect(data)
-    post = target or load_post(_POSTS.get(dialect, "linuxcnc"))
+    post = target or load_post(usual_post(dialect))
     read = ReadOptions(dialect, limits=PATIENT)
     source = read_program(data, read, progress.part(0.0, 0.3))
     if source.error is not None:

@@ -85,13 +85,13 @@ class ThreadProof:
 
 def thread_proofs(program: Program, job: Job, motions: WrittenMotions) -> dict[int, ThreadProof]:
     """Return what is proven, by index of the operation, of those that cut threads and have holes."""
+    if not motions.files:
+        return {}
     threading = [
         k
         for k, each in enumerate(job.operations)
         if isinstance(each, ThreadOperation | TapOperation) and each.cut.enabled and program.areas[k].regions
     ]
-    if not motions.files:
-        return {}
     origin = np.array(motions.origin)
     return {k: _Turns(program, job, motions.done_for(k), origin).proof(k) for k in threading}
 
@@ -139,7 +139,8 @@ class _Turns:
             a, b = start[own] - (x, y, 0.0), end[own] - (x, y, 0.0)
             angle = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1])
             sweep = np.where(kind[own] == MotionKind.ARC_CCW, angle % math.tau, -(-angle % math.tau))
-            lead = max(lead, float(np.abs((b[:, 2] - a[:, 2]) * math.tau / sweep - thread.pitch).max()))
+            rise = -thread.pitch if operation.left_hand else thread.pitch  # of a turn counter-clockwise
+            lead = max(lead, float(np.abs((b[:, 2] - a[:, 2]) * math.tau / sweep - rise).max()))
             for way in np.unique(np.round(np.hypot(a[:, 0], a[:, 1]), 6)):
                 off = _pitch_diameter_off(thread, tool.radius, float(way), operation.external)
                 if abs(off) > abs(diameter):

@@ -147,7 +147,7 @@ def off_lines(rows: Floats, lines: Sequence[Contour]) -> tuple[Floats, Floats]:
 
 
 def out_of_holes(rows: Floats, need: Floats, holes: Sequence[Region]) -> tuple[Floats, Floats]:
-    """Return how far moves (n, 8) that need room all round, mm, reach beyond the hole whose middle is nearest, mm, and
+    """Return how far moves (n, 8) that need room all round, mm, reach beyond the hole that holds most of them, mm, and
     where, (n, 2).
 
     Args:
@@ -156,11 +156,16 @@ def out_of_holes(rows: Floats, need: Floats, holes: Sequence[Region]) -> tuple[F
     circles = [each for region in holes for each in region.boundary.primitives if isinstance(each, Circle)]
     from scipy.spatial import cKDTree  # takes longer to import than most jobs to judge
 
-    tree, radius = cKDTree([each.centre for each in circles]), np.array([each.radius for each in circles])
+    centres, radius = np.array([each.centre for each in circles]), np.array([each.radius for each in circles])
+    nearest = cKDTree(centres)
+    alike = [(size, cKDTree(centres[radius == size])) for size in np.unique(radius).tolist()]
 
     def off(points: Floats) -> Floats:
-        far, which = tree.query(points)
+        far, which = nearest.query(points)
         beyond: Floats = far + need - radius[which]
+        out = np.flatnonzero(beyond > 0)  # of the hole whose middle is nearest, but a wider one may hold them
+        for size, tree in alike if len(out) else ():
+            beyond[out] = np.minimum(beyond[out], tree.query(points[out])[0] + need[out] - size)
         return beyond
 
     return _worst_along(rows, off)

@@ -75,11 +75,11 @@ def certify(
 
     gouge = worst(low, stock, 1)
     if part.solid is not None and gouge > pitch + 2 * half:
-        gouge = min(gouge, _in_solid(part.solid, part, low, before, half) + ROUNDING)
+        gouge = min(gouge, _in_solid(part.solid, part, low, before, progress.part(0.8, 1.0)) + ROUNDING)
     return Certificate(gouge, worst(high, spoken, -1), pitch)
 
 
-def _in_solid(part: SolidPart, target: PartTarget, low: Heights, before: Workpiece, half: float) -> float:
+def _in_solid(part: SolidPart, target: PartTarget, low: Heights, before: Workpiece, progress: Progress) -> float:
     """Return how deep any point can be that was cut, mm: by the solid itself where the cells round it promise too much.
 
     No point of a cell's column is deeper than the deepest of its middle line and half the cell's diagonal. The cells
@@ -87,7 +87,7 @@ def _in_solid(part: SolidPart, target: PartTarget, low: Heights, before: Workpie
     """
     from ..simulation.field.judge_kernels import ways_out
 
-    grid = before.grid
+    grid, half = before.grid, before.grid.pitch / math.sqrt(2.0)
     cut = np.flatnonzero(low < before.heights)
     seems = np.empty(len(cut))
     ways_out(frozen(target.target.around), frozen(low), cut, (grid.pitch, half), seems)
@@ -96,10 +96,11 @@ def _in_solid(part: SolidPart, target: PartTarget, low: Heights, before: Workpie
     rows, cols = np.divmod(cut, grid.cols)
     places = np.column_stack([grid.x0 + (cols + 0.5) * grid.pitch, grid.y0 + (rows + 0.5) * grid.pitch])
     columns = CutColumns(places, low.ravel()[cut].astype(np.float64), before.heights.ravel()[cut].astype(np.float64))
-    depth_in, fine, worst = part.depths, part.tolerance / 10, part.leave + half
+    depth_in, fine, worst = part.depths(progress), part.tolerance / 10, part.leave + half
     for first in range(0, len(cut), PORTION):
         if seems[first] <= worst or first >= MOST_ASKED:
             return max(worst, float(seems[first]) if first >= MOST_ASKED else 0.0)
+        progress.step(1.0)
         requested = slice(first, first + PORTION)
         worst = max(worst, float(depth_in.of(columns.only(requested), worst - half, fine).max()) + half + fine)
     return worst

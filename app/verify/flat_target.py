@@ -11,6 +11,7 @@ from shapely import Geometry as Shape
 
 from ..geometry.distance import DistanceField
 from ..geometry.primitives import pack
+from ..model.curves import Circle
 from ..model.tool import ToolKind
 from ..simulation.field.outline import beside, inside
 from ..simulation.field.target import MARGIN, TargetHeights
@@ -23,6 +24,7 @@ from .bounds import OperationBound, bounds_of, followed_walls
 from .parts import FlatPart
 
 Mask = NDArray[np.bool_]
+Floats = NDArray[np.float64]
 
 NO_MOVES = MovesBuilder().moves()
 
@@ -80,16 +82,14 @@ def _carve(part: FlatPart, bound: OperationBound, target: FlatTarget) -> None:
     if not cones:
         return
     grid, top = target.target.grid, np.float32(-part.origin[2])
-    x = grid.x0 + (np.arange(grid.cols) + 0.5) * grid.pitch + part.origin[0]
-    y = grid.y0 + (np.arange(grid.rows) + 0.5) * grid.pitch + part.origin[1]
-    centres = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    inner = DistanceField.of(pack(bound.area.regions).rows).inside(centres)
-    far = DistanceField.of(followed_walls(bound.area).rows).nearest(centres)[0]
-    far = np.where(inner, far, -far) - min(bound.leave, 0.0)  # from where the cone ends at the surface
+    x = np.asarray(grid.x0 + (np.arange(grid.cols) + 0.5) * grid.pitch + part.origin[0], float)
+    y = np.asarray(grid.y0 + (np.arange(grid.rows) + 0.5) * grid.pitch + part.origin[1], float)
+    over = max(-bound.leave, 0.0)
+    far = (_in_cones(x, y, bound, over) if bound.holes else _in_walls(x, y, bound)) + over  # from the cone's rim
     steepest = max(tool.profile.cone for tool in cones)
-    depth = np.clip(far * steepest, 0.0, bound.floor).reshape(grid.rows, grid.cols)
+    depth = np.clip(far * steepest, 0.0, bound.floor)
     surface = (top - depth).astype(np.float32)
-    inside = (far > 0).reshape(depth.shape)
+    inside = far > 0
     slack = np.float32(CHORD * steepest)
     low, high, goal = target.target.low, target.target.high, target.target.around
     low[inside] = np.minimum(low, surface - slack)[inside]
@@ -99,6 +99,29 @@ def _carve(part: FlatPart, bound: OperationBound, target: FlatTarget) -> None:
         sharp = spoken & (depth < bound.floor)
         high[sharp] = surface[sharp] + slack
         target.reach[sharp] = True
+
+
+def _in_walls(x: Floats, y: Floats, bound: OperationBound) -> Floats:
+    """Return (rows, cols) how far inside the followed walls of an area places are, mm; < 0: so far outside."""
+    centres = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    inner = DistanceField.of(pack(bound.area.regions).rows).inside(centres)
+    far = DistanceField.of(followed_walls(bound.area).rows).nearest(centres)[0]
+    return np.where(inner, far, -far).reshape(len(y), len(x))
+
+
+def _in_cones(x: Floats, y: Floats, bound: OperationBound, over: float) -> Floats:
+    """Return (rows, cols) how far inside a circle places are, mm, the one that holds most of them where circles cross;
+    -inf where none is within `over`.
+    """
+    far = np.full((len(y), len(x)), -np.inf)
+    for hole in (each for region in bound.area.regions for each in region.boundary.primitives):
+        assert isinstance(hole, Circle)
+        (middle, across), wide = hole.centre, hole.radius + over
+        columns = slice(*np.searchsorted(x, (middle - wide, middle + wide)))
+        rows = slice(*np.searchsorted(y, (across - wide, across + wide)))
+        apart = np.hypot(x[columns] - middle, (y[rows] - across)[:, None])
+        far[rows, columns] = np.maximum(far[rows, columns], hole.radius - apart)
+    return far
 
 
 @dataclass(frozen=True, eq=False)

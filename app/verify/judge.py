@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -137,13 +138,17 @@ class JudgementInput:
         return x - origin[0], y - origin[1]
 
 
-def judge(judging: JudgementInput, certificate: Certificate | None) -> Judgement:
-    """Return what is said of a cut."""
+def judge(judging: JudgementInput, certificate: Certificate | None, progress: Progress = NO_PROGRESS) -> Judgement:
+    """Return what is said of a cut.
+
+    Raises:
+        Cancelled: by progress.
+    """
     part, tolerance = judging.part, judging.part.tolerance
     deviation = judging.part_target.target.deviation(judging.cut.heights)
     left = deviation > tolerance
     unreachable = left & ~judging.part_target.reach
-    gouges, gouged = _gouges(judging, deviation)
+    gouges, gouged = _gouges(judging, deviation, progress)
     gouge = _worst(judging, gouges, gouged)
     masks = {SpotKind.LEFT: left & ~unreachable, SpotKind.UNREACHABLE: unreachable}
     coverage = judging.exact.coverage if judging.exact is not None else None
@@ -184,7 +189,7 @@ class _FoundGouges(NamedTuple):
     number: int
 
 
-def _gouges(judging: JudgementInput, deviation: NDArray[np.float32]) -> _FoundGouges:
+def _gouges(judging: JudgementInput, deviation: NDArray[np.float32], progress: Progress) -> _FoundGouges:
     """Return the gouges: by closed forms, or where these know of none, those that the
     cells show.
     """
@@ -196,7 +201,8 @@ def _gouges(judging: JudgementInput, deviation: NDArray[np.float32]) -> _FoundGo
     places, count = places_of(gouged, -deviation, judging.grid)
     if isinstance(part, SolidPart) and judging.lowest is not None:
         cut, around = judging.cut, judging.part_target.target.around
-        measure = SolidGouges(part, judging.lowest, cut.before, cut.heights, gouged, around, judging.lines)
+        depths = partial(part.depths, progress)
+        measure = SolidGouges(part, judging.lowest, cut.before, cut.heights, gouged, around, judging.lines, depths)
         spots = measure.spots(places, judging.probe)
         return _FoundGouges(tuple(spots), len(spots) + count - len(places))
     spots = [spot for spot in (_gouge_of_cells(judging, place) for place in places) if spot.depth_mm > part.tolerance]

@@ -6,25 +6,31 @@ is no surface, and nothing is near to it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from shapely import (
-    Polygon,
     STRtree,
     area,
     box,
+    buffer,
     constrained_delaunay_triangles,
+    covers,
     get_coordinates,
+    get_exterior_ring,
     get_parts,
     length,
     linestrings,
+    multilinestrings,
     point_on_surface,
     polygonize,
+    polygons,
     union_all,
 )
 
+from ..core.pool import pool
+from ..core.progress import NO_PROGRESS, Progress
 from ..model.motion import Floats
 from ..simulation.field.solid import SolidStock
 from ..simulation.field.solid_rays import SolidRays
@@ -47,7 +53,23 @@ _LEAST = 1e-12
 """mm2; smaller triangles of a part are none."""
 
 
-def outer_faces(solid: SolidStock) -> Floats:
+_TEXT = "Bodies together"
+_PORTION, _TOGETHER = 256, 4
+"""Faces that are worked on in one go, and how many goes are given to the cores between two looks at whether to stop."""
+
+
+class _CrossingLines(NamedTuple):
+    """Lines along which other bodies' faces come through just before faces, m of them.
+
+    Attributes:
+        face: (m,) that each one cuts, ascending. ends: (m, 2, 2) in the axes of that face, mm.
+    """
+
+    face: Ints
+    ends: Floats
+
+
+def outer_faces(solid: SolidStock, progress: Progress = NO_PROGRESS) -> Floats:
     """Return the triangles (k, 3, 3) that bound the metal of all bodies of a solid together, mm.
 
     A face is cut where other bodies' faces come through just before it. Each part has metal before it, or none, all
@@ -55,14 +77,31 @@ def outer_faces(solid: SolidStock) -> Floats:
 
     Args:
         solid: of closed bodies, right side out.
+
+    Raises:
+        Cancelled: by progress.
     """
+    progress.step(0.0, _TEXT)
     faces = _Faces(solid)
-    lines = {face: found for face, others in faces.meeting() if len(found := faces.crossings(face, others))}
+    lines = faces.meeting(progress.part(0.0, 0.3))
+    cut, first = np.unique(lines.face, return_index=True)
+    ends = np.append(first[1:], len(lines.face))
     whole = np.ones(len(solid.triangles), np.bool_)
-    whole[list(lines)] = False
+    whole[cut] = False
     rows = np.flatnonzero(whole)
     rows = rows[faces.free(rows, solid.triangles[rows].mean(axis=1))]
-    return np.concatenate([solid.triangles[rows], *(faces.free_parts(face, found) for face, found in lines.items())])
+    parts = [solid.triangles[rows]]
+
+    def free_parts(begin: int) -> Floats:
+        some = slice(begin, begin + _PORTION)
+        mine = slice(first[begin], ends[some][-1])
+        return faces.free_parts(cut[some], _CrossingLines(lines.face[mine], lines.ends[mine]))
+
+    for begin in range(0, len(cut), _TOGETHER * _PORTION):
+        progress.step(0.3 + 0.7 * begin / len(cut), _TEXT)
+        begins = range(begin, min(begin + _TOGETHER * _PORTION, len(cut)), _PORTION)
+        parts += pool().map(free_parts, begins)
+    return np.concatenate(parts)
 
 
 class _Faces:
@@ -75,64 +114,80 @@ class _Faces:
         self._normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
         self._body = _bodies(self._triangles)
 
-    def free(self, rows: Ints | int, places: Floats) -> NDArray[np.bool_]:
-        """Return whether there is no metal before places (m, 3) on faces, by the winding number there."""
+    def free(self, rows: Ints, places: Floats) -> NDArray[np.bool_]:
+        """Return whether there is no metal before places (m, 3) on faces (m,), by the winding number there."""
         before = places + self._before * self._normal[rows]
         point, heights, up = self._rays.met(before[:, :2])
         below = heights < before[point, 2]
         return np.asarray(np.bincount(point, np.where(below, -up, 0.0), len(before)) < 0.5)
 
-    def meeting(self) -> Iterator[tuple[int, Ints]]:
-        """Yield the triangles whose boxes meet those of triangles of other bodies, and these."""
+    def meeting(self, progress: Progress) -> _CrossingLines:
+        """Return the lines along which faces of other bodies come through just before each face."""
         room = 2 * self._before
         low, high = self._triangles.min(axis=1) - room, self._triangles.max(axis=1) + room
         near = _near_others(low, high, self._body)
         boxes = box(low[near, 0], low[near, 1], high[near, 0], high[near, 1])
-        one, other = near[STRtree(boxes).query(boxes)]
-        meet = (
-            (self._body[one] != self._body[other]) & (low[one, 2] <= high[other, 2]) & (low[other, 2] <= high[one, 2])
+        tree, found = STRtree(boxes), [_CrossingLines(np.zeros(0, np.int64), np.zeros((0, 2, 2)))]
+        for begin in range(0, len(near), _PORTION):
+            progress.step(begin / len(near), _TEXT)
+            one, other = near[tree.query(boxes[begin : begin + _PORTION]) + np.array([[begin], [0]])]
+            meet = (
+                (self._body[one] != self._body[other])
+                & (low[one, 2] <= high[other, 2])
+                & (low[other, 2] <= high[one, 2])
+            )
+            order = np.argsort(one[meet], kind="stable")
+            found.append(self._crossings(one[meet][order], other[meet][order]))
+        return _CrossingLines(
+            np.concatenate([each.face for each in found]), np.concatenate([each.ends for each in found])
         )
-        one, other = one[meet], other[meet]
-        order = np.argsort(one, kind="stable")
-        faces, first = np.unique(one[order], return_index=True)
-        yield from zip(faces.tolist(), np.split(other[order], first[1:]), strict=False)
 
-    def _axes(self, face: int) -> Floats:
-        """Return two unit vectors (2, 3) along a face."""
-        along = self._triangles[face, 1] - self._triangles[face, 0]
-        along /= np.linalg.norm(along)
-        return np.stack([along, np.cross(self._normal[face], along)])
+    def _axes(self, faces: Ints) -> Floats:
+        """Return two unit vectors (n, 2, 3) along each face."""
+        along = self._triangles[faces, 1] - self._triangles[faces, 0]
+        along /= np.maximum(np.linalg.norm(along, axis=1), 1e-300)[:, None]
+        return np.stack([along, np.cross(self._normal[faces], along)], axis=1)
 
-    def crossings(self, face: int, others: Ints) -> Floats:
-        """Return the lines (m, 2, 2), in the axes of a face, along which others come through just before it."""
-        corner, normal = self._triangles[face, 0], self._normal[face]
-        away = (self._triangles[others] - corner) @ normal - self._before
-        through = np.flatnonzero((away.min(axis=1) < 0) & (away.max(axis=1) > 0))
-        if not len(through) or not np.any(normal):
-            return np.zeros((0, 2, 2))
-        flat, away = (self._triangles[others[through]] - corner) @ self._axes(face).T, away[through]
+    def _flat(self, faces: Ints, points: Floats) -> Floats:
+        """Return points (n, m, 3) in the axes of their faces (n,), (n, m, 2)."""
+        away = points - self._triangles[faces, :1]
+        return np.asarray(away @ self._axes(faces).transpose(0, 2, 1))
+
+    def _crossings(self, faces: Ints, others: Ints) -> _CrossingLines:
+        """Return the lines along which others (n,) come through just before faces (n,)."""
+        away = self._triangles[others] - self._triangles[faces, :1]
+        away = np.einsum("nkj,nj->nk", away, self._normal[faces]) - self._before
+        through = (away.min(axis=1) < 0) & (away.max(axis=1) > 0) & self._normal[faces].any(axis=1)
+        faces, others, away = faces[through], others[through], away[through]
+        flat = self._flat(faces, self._triangles[others])
         above = away > 0
         alone = np.argmax(above == (above.sum(axis=1) == 1)[:, None], axis=1)  # the corner that has a side for itself
-        rows, ends = np.arange(len(through)), []
+        rows, ends = np.arange(len(faces)), []
         for step in (1, 2):
             other = (alone + step) % 3
             share = away[rows, alone] / (away[rows, alone] - away[rows, other])
             ends.append(flat[rows, alone] + share[:, None] * (flat[rows, other] - flat[rows, alone]))
         way = ends[1] - ends[0]
         way *= _BEYOND * self._before / np.maximum(np.linalg.norm(way, axis=1), 1e-300)[:, None]
-        return np.stack([ends[0] - way, ends[1] + way], axis=1)
+        return _CrossingLines(faces, np.stack([ends[0] - way, ends[1] + way], axis=1))
 
-    def free_parts(self, face: int, lines: Floats) -> Floats:
-        """Return what of a face is free (k, 3, 3), given the lines that cut it."""
-        axes, corner = self._axes(face), self._triangles[face, 0]
-        own = Polygon((self._triangles[face] - corner) @ axes.T)
-        cells = get_parts(polygonize(get_parts(union_all([own.exterior, *linestrings(lines)], grid_size=_GRID))))
+    def free_parts(self, faces: Ints, lines: _CrossingLines) -> Floats:
+        """Return what of faces (n,) is free (k, 3, 3), given the lines that cut them."""
+        axes, corner = self._axes(faces), self._triangles[faces, 0]
+        own = polygons(self._flat(faces, self._triangles[faces]))
+        cutting = multilinestrings(linestrings(lines.ends), indices=np.searchsorted(faces, lines.face))
+        noded = union_all(np.column_stack([get_exterior_ring(own), cutting]), grid_size=_GRID, axis=1)
+        cells, face = get_parts(polygonize(noded[:, None], axis=1), return_index=True)
         inner = point_on_surface(cells)
-        mine = own.buffer(_GRID).covers(inner) & (area(cells) > _NARROW * self._before * length(cells))
-        free = self.free(face, corner + get_coordinates(inner) @ axes)
-        pieces = get_parts(get_parts(constrained_delaunay_triangles(cells[mine & free])))
-        pieces = pieces[area(pieces) > _LEAST]
-        return np.asarray(corner + get_coordinates(pieces).reshape(-1, 4, 2)[:, :3] @ axes)
+        mine = covers(buffer(own, _GRID)[face], inner) & (area(cells) > _NARROW * self._before * length(cells))
+        cells, face, inner = cells[mine], face[mine], inner[mine]
+        places = corner[face] + np.einsum("mk,mkj->mj", get_coordinates(inner), axes[face])
+        free = self.free(faces[face], places)
+        cells, face = cells[free], face[free]
+        triangles, cell = get_parts(constrained_delaunay_triangles(cells), return_index=True)
+        kept = area(triangles) > _LEAST
+        flat, face = get_coordinates(triangles[kept]).reshape(-1, 4, 2)[:, :3], face[cell[kept]]
+        return np.asarray(corner[face, None] + flat @ axes[face])
 
 
 def _bodies(triangles: Floats) -> Ints:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from ..core.progress import NO_PROGRESS, Progress
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Area, DogBone, Moves, Program, Tab
@@ -92,13 +93,19 @@ class SolidPart:
     tolerance: float = TOLERANCE
     block: StockBox | None = None
     allowance: float = 0.0
+    _depths: list[DepthInSolid] = field(default_factory=list, init=False, repr=False)
 
-    @cached_property
-    def depths(self) -> DepthInSolid:
-        """How deep places lie in it, asked of its bodies together."""
+    def depths(self, progress: Progress = NO_PROGRESS) -> DepthInSolid:
+        """Return what tells how deep places lie in it, asked of its bodies together; made when somebody asks first.
+
+        Raises:
+            Cancelled: by progress.
+        """
         from .solid_depth import DepthInSolid  # compiled code: loaded where it is used
 
-        return DepthInSolid(self.solid, self.leave)
+        if not self._depths:
+            self._depths.append(DepthInSolid(self.solid, self.leave, progress))
+        return self._depths[0]
 
 
 Part = FlatPart | SolidPart

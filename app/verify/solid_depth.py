@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.progress import NO_PROGRESS, Progress
 from ..model.motion import Floats
 from ..simulation.field.solid import SolidStock
 from ..simulation.field.solid_rays import SolidRays
@@ -53,9 +54,14 @@ class _ColumnParts(NamedTuple):
 class DepthInSolid:
     """Answers how deep metal was cut into a solid with stock to leave on it."""
 
-    def __init__(self, solid: SolidStock, leave: float = 0.0) -> None:
+    def __init__(self, solid: SolidStock, leave: float = 0.0, progress: Progress = NO_PROGRESS) -> None:
+        """Find what bounds the solid's bodies together.
+
+        Raises:
+            Cancelled: by progress.
+        """
         self._rays, self._leave = SolidRays(solid), leave
-        self._tree = solid.tree if solid.shells == 1 else TriangleTree.of(outer_faces(solid))
+        self._tree = solid.tree if solid.shells == 1 else TriangleTree.of(outer_faces(solid, progress))
 
     def of(self, columns: CutColumns, known: float = 0.0, fine: float = FINE) -> Floats:
         """Return how deep the deepest place of each column lies below the surface of what is wanted, mm, >= 0.

@@ -22,7 +22,7 @@ from ..simulation.field.workpiece import Heights, Workpiece
 from .judgement import Spot, SpotKind
 from .parts import SolidPart
 from .places import MOST, CellPlace
-from .solid_depth import CutColumns
+from .solid_depth import CutColumns, DepthInSolid
 from .wall_probe import Probe, WallProbe, metal_at
 
 ASKED = 4000
@@ -51,6 +51,7 @@ class SolidGouges:
         heights: (rows, cols) that are left, on the stock's grid. gouged: which of the cells are. around: the solid, as
             in `TargetHeights`.
         lines: NC line of each motion.
+        depths: gives what tells how deep places lie in the solid; asked where something is.
     """
 
     part: SolidPart
@@ -60,6 +61,7 @@ class SolidGouges:
     gouged: NDArray[np.bool_]
     around: Heights
     lines: NDArray[np.int32]
+    depths: Callable[[], DepthInSolid]
 
     def spots(self, places: Sequence[CellPlace], walls: WallProbe | None) -> list[Spot]:
         """Return the gouges with their depths, the deepest first.
@@ -93,7 +95,7 @@ class SolidGouges:
         if not len(cut):
             return []
         columns, fine = CutColumns(cut.places, cut.heights, metal_at(self.before, cut.places)), self.part.tolerance / 10
-        depth = self.part.depths.of(columns, fine=fine)
+        depth = self.depths().of(columns, fine=fine)
         self._measure(
             depth, columns, np.flatnonzero((depth <= self.part.tolerance) & (depth > self.part.tolerance - 2 * fine))
         )
@@ -108,7 +110,7 @@ class SolidGouges:
 
     def _measure(self, depth: Floats, columns: CutColumns, some: NDArray[np.int64]) -> None:
         """Measure the depths of some columns as finely as can be."""
-        depth[some] = np.maximum(depth[some], self.part.depths.of(columns.only(some)))
+        depth[some] = np.maximum(depth[some], self.depths().of(columns.only(some)))
 
     def _spot(self, place: Floats, z: float, depth: float, motion: int) -> Spot:
         line = int(self.lines[motion]) if motion >= 0 else 0
@@ -138,7 +140,7 @@ class SolidGouges:
     def _of_cells(self, place: CellPlace, most: int) -> Spot:
         """Return a place's deepest cell of those that are asked."""
         cells = self._asked(place, most)
-        depth = self.part.depths.of(self._columns(cells), fine=self.part.tolerance / 10)
+        depth = self.depths().of(self._columns(cells), fine=self.part.tolerance / 10)
         worst = int(np.argmax(depth))
         at = np.array([self.before.grid.place(int(cells[worst]))])
         z, motion = self.lowest(at)
@@ -177,7 +179,7 @@ class SolidGouges:
         starts = [(spot.x, spot.y) for spot in found[:STARTS] if spot.depth_mm > best - 2 * self.before.grid.pitch]
         for place in places[:STARTS]:
             columns = self._columns(self._asked(place, ASKED // 4))
-            depth = self.part.depths.of(columns, best - 2 * self.before.grid.pitch, self.part.tolerance)
+            depth = self.depths().of(columns, best - 2 * self.before.grid.pitch, self.part.tolerance)
             for k in np.argsort(-depth, kind="stable")[:ASKED].tolist():
                 x, y = columns.places[k].tolist()
                 if len(starts) >= 2 * STARTS or depth[k] < best - 2 * self.before.grid.pitch:
@@ -195,7 +197,7 @@ class SolidGouges:
         for _ in range(rounds):
             requested = (places[:, None] + around * reach).reshape(-1, 2)
             z, motion = self.lowest(requested)
-            depth = self.part.depths.of(
+            depth = self.depths().of(
                 CutColumns(requested, np.where(motion >= 0, z, np.inf), metal_at(self.before, requested))
             )
             deepest = np.argmax(depth.reshape(-1, each), axis=1) + np.arange(len(places)) * each

@@ -16,6 +16,7 @@ from app.drafting.document import HistoryState
 from app.formats.project.project import Project, write_project
 from app.formats.readers import read_drawing
 from app.model.job import Job
+from tests.generated_drawings import write_drawings
 
 ROOT = Path(__file__).parents[2]
 PAGES = (ROOT / "README.md", *sorted((ROOT / "resources/docs").glob("*.md")))
@@ -62,13 +63,18 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     cv2.imwrite(str(tmp_path / "scan.png"), scan)
     (tmp_path / "resources").symlink_to(ROOT / "resources")
     shutil.copy(ROOT / "resources/samples/plate.draw", tmp_path)
+    write_drawings(tmp_path / "parts", 2)
+    (tmp_path / "list.toml").write_text(
+        '[[part]]\nfile = "part.dxf"\n[[part]]\nfile = "part.dxf"\noutput = "a/b.ngc"\n'
+    )
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
 def test_the_manual_shows_commands() -> None:
     shown = {call[0] for page in PAGES for call in commands(page)}
-    assert {"make", "tools", "check", "cut", "smooth", "surface", "stages", "figure11"} <= shown
+    words = {"make", "tools", "check", "cut", "smooth", "better", "surface", "batch", "stages", "figure11"}
+    assert words <= shown
 
 
 @pytest.mark.exhaustive

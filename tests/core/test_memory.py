@@ -200,3 +200,20 @@ def test_a_stage_that_hears_no_signal_is_ended(tmp_path: Path, number: signal.Si
     assert time.monotonic() - begun < 2.0 + 2.0  # the machine may be busy
     assert (running.returncode, said) == (128 + number, "hitofude: cancelled; no file was written\n")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the call is that of Linux's library")
+def test_what_many_small_things_left_free_is_given_back() -> None:
+    """In a process of its own: blocks that lie between kept ones, as the allocator cannot give back by itself."""
+    code = """
+import app.core.memory as memory
+memory._MUCH = 0
+blocks = [bytearray(4000) for _ in range(60_000)]
+kept = blocks[::100]
+del blocks
+held = memory.resident()
+memory.give_back()
+print(held - memory.resident())
+"""
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert int(told.stdout) > 100_000_000

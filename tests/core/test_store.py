@@ -51,6 +51,32 @@ def test_an_entry_under_another_name_is_none(tmp_path: Path) -> None:
     assert not (tmp_path / "other").exists()
 
 
+def test_what_came_with_the_program_is_read_where_it_is_and_left_as_it_is(tmp_path: Path) -> None:
+    shipped = store_at(tmp_path / "shipped")
+    assert shipped.write(NAME, CONTENT) and shipped.folder is not None
+    store = Store(tmp_path / "own", shipped=shipped.folder)
+    assert store.has(NAME) and store.read(NAME) == CONTENT
+    store.drop(NAME)  # of no use to this machine
+    assert not store.has(NAME) and store.read(NAME) is None
+    assert shipped.read(NAME) == CONTENT
+    (tmp_path / "own").mkdir()
+    store = Store(tmp_path / "own", shipped=shipped.folder)
+    damaged = (shipped.folder / NAME).read_bytes()[:-1]
+    (shipped.folder / NAME).write_bytes(damaged)
+    assert store.read(NAME) is None
+    assert store.write(NAME, CONTENT) and store.read(NAME) == CONTENT
+    assert (shipped.folder / NAME).read_bytes() == damaged
+
+
+def test_what_others_may_write_beside_the_program_is_not_read(tmp_path: Path) -> None:
+    shipped = store_at(tmp_path / "shipped")
+    assert shipped.write(NAME, CONTENT) and shipped.folder is not None
+    (shipped.folder / NAME).chmod(0o646)
+    assert Store(tmp_path / "own", shipped=shipped.folder).read(NAME) is None
+    (shipped.folder / NAME).chmod(0o644)
+    assert Store(tmp_path / "own", shipped=shipped.folder).read(NAME) == CONTENT
+
+
 def test_what_is_whole_but_of_no_use_is_compiled_anew(program: Path) -> None:
     """A pickle that another version of a library has written, say."""
     run(program, SHORT)

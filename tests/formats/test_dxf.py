@@ -14,6 +14,7 @@ from app.formats.dxf.dxf import read_dxf
 from app.formats.readers import read_drawing
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.finding import FindingKind
+from app.model.notes import Mark
 from app.model.part import Units
 
 Draw = Callable[[Any], object]
@@ -241,10 +242,32 @@ def test_what_is_left_out_is_counted() -> None:
         space.doc.paperspace().add_line((0, 0), (1, 1))
 
     drawing = read(draw)
-    expected = {"POINT": 2, "3DFACE": 1, "LINE (invisible)": 1, "paper space entity": 1}
+    expected = {"3DFACE": 1, "LINE (invisible)": 1, "paper space entity": 1}
     assert dict(drawing.left_out) == expected
     (found,) = drawing.findings
-    assert found.kind is FindingKind.LEFT_OUT and not found.counts and "2 POINT" in found.text
+    assert found.kind is FindingKind.LEFT_OUT and not found.counts and "1 3DFACE" in found.text
+    assert [(note.id, note.shape) for note in drawing.part.notes] == [(2, Mark((0.0, 0.0))), (3, Mark((1.0, 0.0)))]
+
+
+def test_points_of_blocks_are_where_they_are_inserted_numbered_behind_the_curves() -> None:
+    def draw(space: Any) -> None:
+        space.doc.header["$INSUNITS"] = 1
+        space.doc.layers.add("holes")
+        block = space.doc.blocks.new("B")
+        block.add_point((1, 2))
+        block.add_point((3, 0), dxfattribs={"layer": "HOLES"})
+        space.add_blockref("B", (10, 0), dxfattribs={"xscale": -1, "layer": "holes"})
+        space.add_line((0, 0), (1, 0))
+        space.add_point((1e9, 0))
+
+    drawing = read(draw)
+    inch = 25.4
+    assert [note.shape.at for note in drawing.part.notes] == [
+        pytest.approx((9 * inch, 2 * inch)),
+        pytest.approx((7 * inch, 0.0)),
+    ]
+    assert [(note.id, note.layer) for note in drawing.part.notes] == [(2, "holes"), (3, "holes")]
+    assert drawing.part.next_id() == 4 and dict(drawing.left_out)["POINT"] == 1
 
 
 def test_entities_without_length_are_counted_and_located() -> None:

@@ -127,10 +127,12 @@ def left_out(document: Any) -> Drawing:
 
 
 def flowing(document: Any = None) -> Any:
-    """A text in two columns that is kept as one, as drawings of 2018 do."""
+    """A text in two columns that is kept as one, its lines running down."""
     document = document or new()
     document.dxfversion = "R2018"
-    document.modelspace().add_mtext_static_columns(["H", "H"], 50, 5, 100, dxfattribs={"insert": (7, 8)})
+    document.modelspace().add_mtext_static_columns(
+        ["H", "H"], 50, 5, 100, dxfattribs={"insert": (7, 8), "flow_direction": 3}
+    )
     return document
 
 
@@ -150,29 +152,20 @@ def test_columns_with_a_text_each_are_read_beside_one_another(fonts: Path) -> No
 def test_a_text_that_is_not_read_is_named_with_its_place(fonts: Path) -> None:
     document = flowing()
     block = document.blocks.new("B")
-    block.add_mtext("H", dxfattribs={"flow_direction": 3, "insert": (1, 2)})
+    block.add_mtext("H" * 10_001, dxfattribs={"insert": (1, 2)})
     for x in (100, 200):
         document.modelspace().add_blockref("B", (x, 50), dxfattribs={"layer": "L"})
     said = [(each.text, each.x, each.y) for each in left_out(document).findings if "not read" in each.text]
-    assert ("1 MTEXT (in columns) at (7.000, 8.000) on layer 0 is not read.", 7.0, 8.0) in said
-    assert ("2 MTEXT (vertical) are not read, the first at (101.000, 52.000) on layer L.", 101.0, 52.0) in said
+    columns, long = "MTEXT (vertical, in columns)", "MTEXT (of more than 10000 letters)"
+    assert (f"1 {columns} at (7.000, 8.000) on layer 0 is not read.", 7.0, 8.0) in said
+    assert (f"2 {long} are not read, the first at (101.000, 52.000) on layer L.", 101.0, 52.0) in said
 
 
-def test_columns_and_lines_that_run_down_are_left_out_by_name(fonts: Path) -> None:
-    assert dict(left_out(mtext("H", flow_direction=3)).left_out) == {"MTEXT (vertical)": 1}
-    assert dict(left_out(flowing()).left_out) == {"MTEXT (in columns)": 1}
-    assert dict(left_out(mtext("H" * 10_001)).left_out) == {"MTEXT (of more than 10000 letters)": 1}
-
-
-def test_what_to_do_about_columns_and_lines_that_run_down_is_said() -> None:
-    document = flowing(mtext("H", flow_direction=3))
-    (text,) = [each.text for each in left_out(document).findings if each.text.startswith("Left out")]
-    assert text.endswith(
-        "(vertical). To machine them, set texts to no columns and let letters run to the right, or turn them into "
-        "curves, where they were drawn."
-    )
-    (plain,) = [each.text for each in left_out(mtext("H" * 10_001)).findings if each.text.startswith("Left out")]
-    assert plain.endswith("letters).")
+def test_a_text_that_is_too_long_is_left_out_by_name(fonts: Path) -> None:
+    drawing = left_out(mtext("H" * 10_001))
+    assert dict(drawing.left_out) == {"MTEXT (of more than 10000 letters)": 1}
+    (text,) = [each.text for each in drawing.findings if each.text.startswith("Left out")]
+    assert text.endswith("letters).")
 
 
 @pytest.mark.parametrize(

@@ -35,6 +35,7 @@ from app.model.operation import (
 )
 from app.model.operation_kinds import declared
 from app.model.part import Part, Units
+from app.model.slot_operation import SlotOperation
 from app.model.tool import Tool, ToolKind
 from tests.examples import examples
 
@@ -53,13 +54,14 @@ def test_the_sample_names_every_key_of_every_kind(samples: Path) -> None:
     assert isinstance(rest, RestOperation) and rest.stepover == 1.5
     assert isinstance(contour, ContourOperation) and contour.lead.radius == 1.5
     assert adaptive == AdaptiveOperation(CutParameters(1))
-    assert carving == VcarveOperation(CutParameters(3))
+    assert carving == VcarveOperation(CutParameters(3), 1)
     assert drill == DrillOperation(CutParameters(1), 5.9, 6.1, 1.0)
     cut = CutParameters(1)
     assert more == [
         ThreadOperation(CutParameters(4)),
         BoreOperation(cut, diameter=12.0),
         ChamferOperation(CutParameters(3)),
+        SlotOperation(cut, 9.0, trochoidal=True),
         FaceOperation(cut),
     ]
     named = set(re.findall(r"(?m)^(\w+) = ", text))
@@ -185,12 +187,12 @@ CONTOUR = "[[operation]]\nkind = 'contour'\ntool = 1\n"
         ("[[operation]]\nkind = 'pocket'\ntool = 9", "j:1: The job has no tool T9"),
         (
             "[[operation]]\nkind = 'contour'\ntool = 1\nstepover = 2",
-            "j:4: stepover belongs to pocket, rest and face operations; remove it",
+            "j:4: stepover belongs to pocket, rest, slot and face operations; remove it",
         ),
         ("[[operation]]\nkind = 'saw'\ntool = 1", "j:2: kind is 'saw'"),
         (
             "[[operation]]\nkind = 'drill'\nstepdown = 1\ntool = 1",
-            "j:3: stepdown belongs to pocket, adaptive, rest, contour, vcarve, bore and face operations",
+            "j:3: stepdown belongs to pocket, adaptive, rest, contour, slot, vcarve, bore and face operations",
         ),
         (
             "[[operation]]\nkind = 'pocket'\ntool = 1\npeck = 1",

@@ -16,6 +16,7 @@ from types import FrameType
 
 from app.cli.main import main
 from app.cli.program import load_command
+from tests import raster_program
 from tests.fuzz import seeds
 from tests.fuzz.mutations import mutated
 
@@ -88,6 +89,11 @@ def commands() -> dict[str, Command]:
         "make": Command(("make", "IN", "-o", "OUT/o.ngc", "--quiet"), "d.draw", DRAWING),
         "cut": Command(cut, "p.ngc", PROGRAM, small),
         "smooth": Command(("smooth", "IN", "-o", "OUT/o.ngc", "--quiet"), "p.ngc", PROGRAM, small),
+        "better": Command(
+            ("better", "IN", "-o", "OUT/o.ngc", "--quiet"),
+            "p.ngc",
+            raster_program.text(raster_program.rows(wide=6.0, deep=3.0)).encode(),
+        ),
         "check": Command(("check", "IN", "--report=OUT/r.json", "--quiet"), "p.ngc", PROGRAM, small),
         "surface": Command(("surface", "IN", "-o", "OUT/o.ngc", "--quiet"), "s.toml", SCENE),
         "tools": Command(("tools", "IN", "--report=OUT/r.json", "--quiet"), "d.draw", DRAWING),

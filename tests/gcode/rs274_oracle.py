@@ -166,6 +166,7 @@ def assert_same_motion(
     assert tools == [int(tool) for i, tool in enumerate(moves.tool) if i == 0 or tool != moves.tool[i - 1]]
     assert np.all(np.diff(nc.lines) >= 0)
     start, end, centre = moves.start - origin, moves.end - origin, moves.centre - origin[:2]
+    sweeps = moves.sweeps()
     before, position = 0, (0.0, 0.0, 0.0)
     by_line: dict[int, list[Motion]] = {}
     for motion in motions:
@@ -178,7 +179,7 @@ def assert_same_motion(
             end[i],
             complex(*centre[i]),
             MoveKind(moves.kind[i]),
-            float(moves.sweeps()[i]),
+            float(sweeps[i]),
             float(moves.feed[i]),
         )
         meant.assert_moved(mine, position, job.out_units)

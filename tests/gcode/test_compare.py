@@ -344,3 +344,13 @@ def test_200_000_motions_are_compared_in_seconds():
     assert time.process_time() - begin < 10
     assert len([item for item in found.items if item.kind is DifferenceKind.PATH]) >= len(chosen) - 1
     assert sum(run.count for run in found.runs) >= 200_000 - 200 - 2 * len(chosen) - 4
+
+
+def test_a_short_motion_at_another_feed_is_told_in_a_path_of_other_blocks():
+    """Only what lies between one end and the same end is passed over, not a motion of its own."""
+    a, b = (
+        read_program(b"G21 G90\nF100\n" + text + b"M2\n")
+        for text in (b"G1 X10\nX10.01 F900\nX20 F100\n", b"G1 X5\nX10\nX10.01\nX20\n")
+    )
+    told = [item for item in compare(a, b, TOLERANCE).items if item.kind is DifferenceKind.FEED]
+    assert [item.a.first_line for item in told] == [4]

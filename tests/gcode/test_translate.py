@@ -513,3 +513,41 @@ def test_a_writer_that_errs_is_found_out(monkeypatch: pytest.MonkeyPatch) -> Non
             pytest.fail(f"{was} went unseen: {into('fanuc', text).data!r}")
     monkeypatch.setattr(Blocks, "block", right)
     into("fanuc", text)
+
+
+ARCS_OF_OTHERS = """G21 G90
+G0 X-23.44 Y-33.83
+G2 X-17.195 Y-37.482 I-4.028 J-14.055 F600
+G3 X-22.067 Y-36.112 I-2.876 J-0.879 F800
+G3 X-21.976 Y-34.166 I-1.736 J1.056 F600
+M2
+"""
+
+
+@pytest.mark.parametrize("control", [*CONTROLS, "grbl"])
+def test_arcs_whose_radii_differ_in_the_last_digit_change_their_feeds_where_they_end(control: str) -> None:
+    """Their centres go to the middle, so that lengths differ, and each program is at its end a little earlier."""
+    after = into(control, ARCS_OF_OTHERS).program
+    assert after.motions.feed[after.motions.kind != MotionKind.RAPID].tolist() == [600, 800, 600]
+
+
+def test_older_names_of_units_are_written_as_the_others_have_them() -> None:
+    after = into("haas", "G70 G90\nG0 X1.\nG71\nG1 X2. F100.\nM30\n%\n", "mach3")
+    assert after.program.motions.end[:, 0].tolist() == pytest.approx([25.4, 2.0])
+
+
+def test_what_dos_puts_behind_a_text_is_nothing() -> None:
+    assert len(into("haas", "G21 G90\nG0 X1.\nM30\n\x1a").program.motions) == 1
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "haas"])
+def test_repeats_by_k_and_dwells_by_u_go_across(control: str) -> None:
+    text = "G21 G90 G0 X0. Y0. Z10.\nG4 U1.5\nG91 G99 G81 X5. Z-8. R-7. K3 F100.\nG80 G90\nG0 Z20.\nM30\n"
+    after = into(control, text, "fanuc").program
+    lowest = after.motions.end[after.motions.end[:, 2] == -5.0]
+    assert lowest[:, 0].tolist() == [5, 10, 15]
+    assert [event.value for event in after.events if event.kind is EventKind.DWELL] == [1.5]
+
+
+def test_commands_of_the_control_itself_are_refused_as_such() -> None:
+    assert "a command of the control itself ($)" in told("linuxcnc", "$H\nG21 G90 G0 X1\nM2\n", "grbl")

@@ -188,14 +188,16 @@ def test_the_half_circles_in_and_out_stay_on_the_threads_surface() -> None:
 
 @pytest.mark.parametrize("direction", list(Direction))
 @pytest.mark.parametrize("external", [False, True])
-def test_threads_are_right_handed_whichever_way_they_are_cut(direction: Direction, external: bool) -> None:
+@pytest.mark.parametrize("left", [False, True])
+def test_threads_have_their_hand_whichever_way_they_are_cut(direction: Direction, external: bool, left: bool) -> None:
     boss = [square(100), circle(3.0, 50, 50)]
     cut = CutParameters(5, 5.0, direction=direction)
-    moves = program_of(ThreadOperation(cut, external=external), contours=boss).moves
+    moves = program_of(ThreadOperation(cut, external=external, left_hand=left), contours=boss).moves
     mine = moves.purpose == Purpose.CONTOUR
     climb = direction is Direction.CLIMB
     assert np.all((moves.kind[mine] == MoveKind.ARC_CCW) == (climb != external))
-    assert np.all(np.sign((moves.end - moves.start)[mine, 2]) == np.sign(moves.sweeps()[mine]))
+    turned = -np.sign(moves.sweeps()[mine]) if left else np.sign(moves.sweeps()[mine])
+    assert np.all(np.sign((moves.end - moves.start)[mine, 2]) == turned)
     reach = np.hypot(*(moves.end[mine, :2] - (50, 50)).T) + (-2.0 if external else 2.0)
     edge = ThreadSize.M6.bolt_core / 2 if external else 3.0
     assert np.all(reach >= edge) if external else np.all(reach <= edge)

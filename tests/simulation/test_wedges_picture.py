@@ -1,5 +1,6 @@
 """The sweep of a few moves in facets, for a picture of the method."""
 
+import math
 from itertools import pairwise
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 
 from app.core.errors import ParameterError
 from app.model.tool import Tool, ToolKind
+from app.simulation.cutter import cutter_of
 from app.simulation.gpu.wedges_picture import FINENESS, has_wedges, wedges_picture
 
 BALL = Tool(1, 6.0, ToolKind.BALL)
@@ -49,7 +51,32 @@ def test_one_place_is_half_a_ball_and_finer_facets_are_more():
     assert len(wedges_picture(TIPS, BALL, 0.1).quads) > 2 * len(wedges_picture(TIPS, BALL, 0.4).quads)
 
 
-def test_what_is_no_ball_has_none():
-    assert has_wedges(BALL) and not has_wedges(Tool(2, 6.0))
-    with pytest.raises(ParameterError, match="T2 is a flat tool; cylinders and wedges are the sweep of a ball"):
-        wedges_picture(TIPS, Tool(2, 6.0))
+@pytest.mark.parametrize(
+    "tool",
+    [
+        Tool(2, 6.0),
+        Tool(3, 6.0, ToolKind.BULL, corner_radius=1.0),
+        Tool(4, 6.0, ToolKind.V, tip_angle=math.radians(90)),
+        Tool(5, 6.0, ToolKind.TAPER, tip_diameter=1.0, tip_angle=math.radians(20)),
+    ],
+    ids=lambda tool: tool.kind.value,
+)
+def test_every_cutter_has_facets_of_what_it_sweeps(tool: Tool) -> None:
+    """Corners lie on the cutter at some place of its way, and nowhere within it: by its profile, as high over its tip
+    as the nearest place of the way is far.
+    """
+    tips = np.array([[0.0, 0.0, -2.0], [10.0, 0.0, -2.0]])
+    made, cutter = wedges_picture(tips, tool), cutter_of(tool)
+    corners = made.quads.reshape(-1, 3).astype(float)
+    flat = distances(corners * [1, 1, 0], tips * [1, 1, 0] - [0, 0, tool.radius], tool.radius)
+    inside = flat < tool.radius - 1e-6
+    off = corners[inside, 2] - (-2.0 + cutter.heights(flat[inside]))
+    assert has_wedges(tool) and len(corners) > 100 and inside.any()
+    assert np.abs(off).max() < 0.05 and flat.max() <= tool.radius + 1e-4
+
+
+def test_a_tool_whose_shape_is_not_known_has_none() -> None:
+    unknown = Tool(2, 6.0, ToolKind.V)
+    assert not has_wedges(unknown)
+    with pytest.raises(ParameterError):
+        wedges_picture(TIPS, unknown)

@@ -35,13 +35,16 @@ class Gaps(QObject):
 
     Attributes:
         longest: the longest gap so far, ms, by what was going on.
+        busiest: the most that this thread has worked in a gap, ms of processor time: what others leave it to run on
+            does not count.
     """
 
     def __init__(self) -> None:
         super().__init__()
         self.longest: dict[str, float] = {}
+        self.busiest: dict[str, float] = {}
         self.doing = "start"
-        self._last = time.perf_counter()
+        self._last, self._worked = time.perf_counter(), time.thread_time()
         self._timer = QTimer(self, interval=TICK_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self._tick)
         self._timer.start()
@@ -52,10 +55,10 @@ class Gaps(QObject):
         self.doing = doing
 
     def _tick(self) -> None:
-        now = time.perf_counter()
-        gap = 1000 * (now - self._last)
-        self._last = now
-        self.longest[self.doing] = max(self.longest.get(self.doing, 0.0), gap)
+        now, worked = time.perf_counter(), time.thread_time()
+        for most, gap in ((self.longest, now - self._last), (self.busiest, worked - self._worked)):
+            most[self.doing] = max(most.get(self.doing, 0.0), 1000 * gap)
+        self._last, self._worked = now, worked
 
 
 def live_until(done, limit_s: float = 180.0) -> float:

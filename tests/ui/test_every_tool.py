@@ -126,6 +126,16 @@ NOTES = {
         "dimension angle 0,0 9,0 0,9 place 5,5",
     ),
     "text": (form.TextTool, [(1.0, 2.0), 'Say "M6"'], "text 1,2 10 \"Say 'M6'\""),
+    "text along a curve": (
+        form.TextTool,
+        ["along", "centre", "back", Pick(4, (9.0, 0.0), Circle((0, 0), 9)), "No. {k + 1}"],
+        'text along 4 10 "No. {k + 1}" align centre at 9,0 back',
+    ),
+    "text in a font": (
+        form.TextTool,
+        ["font", (1.0, 2.0), "Say", "DejaVu Sans"],
+        'text 1,2 10 "Say" font "DejaVu Sans"',
+    ),
     "measure": (form.MeasureTool, [(0.0, 0.0), (3.0, 4.0)], "measure 0,0 3,4"),
     "measure a curve": (form.MeasureTool, [Pick(7, (9.0, 9.0), Circle((0, 0), 9))], "measure 7"),
 }

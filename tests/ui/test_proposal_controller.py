@@ -7,6 +7,7 @@ import pytest
 from app.model.chamfer_operation import ChamferOperation
 from app.model.hole_operations import BoreOperation, CountersinkOperation
 from app.model.operation import ContourOperation, DrillOperation, PocketOperation, Side
+from app.model.slot_operation import SlotOperation
 from app.ui.framework.computation import ComputationState
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.proposal_controller import NOTHING_DRAWN, NOTHING_SELECTED
@@ -107,6 +108,7 @@ WAYS = {
     "outside": (ContourOperation, Side.OUTSIDE, 0),
     "inside": (ContourOperation, Side.INSIDE, 1),
     "on": (ContourOperation, Side.ON, 1),
+    "slot": (SlotOperation, None, 1),
     "drill": (DrillOperation, None, 2),
     "bore": (BoreOperation, None, 2),
     "countersink": (CountersinkOperation, None, 2),

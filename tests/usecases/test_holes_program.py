@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.core.errors import HitofudeError, ParameterError
+from app.core.errors import GeometryError, HitofudeError, ParameterError
 from app.core.resources import resource
 from app.formats.job.toml import read_job
 from app.gcode.posts.posts import post_names
@@ -169,6 +169,30 @@ def test_a_tap_with_another_feed_is_found() -> None:
     assert [each for each in wrong.findings if each.counts and "lead of M6 is off by 0.1000 mm a turn" in each.text]
 
 
+# Points
+
+POINTS = "layer p\npoint 10,10\npoint 50,10\nlayer 0\npoint 30,30\n"
+
+
+@pytest.mark.parametrize(
+    ("curves", "holes"), [("", {(10, 10), (50, 10), (30, 30)}), ('curves = ["layer:p"]\n', {(10, 10), (50, 10)})]
+)
+def test_points_are_drilled_like_circles_of_the_drills_size(curves: str, holes: set[tuple[int, int]]) -> None:
+    drill = f'[[operation]]\nkind = "drill"\ntool = 2\ndepth = 10\npoints = true\n{curves}'
+    made = made_of(drill, "rectangle 0,0 60,40\n" + POINTS)
+    down = made.program.moves.end[made.program.moves.purpose != Purpose.RAPID]
+    assert made.clean and {(x, y) for x, y, _ in np.round(down).astype(int).tolist()} == holes
+    whole = math.pi * 2.5**2 * 10  # and the drill's point below
+    assert report_of(made)["cut"]["removed_mm3"] >= len(holes) * whole * 0.99
+    assert_same_cuts(made)
+
+
+def test_points_are_no_holes_unless_they_are_asked_for() -> None:
+    drill = '[[operation]]\nkind = "drill"\ntool = 2\ndepth = 10\n'
+    with_points, without = (made_of(drill, PLATE + each + "circle 30,10 2.5\n") for each in (POINTS, ""))
+    assert with_points.nc.text == without.nc.text
+
+
 # Threads
 
 THREAD = DRILL + '[[operation]]\nkind = "thread"\ntool = 6\ndepth = 8\nthread = "M6"\n'
@@ -184,6 +208,19 @@ def test_threads_have_their_lead_and_their_pitch_diameter(direction: str, flutes
     assert thread["holes"] == 2 and thread["lead_off_mm"] < 1e-3 and thread["bare_mm"] == 0
     assert abs(thread["pitch_diameter_off_mm"]) < 1e-3
     assert_same_cuts(made)
+
+
+@pytest.mark.parametrize("flutes", [1.0, 4.0])
+def test_a_left_handed_thread_is_proven_and_one_of_the_wrong_hand_is_found(flutes: float) -> None:
+    tools = TOOLS + f"flute_length = {flutes}\n"
+    made = made_of(THREAD + "left_hand = true\n", tools=tools)
+    assert made.clean and report_of(made)["operations"][1]["cut_thread"]["lead_off_mm"] < 1e-3
+    assert any("M6, left-handed," in each.text for each in made.findings)
+    assert_same_cuts(made)
+    right = made_of(THREAD, tools=tools)
+    asked = replace(right.job, operations=(*right.job.operations[:1], replace(right.job.operations[1], left_hand=True)))
+    wrong = finish(compute(right.job), asked)
+    assert not wrong.clean and report_of(wrong)["operations"][1]["cut_thread"]["lead_off_mm"] == pytest.approx(2.0)
 
 
 def test_a_thread_on_a_boss() -> None:
@@ -320,3 +357,63 @@ def test_the_sample_is_clean(post: str) -> None:
     made = make("holes.draw", resource("samples", "holes.draw").read_bytes(), MakeOptions(job=job))
     assert made.clean
     assert report_of(made)["operations"][0]["faced"]["left_mm2"] == 0
+
+
+# What is no hole
+
+BORE = '[[operation]]\nkind = "bore"\ntool = 1\ndepth = 2\n'
+ROUND_PLATE = "circle 0,0 30\ncircle 18,0 5\ncircle 18,0 4\nrectangle -8,-8 6,6\n"
+"""An outline of 60 mm, a hole of 10 with a shallower one about its centre, and a boss."""
+
+
+def wrong(made: MakeResult) -> list[str]:
+    return [each.text for each in made.findings if each.counts]
+
+
+@pytest.mark.parametrize("kind", ["bore", "countersink"])
+def test_a_circle_with_other_contours_inside_is_an_outline_and_no_hole(kind: str) -> None:
+    """Or the boss were cut away with it, and the plate's rim."""
+    operation = BORE if kind == "bore" else '[[operation]]\nkind = "countersink"\ntool = 4\n'
+    wide = TOOLS.replace("diameter = 14.0", "diameter = 70.0")
+    made = made_of(operation, ROUND_PLATE, tools=wide)
+    moves = made.program.moves
+    low = moves.end[:, 2] < 0
+    assert low.any() and np.hypot(*(moves.end[low, :2] - (18, 0)).T).max() < 5
+    (told,) = [each for each in made.findings if "as other contours lie inside" in each.text]
+    assert (told.x, told.y) == (0, 0) and not told.counts and not wrong(made)
+
+
+@pytest.mark.parametrize("named", ['curves = ["circles:60"]', "least = 50", "most = 70"])
+def test_an_outline_that_is_named_is_bored_and_what_goes_with_it_is_told(named: str) -> None:
+    made = made_of(f"{BORE}{named}\n", ROUND_PLATE)
+    moves = made.program.moves
+    assert np.hypot(*moves.end[moves.end[:, 2] < 0, :2].T).max() == pytest.approx(27, abs=1e-3)
+    assert any("with the contours that lie inside" in each.text for each in made.findings)
+    assert not wrong(made)
+
+
+def test_holes_are_no_holes_for_the_bore_that_holds_them() -> None:
+    """A cutter stays in the hole that holds it, and that need not be the one whose middle is nearest."""
+    made = made_of(f"{BORE}least = 1\n", "circle 0,0 11\ncircle 5,0 4\n")
+    assert not wrong(made)
+    out = made_of(f"{BORE}least = 1\n", "circle 0,0 11\ncircle 9,0 4\n")
+    assert not wrong(out), "holes that cross"
+
+
+@pytest.mark.parametrize("kind", ["thread", "tap"])
+def test_a_drawing_without_an_area_is_refused_for_threads_too(kind: str) -> None:
+    tool = 6 if kind == "thread" else 3
+    operation = f'[[operation]]\nkind = "{kind}"\ntool = {tool}\ndepth = 5\nthread = "M6"\n'
+    with pytest.raises(GeometryError, match="there is no closed contour"):
+        made_of(operation, "line 0,0 10,0\n")
+
+
+def test_countersinks_that_cross_are_no_gouge() -> None:
+    """Nearer to the one's middle its cone is deeper than the other's, and so is what is asked for; a tip that goes
+    deeper is found as before.
+    """
+    operation = '[[operation]]\nkind = "countersink"\ntool = 4\ndiameter = 6\n'
+    made = made_of(operation, "circle 0,0 1.5\ncircle 4.76,0 1.5\n")
+    assert not wrong(made)
+    depth = -made.program.moves.end[:, 2].min()
+    assert depth == pytest.approx(3.0)

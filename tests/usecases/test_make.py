@@ -48,9 +48,6 @@ DRAWINGS = {
     "complex.dxf": MakeOptions(pocket_diameter=1, contour_diameter=0.5),
 }
 
-SLOW_TO_READ = {"complex.dxf"}
-"""Programs whose every motion takes minutes to compare."""
-
 
 def drawing(name: str) -> Path:
     """A drawing that travels with the project, or lies in the shared collection."""
@@ -76,9 +73,7 @@ def test_no_gouge_and_no_rapid_in_material(name: str) -> None:
     assert report["rapids_in_material"] == []
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.exhaustive] if name in SLOW_TO_READ else []) for name in DRAWINGS]
-)
+@each
 def test_the_control_accepts_the_program_and_moves_as_it_means(name: str) -> None:
     this = made(name)
     assert_same_motion(this.program.moves, this.nc, this.job)

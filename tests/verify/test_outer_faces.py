@@ -4,12 +4,16 @@ lies in it, in closed form.
 
 import json
 import math
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.cli.main import main
+from app.core.errors import Cancelled
+from app.core.progress import Progress
 from app.simulation.field.solid import SolidStock, read_solid
 from app.simulation.field.triangle_tree import TriangleTree
 from app.surfaces.meshes.orientation import winding_number
@@ -166,3 +170,41 @@ def _numbers(of: object) -> list[float]:
     if isinstance(of, list):
         return [number for each in of for number in _numbers(each)]
     return [float(of)] if isinstance(of, int | float) else []
+
+
+def many_balls(side: int) -> SolidStock:
+    """Balls on a grid, each through its neighbours."""
+    from trimesh.creation import icosphere
+
+    ball = np.array(icosphere(subdivisions=2, radius=5.0).triangles)
+    places = np.random.default_rng(1).uniform(-0.3, 0.3, (side * side, 3))
+    places[:, 0] += np.repeat(np.arange(side), side) * 8.0
+    places[:, 1] += np.tile(np.arange(side), side) * 8.0
+    return SolidStock(np.concatenate([ball + place for place in places]), shells=side * side)
+
+
+def test_it_tells_how_far_it_is_and_can_be_stopped() -> None:
+    told: list[float] = []
+    outer_faces(many_balls(4), Progress(lambda fraction, text: told.append(fraction)))
+    assert told == sorted(told)
+    assert len({round(each, 1) for each in told}) >= 3
+    stop = threading.Event()
+
+    def after_a_while(fraction: float, text: str) -> None:
+        if fraction > 0.2:
+            stop.set()
+
+    with pytest.raises(Cancelled):
+        outer_faces(many_balls(4), Progress(after_a_while, stop))
+
+
+@pytest.mark.exhaustive
+def test_many_bodies_take_as_long_as_they_are_many() -> None:
+    outer_faces(many_balls(2))  # so that no kernel is loaded on the way
+    sizes, spent = (3, 6, 9), []
+    for side in sizes:
+        solid, began = many_balls(side), time.process_time()
+        outer_faces(solid)
+        spent.append(time.process_time() - began)
+    exponent = float(np.polyfit(np.log(np.square(sizes)), np.log(spent), 1)[0])
+    assert exponent < 1.15, spent

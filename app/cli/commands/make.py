@@ -25,11 +25,12 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     times = StageTimes() if arguments.timings else None
     progress = shown_progress(arguments.quiet, stopped)
     watched = times.watch(progress) if times else progress
-    made = make(arguments.drawing.name, read_input(arguments.drawing), options, watched)
+    drawing = read_input(arguments.drawing)
+    made = make(arguments.drawing.name, drawing, options, watched)
     if times:
         made = replace(made, report=made.report.with_timings(times.seconds()))
     programs = {file.named(arguments.output): file.nc.text.encode("ascii") for file in made.files}
-    others = by_path(outputs, other_files(made, outputs))
+    others = by_path(outputs, other_files(made, outputs, drawing))
     _ensure_apart(outputs["output"], [*programs], [*others])
     proposed = made.proposal.lines() if made.proposal is not None else []
     proposed += made.ruled

@@ -14,7 +14,7 @@ from ..files import shown_progress
 from ..outcome import CommandOutcome
 from ..output import finding_lines
 from ..signals import StopFlag
-from ..surface_options import EPILOG, add_surface_options, plot_scene, surface_files
+from ..surface_options import EPILOG, add_surface_options, curves_over, facets_of, plot_scene, surface_files
 
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
@@ -22,9 +22,15 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     outputs = surface_files(arguments)
     progress = shown_progress(arguments.quiet, stopped)
     path: Path = arguments.scene
-    requested = SceneOutputs(**outputs, plotted=plot_scene(arguments), loop=arguments.loop)
+    requested = SceneOutputs(
+        **outputs,
+        plotted=plot_scene(arguments),
+        loop=arguments.loop,
+        curves=curves_over(arguments),
+        facets=facets_of(arguments),
+    )
     made = scene_files(path.name, read_input(path), lambda name: read_input(path.parent / name), requested, progress)
-    lines = [made.report.summary(), *finding_lines(made.report.findings)]
+    lines = [*made.lines, *finding_lines(made.findings)]
     return CommandOutcome(made.files, lines, made.counts).delivered(arguments, progress)
 
 

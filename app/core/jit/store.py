@@ -2,7 +2,8 @@
 thrown away.
 
 An entry is one file: a check sum, then a pickle. Unpickling runs code, so an entry counts only in a folder, and as a
-file, that belongs to this user and that nobody else may write.
+file, that belongs to this user and that nobody else may write. A program that was packed with its machine code has it
+beside its own code, and is read there as it is, where the same hands as the code's alone may write.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import stat
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -33,15 +35,21 @@ _STALE_PART_S = 3600.0  # no entry takes an hour to write, so its writer was kil
 _OTHERS_MAY_WRITE = stat.S_IWGRP | stat.S_IWOTH
 
 
+_SHIPPED = Path(__file__).resolve().parents[2] / "kernels"
+"""What came with the program, where it was packed with it."""
+
+
 class Store:
-    """Entries by name, in one folder or, where nothing can be written, nowhere.
+    """Entries by name, in one folder or, where nothing can be written, nowhere; and those that came with the program.
 
     Attributes:
         folder: where they are; None: nothing is kept.
+        shipped: what came with the program, which is read and never changed.
     """
 
-    def __init__(self, folder: Path | None, kept: bool = True) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path | None, kept: bool = True, shipped: Path | None = None) -> None:
+        self.folder, self.shipped = folder, shipped
+        self._useless: set[str] = set()  # of what came with the program
         self._silent = False
         if folder is None:
             self._say("no folder for it can be written")
@@ -54,30 +62,29 @@ class Store:
 
     def has(self, name: str) -> bool:
         """Return whether there is an entry; it may turn out to be damaged."""
-        path = self.path(name)
-        return path is not None and path.exists()
+        path, other = self.path(name), self._shipped(name)
+        return (path is not None and path.exists()) or (other is not None and other.exists())
 
     def read(self, name: str) -> bytes | None:
         """Return an entry's content, or None where there is none that is whole; a damaged one is removed."""
-        path = self.path(name)
-        if path is None:
-            return None
-        try:
-            data = _read_own(path)
-        except OSError:
-            return None
-        head, content = data[:_HEAD_SIZE], data[_HEAD_SIZE:]
-        if head == _head(name, content):
-            return content
-        self.drop(name)
+        own, shipped = self.path(name), self._shipped(name)
+        if own is not None and (data := _read(own, _is_own)) is not None:
+            if (content := _content(name, data)) is not None:
+                return content
+            _remove(own)
+        if shipped is not None and (data := _read(shipped, _is_as_safe_as_the_code)) is not None:
+            return _content(name, data)
         return None
 
+    def _shipped(self, name: str) -> Path | None:
+        return None if self.shipped is None or name in self._useless else self.shipped / name
+
     def drop(self, name: str) -> None:
-        """Remove an entry that is of no use."""
+        """Remove an entry that is of no use; one that came with the program is not asked for again."""
+        self._useless.add(name)
         path = self.path(name)
         if path is not None:
-            with suppress(OSError):
-                path.unlink()
+            _remove(path)
 
     def write(self, name: str, content: bytes) -> bool:
         """Keep an entry; where that fails say so once and return False."""
@@ -135,25 +142,42 @@ def _head(name: str, content: bytes) -> bytes:
 _HEAD_SIZE = len(_head("", b""))
 
 
-def _read_own(path: Path) -> bytes:
-    """Return the bytes of a file of this user, and note that it was used.
+def _content(name: str, data: bytes) -> bytes | None:
+    """Return what an entry holds, or None where it is damaged."""
+    head, content = data[:_HEAD_SIZE], data[_HEAD_SIZE:]
+    return content if head == _head(name, content) else None
 
-    Raises:
-        OSError: it is not there, or somebody else's.
-    """
-    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0))
-    with os.fdopen(handle, "rb") as file:
-        status = os.fstat(handle)
-        if not _is_own(status):
-            raise PermissionError(f"{path} belongs to somebody else")
-        if time.time() - status.st_mtime > _DAY_S:
-            with suppress(OSError):
-                os.utime(path)  # file systems may not note when files are read
-        return file.read()
+
+def _remove(path: Path) -> None:
+    with suppress(OSError):
+        path.unlink()
+
+
+def _read(path: Path, is_safe: Callable[[os.stat_result], bool]) -> bytes | None:
+    """Return the bytes of a file, and note that it was used; None where it is not there or not safe."""
+    try:
+        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0))
+        with os.fdopen(handle, "rb") as file:
+            status = os.fstat(handle)
+            if not is_safe(status):
+                return None
+            if time.time() - status.st_mtime > _DAY_S:
+                with suppress(OSError):
+                    os.utime(path)  # file systems may not note when files are read
+            return file.read()
+    except OSError:
+        return None
 
 
 def _is_own(status: os.stat_result) -> bool:
+    """Tell whether a file is this user's, and nobody else's to write."""
     return not hasattr(os, "geteuid") or (status.st_uid == os.geteuid() and not status.st_mode & _OTHERS_MAY_WRITE)
+
+
+def _is_as_safe_as_the_code(status: os.stat_result) -> bool:
+    """Tell whether nobody may write a file but those who may write the program's code."""
+    code = Path(__file__).stat()
+    return status.st_uid == code.st_uid and not status.st_mode & _OTHERS_MAY_WRITE & ~code.st_mode
 
 
 def _own_folder(folder: Path) -> bool:
@@ -195,17 +219,17 @@ def open_store(version: str) -> Store:
     for base in (Path(platformdirs.user_cache_dir("hitofude")), Path(tempfile.gettempdir()) / own):
         folder = _all_own(base, "kernels", version)
         if folder is not None:
-            return Store(folder)
+            return Store(folder, shipped=_SHIPPED / version)
     try:
         fresh = Path(tempfile.mkdtemp(prefix="hitofude-"))
     except OSError:
-        return Store(None)
+        return Store(None, shipped=_SHIPPED / version)
     atexit.register(shutil.rmtree, fresh, ignore_errors=True)
-    return Store(_all_own(fresh, "kernels", version), kept=False)
+    return Store(_all_own(fresh, "kernels", version), kept=False, shipped=_SHIPPED / version)
 
 
 @cache
 def store(version: str) -> Store:
     """Return this process's store: the one that the process which started this one names, or see `open_store`."""
     named = os.environ.get(FOLDER_VARIABLE)
-    return Store(Path(named)) if named else open_store(version)
+    return Store(Path(named), shipped=_SHIPPED / version) if named else open_store(version)

@@ -56,12 +56,14 @@ class Draw:
         name: "Line", "Arc", …
         figures: the measures that the reply states.
         last: the point that the next relative coordinates start from, mm.
+        lettering: the curves are strokes of letters, which bound nothing.
     """
 
     name: str
     curves: tuple[Curve, ...]
     figures: str
     last: Point
+    lettering: bool = False
 
     @property
     def reply(self) -> str:
@@ -70,7 +72,8 @@ class Draw:
 
     def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with the curves added, on fresh ids."""
-        return replace(session, part=session.part.with_curves(self.curves, session.layer), last=self.last)
+        part = session.part.with_curves(self.curves, session.layer, self.lettering)
+        return replace(session, part=part, last=self.last)
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,6 +226,31 @@ class SetLayer:
 
 
 @dataclass(frozen=True, slots=True)
+class SetLettering:
+    """Say of curves that they are strokes of letters, which a tool may follow and which bound nothing; or not."""
+
+    lettering: bool
+    ids: frozenset[int]
+    name: str = "Set lettering"
+
+    @property
+    def reply(self) -> str:
+        """A short sentence for the log."""
+        what = "strokes of letters" if self.lettering else "curves that may bound areas"
+        return f"{len(self.ids)} are {what}."
+
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
+        """Return the session that knows it.
+
+        Raises:
+            InputError: an id that the part does not have.
+        """
+        check_ids(session.part, self.ids)
+        entities = tuple(replace(e, lettering=self.lettering) if e.id in self.ids else e for e in session.part.entities)
+        return replace(session, part=replace(session.part, entities=entities))
+
+
+@dataclass(frozen=True, slots=True)
 class SetLayerStyle:
     """Show or hide a layer, lock or unlock it, or give it a colour.
 
@@ -272,7 +300,7 @@ class Redo:
     """Do again what was taken back."""
 
 
-Edit = Clear | Draw | Delete | Transform | ReplaceCurves | SetLayer | SetLayerStyle
+Edit = Clear | Draw | Delete | Transform | ReplaceCurves | SetLayer | SetLettering | SetLayerStyle
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 

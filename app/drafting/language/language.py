@@ -1,27 +1,34 @@
 """The shape language: a drawing in words, a command a line.
 
-    line P P [P …] [close]                  li
-    polyline P P [arc via end] … [close]    pl    lines, and arcs by way of a point
-    arc P P centre P [cw]                   ar    start, end, centre
-    arc P P radius r [cw] [large]                 start, end, radius
-    arc P P P                                     start, by way of, end
-    arc on P                                      onward from the curve drawn last, without a corner
-    circle P r                              ci    also: circle P through P, circle diameter P P, circle through P P P
-    rect P P [round r]                      re
-    polygon n P P                           pg    corners, centre, a corner; with side before the last point: the middle
-    of a side slot P P width                          sl ellipse P P half [from a to a] [cw]     el    centre, end of a
-    half axis, length of the other spline P P P … [close]                  sp    through points spline degree n P P …
-    [knots k …] [weights w …]    by control points point P     guide P P | P angle | across P | up P     dimension P P
-    place P [across|up] | CURVE place P | angle P P P place P text P height "words" [font "name or file"] [angle a]
+    line P P [P …] [close]                        li
+    polyline P P [arc via end] … [close]          pl    lines, and arcs by way of a point
+    arc P P centre P [cw]                         ar    start, end, centre
+    arc P P radius r [cw] [large]                       start, end, radius
+    arc P P P                                           start, by way of, end
+    arc on P                                            onward from the curve drawn last, without a corner
+    circle P r                                    ci    also: through P; diameter P P; through P P P
+    rect P P [round r]                            re
+    polygon n P P                                 pg    corners, centre, a corner; after side: the middle of a side
+    slot P P width                                sl
+    ellipse P P half [from a to a] [cw]           el    centre, end of a half axis, length of the other
+    spline P P P … [close]                        sp    through points
+    spline degree n P P … [knots k …] [weights w …]     by control points
+    point P     guide P P | P angle | across P | up P
+    dimension P P place P [across|up] | CURVE place P | angle P P P place P
+    text P height "words" [font "name or file"] [align left|centre|right] [angle a]
+    text along CURVE height "words" [font "name or file"] [align left|centre|right] [at P] [lift d] [back]
 
     select all | none | CURVES | window P P | crossing P P | layer NAME | chain CURVES     (before it: add, remove)
-    delete [CURVES]     reverse [CURVES]     layer NAME [CURVES]     undo     redo     clear
+    delete [CURVES]     reverse [CURVES]     undo     redo     clear
     pull [CURVES] P to P      (an end, middle, centre, quadrant, control point, and what hangs on it)
+    layer NAME [CURVES]     rename layer NAME to NAME     order layer NAME before|after NAME     remove layer NAME
     hide NAME     show NAME     lock NAME     unlock NAME     colour NAME "#rrggbb" | none     (of layers)
-    set [CURVES] start P     also: end, middle, centre, place P; length, radius, diameter, major, minor; angle, sweep;
-    layer NAME rename layer NAME to NAME     order layer NAME before|after NAME     remove layer NAME     heal tolerance
-    [CURVES] move @dx,dy [CURVES]     copy @dx,dy [times n] [CURVES] rotate P angle [copy] [CURVES]     scale P factor
-    [copy] [CURVES]     mirror P P [copy] [CURVES] array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
+    set [CURVES] start P     also: end, middle, centre, place P; length, radius, diameter, major, minor; angle, sweep
+    set [CURVES] layer NAME     set [CURVES] lettering yes|no     (strokes of letters, which bound nothing)
+    heal tolerance [CURVES]
+    move @dx,dy [CURVES]     copy @dx,dy [times n] [CURVES]     rotate P angle [copy] [CURVES]
+    scale P factor [copy] [CURVES]     mirror P P [copy] [CURVES]
+    array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
 
     trim CURVE P [by CURVES]     extend CURVE P [to CURVES]     break CURVE P [P]     offset d P [CURVES] [round]
     join [within d] [CURVES]     explode [CURVES]     measure P P     measure [CURVES]

@@ -10,7 +10,7 @@ from ...core.errors import InputError
 from ...model.curves import Curve, Point
 from ...model.notes import Shape
 from ...model.part import Part
-from ..commands.command import DraftingSession, SetLayer, check_ids
+from ..commands.command import DraftingSession, SetLayer, SetLettering, check_ids
 from ..commands.properties import WORDS, PropertyKind, Value, properties_of, with_property
 from ..curves.shapes import shown
 from ..expressions.arguments import Arguments
@@ -64,12 +64,12 @@ class SetProperty:
             raise InputError(str(wrong) if len(self.ids) == 1 else f"{number}: {wrong}") from wrong
 
 
-def set_property(words: Arguments, session: DraftingSession) -> SetProperty | SetLayer:
+def set_property(words: Arguments, session: DraftingSession) -> SetProperty | SetLayer | SetLettering:
     """Give a property of curves another value."""
     found: list[int] = []
-    while not (word := words.accept(*WORDS, "layer")):
+    while not (word := words.accept(*WORDS, "layer", "lettering")):
         if not words.more:
-            raise words.wrong(f"Write what to set: {', '.join(sorted(WORDS))} or layer.")
+            raise words.wrong(f"Write what to set: {', '.join(sorted(WORDS))}, layer or lettering.")
         found.extend(words.some("an entity number"))
     ids = frozenset(found) or session.selection
     if not ids:
@@ -77,6 +77,10 @@ def set_property(words: Arguments, session: DraftingSession) -> SetProperty | Se
     check_ids(session.part, ids)
     if word == "layer":
         return SetLayer(words.name("the name of a layer"), ids)
+    if word == "lettering":
+        if not (told := words.accept("yes", "no")):
+            raise words.wrong("yes or no is expected: whether these are strokes of letters, which bound nothing.")
+        return SetLettering(told == "yes", ids)
     return SetProperty(ids, word, _value(words, session.part, ids, word))
 
 

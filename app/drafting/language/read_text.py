@@ -1,43 +1,168 @@
-"""The command that draws words: in strokes to engrave, or in the outlines of a font."""
+"""The command that draws words: in strokes to engrave, or in the outlines of a font; on a line, or along curves."""
 
 from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
 
 from ...core.errors import InputError
 from ...core.tolerances import WELD
 from ...geometry.stroke_font import StrokeFont, engraving, placed
-from ...geometry.transform import Similarity, transformed, turn
-from ...model.curves import Curve
+from ...geometry.transform import transformed
+from ...model.curves import Curve, Point, reversed_curve
 from ..commands.command import DraftingSession, Draw, counted
+from ..commands.explode import exploded
+from ..curves.baseline import Baseline, CurvedBaseline, StraightBaseline
+from ..curves.chains import CurveChain, chained
 from ..expressions.arguments import Arguments
+from ..expressions.syntax import TextSpan
 from ..expressions.values import wrong
+from .word_fields import with_fields
 
 MOST_LETTERS = 1000
 
 
+class Alignment(Enum):
+    """What of the words stands where the baseline begins; along curves, where on them the words stand."""
+
+    LEFT = "left"
+    CENTRE = "centre"
+    RIGHT = "right"
+
+    def begin(self, width: float, room: float) -> float:
+        """Return where words of a width begin, from the baseline's beginning, mm.
+
+        Args:
+            room: the length of the curves; 0 where all of the words is measured from one point.
+        """
+        return {Alignment.LEFT: 0.0, Alignment.CENTRE: 0.5, Alignment.RIGHT: 1.0}[self] * (room - width)
+
+
+@dataclass(frozen=True, slots=True)
+class _TextStyle:
+    """How words are drawn: font is a name or file, "" the engraving face; angle in degrees; lift in mm; anchor is what
+    the aligned end of words along curves stands nearest to.
+    """
+
+    font: str = ""
+    alignment: Alignment = Alignment.LEFT
+    angle: float = 0.0
+    lift: float = 0.0
+    back: bool = False
+    anchor: Point | None = None
+
+
 def text(words: Arguments, session: DraftingSession) -> Draw:
-    """Words on a baseline from a point on; the height is that of the capitals."""
-    at = words.point("the lower left of the words")
-    place, height = words.place, words.length("the height of the capitals")
+    """Words on a baseline from a point on, or along curves; the height is that of the capitals."""
+    chain, place = None, words.place
+    if not words.is_point() and words.accept("along"):
+        place = words.place
+        chain = _chain(words, session, place)
+    else:
+        words.point("the lower left of the words")
+    at, height_place = words.last, words.place
+    height = words.length("the height of the capitals")
     if height < 100 * WELD:
-        raise wrong(f"The height is {height:g} mm; capitals are {100 * WELD:g} mm high or more.", place)
-    said = words.name('the words, in "double quotes"')
-    font, angle = "", 0.0
-    while option := words.accept("font", "angle"):
-        if option == "font":
-            font = words.name('the font\'s name or file, in "double quotes"')
-        else:
-            angle = words.angle("the angle of the baseline")
+        raise wrong(f"The height is {height:g} mm; capitals are {100 * WELD:g} mm high or more.", height_place)
+    words_place = words.place
+    said = with_fields(words.name('the words, in "double quotes"'), words_place, session.scope)
+    style = _style(words, along=chain is not None)
     if not said.strip() or len(said) > MOST_LETTERS:
         raise InputError(f"There must be letters to draw, {MOST_LETTERS} at most.")
-    face = _face(font, said)
-    unit, turned = height / face.capital, turn(at, angle)
-    curves, width = list[Curve](), 0.0
-    for glyph, along in placed(face, said):
-        onto = Similarity(turned.a * unit, complex(*turned((at[0] + along * unit, at[1]))))
+    baseline = StraightBaseline(at, style.angle) if chain is None else _curved(chain, style)
+    return _drawn(said, height, baseline, style, place)
+
+
+def _style(words: Arguments, along: bool) -> _TextStyle:
+    font, alignment, angle, lift, back, anchor = "", Alignment.LEFT, 0.0, 0.0, False, None
+    while option := words.accept("font", "align", *(("lift", "back", "at") if along else ("angle",))):
+        if option == "font":
+            font = words.name('the font\'s name or file, in "double quotes"')
+        elif option == "align":
+            alignment = _alignment(words)
+        elif option == "angle":
+            angle = words.angle("the angle of the baseline")
+        elif option == "lift":
+            lift = words.length("how far the letters stand off the curve")
+        elif option == "at":
+            anchor = words.point("the point by the curve where the words stand")
+        else:
+            back = True
+    return _TextStyle(font, alignment, angle, lift, back, anchor)
+
+
+def _alignment(words: Arguments) -> Alignment:
+    side = words.accept(*(each.value for each in Alignment), "center")
+    if not side:
+        raise words.wrong("left, centre or right is expected: where the words stand.")
+    return Alignment.CENTRE if side == "center" else Alignment(side)
+
+
+def _chain(words: Arguments, session: DraftingSession, place: TextSpan) -> CurveChain:
+    """Return the curves that words go along, which must be one chain.
+
+    Raises:
+        CommandError: they are none, or more than one chain.
+    """
+    ids = words.some("the curve that the words go along, by its number or name")
+    curves = {number: curve for number in ids if (curve := session.part.curve(number)) is not None}
+    if len(curves) < len(ids):
+        lacking = next(number for number in ids if number not in curves)
+        raise wrong(f"{lacking} is no curve of the drawing; words go along curves that are there.", place)
+    words.takes(curves.values())
+    chains = chained(curves)
+    if len(chains) != 1:
+        raise wrong(f"These are {len(chains)} chains of curves; words go along one.", place)
+    return chains[0]
+
+
+def _curved(chain: CurveChain, style: _TextStyle) -> CurvedBaseline:
+    onward = chain.curves if not style.back else tuple(map(reversed_curve, reversed(chain.curves)))
+    return CurvedBaseline.of([piece for curve in onward for piece in exploded(curve)], chain.closed, style.lift)
+
+
+def _drawn(said: str, height: float, baseline: Baseline, style: _TextStyle, place: TextSpan) -> Draw:
+    face = _face(style.font, said)
+    unit, found = height / face.capital, list(placed(face, said))
+    last, last_at = found[-1]
+    width = (last_at + last.advance - face.between) * unit
+    begin = _begin(width, height, baseline, style, place)
+    curves = list[Curve]()
+    for glyph, along in found:
+        inked = glyph.advance - face.between
+        onto = baseline.placed(begin + along * unit, inked * unit, unit)
         curves += [transformed(curve, onto) for curve in glyph.curves]
-        width = along + glyph.advance - face.between
-    figures = f"{width * unit:.3f} by {height:.3f} mm, {counted(len(curves), 'curve')}"
-    return Draw("Text", tuple(curves), figures, at)
+    figures = f"{width:.3f} by {height:.3f} mm, {counted(len(curves), 'curve')}"
+    return Draw("Text", tuple(curves), figures, baseline.start, lettering=not style.font)
+
+
+def _begin(width: float, height: float, baseline: Baseline, style: _TextStyle, place: TextSpan) -> float:
+    """Return where on a baseline words of a width begin, mm.
+
+    Raises:
+        CommandError: there is no room for them.
+    """
+    if not isinstance(baseline, CurvedBaseline):
+        return style.alignment.begin(width, 0.0)
+    room = baseline.length
+    if width > room + WELD:
+        fits = math.floor(100 * height * room / width) / 100
+        raise wrong(
+            f"The words are {width:.3f} mm long and the curve is {room:.3f} mm; make them {fits:.2f} mm high at most, "
+            "or take a longer curve.",
+            place,
+        )
+    if style.anchor is None:
+        return style.alignment.begin(width, room)
+    begin = baseline.nearest(style.anchor) + style.alignment.begin(width, 0.0)
+    if not baseline.closed and not -WELD <= begin <= room - width + WELD:
+        raise wrong(
+            f"The words would stand from {begin:.3f} to {begin + width:.3f} mm of a curve that is {room:.3f} mm long; "
+            "give another point, or another alignment.",
+            place,
+        )
+    return begin
 
 
 def _face(font: str, said: str) -> StrokeFont:

@@ -10,7 +10,7 @@ from ...core.tolerances import WELD
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from ...model.notes import Guide, Mark, Note, Shape
 from ...model.part import Entity, Layer, Part
-from ..expressions.words import name_text, number_text, point_text
+from ..expressions.words import ids_text, name_text, number_text, point_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,15 +34,19 @@ def draw_text(part: Part) -> DrawText:
         lines += [f"layer {name_text(layer.name)}", *_looks(layer)]
     lines += _first_in_its_place(part.layers)
     current = part.layers[-1].name if part.layers else ""
-    left_out = 0
+    left_out, strokes, number = 0, list[int](), 0
     for item in _in_order(part):
         if isinstance(item, Entity) and _is_nothing(item.curve):
             left_out += 1
             continue
+        number += 1
+        if isinstance(item, Entity) and item.lettering:
+            strokes.append(number)
         if item.layer != current:
             current = item.layer
             lines.append(f"layer {name_text(current)}")
         lines.append(curve_text(item.curve) if isinstance(item, Entity) else note_text(item.shape))
+    lines += [f"set {ids_text(strokes)} lettering yes"] if strokes else []
     return DrawText("\n".join(lines) + "\n", left_out)
 
 

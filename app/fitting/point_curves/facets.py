@@ -72,12 +72,22 @@ def facets_of_rows(rows: Sequence[Floats], epsilon: float) -> CloudFacets:
         GeometryError: rows are too few or too short, or a point has no finite place.
         ParameterError: epsilon out of its range.
     """
-    from scipy.spatial import KDTree
-
     if len(rows) < 2 or any(row.ndim != 2 or row.shape[1] != 3 or len(row) < 2 for row in rows):
         raise GeometryError("A cloud of rows of points; expected two or more rows of two or more points (n, 3).")
     points = np.concatenate(rows)
     _ensure_finite(points)
+    begin = np.cumsum([0, *(len(row) for row in rows)])
+    rim = np.zeros(len(points), np.bool_)
+    rim[begin[:-1]] = rim[begin[1:] - 1] = rim[: begin[1]] = rim[begin[-2] :] = True
+    return _parted(points, row_neighbours(rows), rim, epsilon)
+
+
+def row_neighbours(rows: Sequence[Floats]) -> Ints:
+    """Return the pairs (m, 2) of neighbours among points of rows (n, 3), numbered row by row: those beside one another
+    in a row, and each with the nearest of the rows beside its own.
+    """
+    from scipy.spatial import KDTree
+
     begin = np.cumsum([0, *(len(row) for row in rows)])
     pairs = [np.column_stack((np.arange(a, b - 1), np.arange(a + 1, b))) for a, b in pairwise(begin)]
     trees = [KDTree(row) for row in rows]
@@ -86,9 +96,7 @@ def facets_of_rows(rows: Sequence[Floats], epsilon: float) -> CloudFacets:
             if 0 <= other < len(rows):
                 nearest = trees[other].query(rows[row])[1] + begin[other]
                 pairs.append(np.column_stack((np.arange(begin[row], begin[row + 1]), nearest)))
-    rim = np.zeros(len(points), np.bool_)
-    rim[begin[:-1]] = rim[begin[1:] - 1] = rim[: begin[1]] = rim[begin[-2] :] = True
-    return _parted(points, np.concatenate(pairs), rim, epsilon)
+    return np.concatenate(pairs)
 
 
 def _ensure_finite(points: Floats) -> None:

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from math import cos, isfinite, radians, sin
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...core.errors import HitofudeError, InputError
 from ...geometry.affine import Affine, transformed
@@ -63,13 +63,20 @@ def _place_of(entity: Any) -> Point:
     return (float(at[0]), float(at[1]))
 
 
+class LayeredPoint(NamedTuple):
+    """A point and the name of its layer."""
+
+    at: Point
+    layer: str
+
+
 @dataclass
 class DxfContent:
     """What a space or a block draws.
 
     Attributes:
         curves: in the sheet's own coordinates, drawing units.
-        letterings: what its texts draw. hatches: boundaries of its hatches.
+        points: its points, each on its layer. letterings: what its texts draw. hatches: boundaries of its hatches.
         left_out: entities that are no curves, by type.
         without_length: places of entities that draw nothing, None where there is no place.
         hidden: blocks inserted on frozen layers.
@@ -79,6 +86,7 @@ class DxfContent:
     """
 
     curves: list[LayeredCurve] = field(default_factory=list)
+    points: list[LayeredPoint] = field(default_factory=list)
     letterings: list[TextCurves] = field(default_factory=list)
     hatches: list[Hatch] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
@@ -98,7 +106,15 @@ class DxfContent:
     @property
     def is_empty(self) -> bool:
         """True where nothing is drawn, and nothing is to be said of a place."""
-        return not (self.size or self.letterings or self.without_length or self.hidden or self.negative or self.unread)
+        return not (
+            self.size
+            or self.points
+            or self.letterings
+            or self.without_length
+            or self.hidden
+            or self.negative
+            or self.unread
+        )
 
     def more(self) -> Iterator[TextCurves | Hatch]:
         """Yield its texts and hatches."""
@@ -178,6 +194,9 @@ class DxfWalker:
             content.left_out[f"{kind} (as asked)"] += 1
         elif kind == "INSERT":
             self._insert(entity, content)
+        elif kind == "POINT":
+            x, y, _ = entity.dxf.location
+            content.points.append(LayeredPoint((float(x), float(y)), entity.dxf.layer))
         else:
             self._draw(entity, kind, content)
 
@@ -278,6 +297,9 @@ class DxfWalker:
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.unread
         ]
+        content.points += [
+            LayeredPoint(place.point(each.at), outer if each.layer == "0" else each.layer) for each in inner.points
+        ]
         for each in inner.more():
             content.add(each.moved(place, outer))
         for curve, layer in inner.curves:
@@ -286,7 +308,9 @@ class DxfWalker:
                 content.without_length.append(place.point(curve.start))
             else:
                 content.curves.append(LayeredCurve(moved, outer if layer == "0" else layer))
-        self._bounded(max(len(content.hidden), len(content.negative), len(content.unread), content.size))
+        self._bounded(
+            max(len(content.points), len(content.hidden), len(content.negative), len(content.unread), content.size)
+        )
 
     def _block(self, name: str, insert: Any) -> DxfContent:
         key = name.casefold()

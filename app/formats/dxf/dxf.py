@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import starmap
 from pathlib import PurePath
 from typing import Any
 
 from ...core import tolerances
 from ...geometry.affine import scaled
+from ...geometry.chaining.pieces import FARTHEST
 from ...model.finding import Finding, FindingKind
+from ...model.notes import Mark, Note
 from ...model.part import Entity, Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
@@ -89,9 +91,9 @@ def read_dxf(
 
     Curves of inserted blocks are put in place, but for those inserted on frozen layers, which no CAD program shows.
     Texts are the outlines of their letters, or strokes where their font is not here; boundaries of hatches are
-    outlines, unless they lie on curves that are drawn anyway. Dimensions, points, solids and paper space are counted,
-    not read. Units come from $INSUNITS alone ($MEASUREMENT only chooses hatch patterns); a drawing that names none is
-    in `units`, or in mm.
+    outlines, unless they lie on curves that are drawn anyway. Points become notes, numbered behind the curves.
+    Dimensions, solids and paper space are counted, not read. Units come from $INSUNITS alone ($MEASUREMENT only chooses
+    hatch patterns); a drawing that names none is in `units`, or in mm.
 
     Args:
         data: the whole file, ASCII or binary DXF, R12 or later.
@@ -124,9 +126,11 @@ def read_dxf(
     part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, found.entities)).with_entities(
         found.entities
     )
+    marks = _marks(content, unit.size, found, part.layers)
+    part = replace(part, notes=marks, used_id=len(found.entities) + len(marks))
     names = tuple(layer.name for layer in part.layers)
     part = on_layers(part, layers, name)
-    left_out = content.left_out + Counter({PAPER: others.total()})
+    left_out = content.left_out + Counter({PAPER: others.total(), "POINT": len(content.points) - len(marks)})
     nothing = [None if p is None else to_mm.point(p) for p in content.without_length] + found.nothing
     findings = [
         *_unit_findings(units, unit),
@@ -214,7 +218,7 @@ def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) 
 
 def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> str:
     """Return why a drawing has nothing to machine, and what to do."""
-    left_out = content.left_out + found.missing + Counter({PAPER: others.total()})
+    left_out = content.left_out + found.missing + Counter({PAPER: others.total(), "POINT": len(content.points)})
     said = listed(+left_out, "; left out: ")
     if found.far and found.moved is None:
         return (
@@ -239,6 +243,18 @@ def _spelled(document: Any, curves: Iterable[LayeredCurve]) -> list[LayeredCurve
     """
     spelling = {layer.dxf.name.casefold(): layer.dxf.name for layer in document.layers}
     return [LayeredCurve(curve, spelling.get(layer.casefold(), layer)) for curve, layer in curves]
+
+
+def _marks(content: DxfContent, size: float, found: UsableCurves, layers: tuple[Layer, ...]) -> tuple[Note, ...]:
+    """Return the points that lie within reach and on known layers, in mm, moved as the curves are, numbered behind
+    them.
+    """
+    spelling = {layer.name.casefold(): layer.name for layer in layers}
+    dx, dy = found.moved or (0.0, 0.0)
+    places = [((x * size + dx, y * size + dy), layer.casefold()) for (x, y), layer in content.points]
+    kept = [(at, layer) for at, layer in places if max(map(abs, at)) <= FARTHEST and layer in spelling]
+    first = len(found.entities) + 1
+    return tuple(Note(number, Mark(at), spelling[layer]) for number, (at, layer) in enumerate(kept, first))
 
 
 def _layers(document: Any, entities: tuple[Entity, ...]) -> tuple[Layer, ...]:

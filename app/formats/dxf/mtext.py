@@ -1,19 +1,22 @@
-"""MTEXT to curves: its inline codes, paragraphs, lines that are full, and where all of it stands."""
+"""MTEXT to curves: its inline codes, paragraphs, lines and columns that are full, and where all of it stands."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import chain as joined
 from typing import Any
 
 from ...geometry.affine import Affine
 from ...model.curves import Curve
 from .codes import TextBar, legible, numbered_signs
+from .columns import ONE_COLUMN, LetterColumns
 from .curves import NoLengthError
 from .fonts import FontName, Fonts, style_font
-from .letters import LeftOutError, LetterRun, LetterStyle, TextCurves, bar_curves, lettered, run_of
+from .letter_boxes import LetterBox, LetterLine
+from .letters import LeftOutError, LetterStyle, TextCurves, lettered, run_of
 from .text import MOST_LETTERS
+from .vertical import PlacedBox, is_vertical, stacked
 
 _APART = 5 / 3
 """From baseline to baseline, in heights of the capitals, at a spacing of 1."""
@@ -22,31 +25,42 @@ _TAB = 4.0
 _STACKED, _BETWEEN = 0.7, 0.2
 """Height of the letters of a fraction, and what lies between its two rows, in heights of the capitals beside it."""
 _SLACK = 1e-9
-_DOWNWARD = 3
+_DOWNWARD, _AS_STYLED = 3, 5
 _EXACT = 2
 
 
 def columns_of(entity: Any) -> list[Any]:
     """Return an MTEXT and the further ones that are its columns, each with a place and a text of its own."""
-    return [entity, *(entity.columns.linked_columns if entity.has_columns else ())]
+    return [entity, *_linked(entity)]
+
+
+def _linked(entity: Any) -> list[Any]:
+    """Return the columns that are texts of their own, as before R2018; where all of them are empty the first one holds
+    the whole text.
+    """
+    linked = entity.columns.linked_columns if entity.has_columns else ()
+    return [each for each in linked if each.text]
 
 
 def mtext_lettering(entity: Any, fonts: Fonts) -> TextCurves:
     """Return what an MTEXT draws, drawing units, seen from above.
 
-    Lines break where the text says so, and between words where they would be wider than its width. Centred and right
-    tabulators are taken as left ones, justified lines as begun on the left.
+    Lines break where the text says so, and between words where they would be wider than its width; columns where the
+    text says so, and where a baseline would lie below their height. Lines that run downwards stand to the right of one
+    another and break only where the text says so. Centred and right tabulators are taken as left ones, justified lines
+    as begun on the left.
 
     Raises:
         NoLengthError: its height is none.
-        LeftOutError: it stands in columns or runs downwards, or is too long.
+        LeftOutError: it is too long, or its lines run downwards in columns.
     """
     dxf, style = entity.dxf, fonts.style(entity.dxf.style)
     at = (float(dxf.insert.x), float(dxf.insert.y))
-    if dxf.get("flow_direction", 1) == _DOWNWARD:
-        raise LeftOutError("MTEXT (vertical)")
-    if entity.has_columns and len(entity.columns.linked_columns) + 1 < entity.columns.count:
-        raise LeftOutError("MTEXT (in columns)")  # one text, broken where the lines of a font are as high as a column
+    columns = LetterColumns.of(entity.columns) if entity.has_columns and not _linked(entity) else ONE_COLUMN
+    flow = dxf.get("flow_direction", 1)
+    down = flow == _DOWNWARD or (flow == _AS_STYLED and is_vertical(style))
+    if down and columns is not ONE_COLUMN:
+        raise LeftOutError("MTEXT (vertical, in columns)")
     if len(entity.text) > MOST_LETTERS:
         raise LeftOutError(f"MTEXT (of more than {MOST_LETTERS} letters)")
     if not dxf.char_height > 0:
@@ -57,7 +71,9 @@ def mtext_lettering(entity: Any, fonts: Fonts) -> TextCurves:
         float(style.dxf.width if style else 1.0),
         float(style.dxf.oblique if style else 0.0),
     )
-    page = _TextPage(fonts, first, float(dxf.get("width", 0.0) or 0.0), int(dxf.attachment_point))
+    width = columns.width or float(dxf.get("width", 0.0) or 0.0)
+    attachment = int(dxf.attachment_point)
+    page = _DownPage(fonts, first, attachment) if down else _TextPage(fonts, first, attachment, width, columns)
     page.fill(entity.text)
     page.set_lines(float(dxf.line_spacing_factor), dxf.line_spacing_style == _EXACT)
     made = lettered(page.curves(), [run for line in page.lines for run in line.runs], _frame(entity, at))
@@ -77,73 +93,24 @@ def _frame(entity: Any, at: tuple[float, float]) -> Affine:
     return Affine(along.x, up.x, along.y, up.y, *at)
 
 
-@dataclass(frozen=True)
-class _Box:
-    """Something that stands in a line: words, or a fraction of two rows.
-
-    Attributes:
-        rows: words and where they begin, from the box's beginning and from the baseline.
-        advance, ink: along the baseline, drawing units.
-        look: of the letters beside it. lift: where it stands between the bottom (0) and the top (1) of its line.
-        bar: whether a line parts the rows.
-    """
-
-    rows: tuple[tuple[LetterRun, float, float], ...]
-    advance: float
-    ink: float
-    look: LetterStyle
-    lift: float = 0.0
-    bar: bool = False
-
-    def curves(self, x: float, y: float) -> Iterator[tuple[Curve, bool]]:
-        for run, right, up in self.rows:
-            yield from run.curves(x + right, y + up)
-        if self.bar:
-            strokes = not any(run.letters.font for run, _, _ in self.rows)
-            yield from bar_curves((x, y + self.look.height / 2), self.ink, self.look.height, strokes)
-
-
-@dataclass
-class _TextLine:
-    """A line of boxes.
-
-    Attributes:
-        boxes: and where each begins. nominal: height of its capitals where it is empty.
-        begin, end: between which the line lies, from the page's left edge; end <= begin: it goes on without end.
-        align: "l", "c" or "r". y: of its baseline.
-    """
-
-    nominal: float
-    begin: float = 0.0
-    end: float = 0.0
-    align: str = "l"
-    boxes: list[tuple[_Box, float]] = field(default_factory=list)
-    x: float = 0.0
-    y: float = 0.0
-
-    @property
-    def height(self) -> float:
-        return max((box.look.height for box, _ in self.boxes), default=self.nominal)
-
-    @property
-    def ink(self) -> float:
-        return max((at + box.ink for box, at in self.boxes), default=0.0)
-
-    @property
-    def runs(self) -> list[LetterRun]:
-        return [run for box, _ in self.boxes for run, _, _ in box.rows]
-
-
 class _TextPage:
     """The lines of one MTEXT, its zero at the upper left corner, then at the insertion point."""
 
-    def __init__(self, fonts: Fonts, look: LetterStyle, width: float, attachment: int) -> None:
-        self.lines: list[_TextLine] = []
-        self._fonts, self._look, self._width = fonts, look, width
+    def __init__(
+        self,
+        fonts: Fonts,
+        look: LetterStyle,
+        attachment: int,
+        width: float = 0.0,
+        columns: LetterColumns = ONE_COLUMN,
+    ) -> None:
+        self.lines: list[LetterLine] = []
+        self._fonts, self._look, self._width, self._columns = fonts, look, width, columns
         self._across, self._down = (attachment - 1) % 3, (attachment - 1) // 3
-        self._words: list[_Box] = []  # that nothing may part, for no blank stands between them
+        self._words: list[LetterBox] = []  # that nothing may part, for no blank stands between them
         self._blank = 0.0  # before them
         self._fresh = True  # the next line is the first of its paragraph
+        self._opens = False  # and of its column
 
     def fill(self, content: str) -> None:
         """Take a text with its inline codes, and break it into lines."""
@@ -157,13 +124,13 @@ class _TextPage:
             context = token.ctx
             look = self._seen(context, styled)
             if token.type == TokenType.WORD:
-                self._words.append(self._box(legible(token.data), look, _lift(context)))
+                self._words.append(LetterBox.of(run_of(legible(token.data), look, self._fonts), _lift(context)))
             elif token.type == TokenType.STACK:
                 self._words.append(self._fraction(token.data, look))
             elif token.type in (TokenType.NEW_PARAGRAPH, TokenType.NEW_COLUMN):
                 self._put(context)
                 self._line(context)  # at least one line a paragraph
-                self._fresh, self._blank = True, 0.0
+                self._fresh, self._blank, self._opens = True, 0.0, token.type == TokenType.NEW_COLUMN
             elif token.type in (TokenType.SPACE, TokenType.NBSP, TokenType.TABULATOR):
                 self._space(token.type, look, context)
         self._put(context)
@@ -192,11 +159,7 @@ class _TextPage:
             frozenset(bar for bar, requested in flags if requested),
         )
 
-    def _box(self, words: str, look: LetterStyle, lift: float = 0.0) -> _Box:
-        run = run_of(words, look, self._fonts)
-        return _Box(((run, 0.0, 0.0),), run.advance, run.ink, look, lift)
-
-    def _fraction(self, data: tuple[str, str, str], look: LetterStyle) -> _Box:
+    def _fraction(self, data: tuple[str, str, str], look: LetterStyle) -> LetterBox:
         """Return a fraction: one row over the other, about the middle of the capitals beside it, or both beside a
         stroke.
         """
@@ -210,20 +173,22 @@ class _TextPage:
                 (slash, over.advance, 0.0),
                 (under, over.advance + slash.advance, 0.0),
             )
-            return _Box(rows, sum(run.advance for run, _, _ in rows), over.advance + slash.advance + under.ink, look)
+            return LetterBox(
+                rows, sum(run.advance for run, _, _ in rows), over.advance + slash.advance + under.ink, look
+            )
         ink, gap = max(over.ink, under.ink), look.height * _BETWEEN / 2
         middle = look.height / 2
         rows2 = (
             (over, (ink - over.ink) / 2, middle + gap),
             (under, (ink - under.ink) / 2, middle - gap - small.height),
         )
-        return _Box(rows2, max(over.advance, under.advance), ink, look, bar=sort == "/")
+        return LetterBox(rows2, max(over.advance, under.advance), ink, look, bar=sort == "/")
 
     def _space(self, kind: Any, look: LetterStyle, context: Any) -> None:
         from ezdxf.tools.text import TokenType
 
         if kind == TokenType.NBSP:
-            self._words.append(self._box(" ", look))
+            self._words.append(LetterBox.of(run_of(" ", look, self._fonts)))
             return
         self._put(context)
         if kind == TokenType.SPACE:
@@ -259,10 +224,10 @@ class _TextPage:
             at += box.advance
         self._words, self._blank = [], 0.0
 
-    def _open(self, context: Any) -> _TextLine:
+    def _open(self, context: Any) -> LetterLine:
         return self._line(context) if self._fresh else self.lines[-1]
 
-    def _line(self, context: Any, follows: bool = False) -> _TextLine:
+    def _line(self, context: Any, follows: bool = False) -> LetterLine:
         """Return a new line: the first of a paragraph, unless it `follows` one that is full or the paragraph has one
         already.
         """
@@ -272,24 +237,38 @@ class _TextPage:
         begin = requested.left * unit + (0.0 if follows else requested.indent * unit)
         end = self._width - requested.right * unit if self._width > 0 else 0.0
         align = {"DEFAULT": "lcr"[self._across], "CENTER": "c", "RIGHT": "r"}.get(requested.align.name, "l")
-        self.lines.append(_TextLine(context.cap_height or unit, begin, end, align))
-        self._fresh = False
+        self.lines.append(LetterLine(context.cap_height or unit, begin, end, align, opens=self._opens))
+        self._fresh = self._opens = False
         return self.lines[-1]
 
     def set_lines(self, spacing: float, exact: bool) -> None:
         """Give every line its place: baselines apart, lines aligned, all of it about the insertion point."""
-        if not self.lines:
+        columns = self._set_columns(spacing, exact)
+        if not columns:
             return
         wide = self._width if self._width > 0 else max(line.begin + line.ink for line in self.lines)
+        starts = self._columns.starts(len(columns), wide)
+        low = -self._columns.height if self._columns.height else min(lines[-1].y for lines in columns)
+        for start, lines in zip(starts, columns, strict=True):
+            for line in lines:
+                free = (line.end if line.end > line.begin else wide) - line.begin - line.ink
+                line.x = start + line.begin + {"l": 0.0, "c": free / 2, "r": free}[line.align]
+                line.x -= (max(starts) + wide) * self._across / 2
+                line.y -= low * self._down / 2
+
+    def _set_columns(self, spacing: float, exact: bool) -> list[list[LetterLine]]:
+        """Return the lines of each column, their baselines apart, from its top."""
+        columns: list[list[LetterLine]] = []
         y = 0.0
-        for k, line in enumerate(self.lines):
-            y -= line.height if k == 0 else spacing * _APART * (self._look.height if exact else line.height)
-            end = line.end if line.end > line.begin else wide
-            free = end - line.begin - line.ink
-            line.x = line.begin + {"l": 0.0, "c": free / 2, "r": free}[line.align] - wide * self._across / 2
-            line.y = y
         for line in self.lines:
-            line.y -= y * self._down / 2
+            y -= spacing * _APART * (self._look.height if exact else line.height)
+            full = bool(columns) and -y > self._columns.depth(len(columns) - 1) * (1 + _SLACK)
+            if not columns or full or (line.opens and self._columns is not ONE_COLUMN):
+                columns.append([])
+                y = -line.height
+            columns[-1].append(line)
+            line.y = y
+        return columns
 
     def curves(self) -> Iterator[tuple[Curve, bool]]:
         """Yield the curves of all lines, and whether each is a stroke."""
@@ -298,6 +277,30 @@ class _TextPage:
             for line in self.lines
             for box, at in line.boxes
         )
+
+
+class _DownPage(_TextPage):
+    """The lines of an MTEXT that run downwards, letter below letter, each line to the right of the one before."""
+
+    _cells: list[PlacedBox]
+
+    def _space(self, kind: Any, look: LetterStyle, context: Any) -> None:
+        self._words.append(LetterBox.of(run_of(" ", look, self._fonts)))
+
+    def set_lines(self, spacing: float, exact: bool) -> None:
+        """Give every letter its place: lines apart, each from the top, all of it about the insertion point."""
+        x, cells = 0.0, list[PlacedBox]()
+        for number, line in enumerate(self.lines):
+            x += spacing * _APART * (self._look.height if exact else line.height) if number else 0.0
+            cells += stacked([box for box, _ in line.boxes], self._fonts, x)
+        left = min((cell.x for cell in cells), default=0.0)
+        right = max((cell.x + cell.box.ink for cell in cells), default=0.0)
+        low = min((cell.y for cell in cells), default=0.0)
+        to_left, to_top = left + (right - left) * self._across / 2, low * self._down / 2
+        self._cells = [replace(cell, x=cell.x - to_left, y=cell.y - to_top) for cell in cells]
+
+    def curves(self) -> Iterator[tuple[Curve, bool]]:
+        return joined.from_iterable(cell.box.curves(cell.x, cell.y) for cell in self._cells)
 
 
 def _lift(context: Any) -> float:

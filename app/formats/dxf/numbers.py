@@ -19,7 +19,7 @@ _THOUSANDS = re.compile(rb"\s*[-+]?[1-9]\d{0,2},\d{3}\s*\Z")
 _COORDINATES = (*range(10, 60), *range(210, 240))
 """Group codes of what an entity measures: coordinates, lengths, angles, directions."""
 _MEASURED = frozenset((*_COORDINATES, *range(140, 150), *range(1010, 1060)))
-_READ = frozenset(b"LINE ARC CIRCLE ELLIPSE LWPOLYLINE POLYLINE VERTEX SPLINE INSERT TEXT MTEXT HATCH".split())
+_READ = frozenset(b"LINE ARC CIRCLE ELLIPSE LWPOLYLINE POLYLINE VERTEX SPLINE INSERT TEXT MTEXT HATCH POINT".split())
 """Entities that are read; what others say of themselves is not needed."""
 _LINE_END = re.compile(rb"\r\n|\n|\r")
 

@@ -1,5 +1,5 @@
-"""TEXT, and the attributes of inserted blocks, to curves: one line of letters, aligned, stretched, leaning, mirrored as
-the entity says.
+"""TEXT, and the attributes of inserted blocks, to curves: one line of letters, beside or below one another, aligned,
+stretched, leaning, mirrored as the entity says.
 """
 
 from __future__ import annotations
@@ -13,13 +13,14 @@ from ...model.curves import Point
 from .codes import stretches
 from .curves import NoLengthError, plane_of
 from .fonts import Fonts, style_font
+from .letter_boxes import LetterBox
 from .letters import LeftOutError, LetterRun, LetterStyle, TextCurves, lettered, run_of
+from .vertical import is_vertical, stacked
 
 MOST_LETTERS = 10_000
 """Of one text; more is no text."""
 
 _BACKWARD, _UPSIDE_DOWN = 2, 4
-_VERTICAL = 4
 _LEFT, _CENTRE, _RIGHT, _ALIGNED, _MIDDLE, _FIT = range(6)
 _BASELINE, _BOTTOM, _HALF, _TOP = range(4)
 
@@ -29,12 +30,10 @@ def text_lettering(entity: Any, fonts: Fonts) -> TextCurves:
 
     Raises:
         NoLengthError: its height is none.
-        LeftOutError: its letters stand below one another, or are too many.
+        LeftOutError: its letters are too many, or stand below one another and are to fill a length.
     """
     dxf, kind = entity.dxf, entity.dxftype()
     style = fonts.style(entity.dxf.style)
-    if style is not None and style.dxf.flags & _VERTICAL:
-        raise LeftOutError(f"{kind} (vertical)")
     if len(dxf.text) > MOST_LETTERS:
         raise LeftOutError(f"{kind} (of more than {MOST_LETTERS} letters)")
     place = _Baseline.of(dxf)
@@ -42,13 +41,19 @@ def text_lettering(entity: Any, fonts: Fonts) -> TextCurves:
         raise NoLengthError(place.at)
     look = LetterStyle(style_font(style), float(dxf.height), float(dxf.width), float(dxf.oblique))
     runs = [run_of(words, replace(look, bars=bars), fonts) for words, bars in stretches(dxf.text)]
-    stretched = place.stretched(runs)
-    to = plane_of(entity, dxf.insert.z).after(_frame(place, stretched, int(dxf.text_generation_flag)))
-    starts = _starts(stretched)
-    made = lettered(
-        (pair for run, x in zip(stretched, starts, strict=True) for pair in run.curves(x, 0.0)), stretched, to
-    )
-    return replace(made, layer=dxf.layer, kind=kind, at=plane_of(entity, dxf.insert.z).point(place.at))
+    flags, plane = int(dxf.text_generation_flag), plane_of(entity, dxf.insert.z)
+    if is_vertical(style):
+        if place.length:
+            raise LeftOutError(f"{kind} (vertical, to fill a length)")
+        cells = stacked([LetterBox.of(run) for run in runs], fonts)
+        drawn = [pair for cell in cells for pair in cell.box.curves(cell.x, cell.y)]
+        frame = _frame_down(place, min((cell.y for cell in cells), default=0.0), flags)
+    else:
+        runs = place.stretched(runs)
+        drawn = [pair for run, x in zip(runs, _starts(runs), strict=True) for pair in run.curves(x, 0.0)]
+        frame = _frame(place, runs, flags)
+    made = lettered(drawn, runs, plane.after(frame))
+    return replace(made, layer=dxf.layer, kind=kind, at=plane.point(place.at))
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +120,19 @@ def _frame(place: _Baseline, runs: list[LetterRun], flags: int) -> Affine:
     below = max((run.letters.face.below * run.unit for run in runs), default=0.0)
     right = {_CENTRE: _ink(runs) / 2, _RIGHT: _ink(runs)}.get(place.across, 0.0)
     down = {_BOTTOM: -below, _HALF: height / 2, _TOP: height, _MIDDLE: (height - below) / 2}.get(place.up, 0.0)
+    return _turned(place, place.turn, Affine(x0=-right, y0=-down), flags)
+
+
+def _frame_down(place: _Baseline, low: float, flags: int) -> Affine:
+    """Return the map from a line that runs down from zero to `low` to its place: its letters stand upright where the
+    line is turned by 270 degrees, as it is drawn downwards.
+    """
+    down = {_CENTRE: low / 2, _RIGHT: low}.get(place.across, 0.0)
+    return _turned(place, place.turn + math.pi / 2, Affine(y0=-down), flags)
+
+
+def _turned(place: _Baseline, turn: float, to: Affine, flags: int) -> Affine:
+    """Return a map about the point that a line is aligned to: `to`, then mirrored, then turned, radians."""
     along, up = -1.0 if flags & _BACKWARD else 1.0, -1.0 if flags & _UPSIDE_DOWN else 1.0
-    flipped = Affine(along, 0.0, 0.0, up).after(Affine(x0=-right, y0=-down))
-    c, s = math.cos(place.turn), math.sin(place.turn)
-    return Affine(c, -s, s, c, *place.at).after(flipped)
+    c, s = math.cos(turn), math.sin(turn)
+    return Affine(c, -s, s, c, *place.at).after(Affine(along, 0.0, 0.0, up).after(to))

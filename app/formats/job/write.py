@@ -27,7 +27,7 @@ def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
         units: of a drawing that names none, or None.
     """
     for path in SETTINGS:
-        values = {key: _setting(placed, job) for key, placed in settings_of(path).items()}
+        values = {key: setting_said(placed, job) for key, placed in settings_of(path).items()}
         yield from _table(path, {"units": word_of(UNITS, units), **values} if path == "drawing" and units else values)
     for tool in job.tools:
         yield from tool_lines(tool)
@@ -35,7 +35,8 @@ def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
         yield from _table("operation", dict(_operation(operation)), several=True)
 
 
-def _setting(placed: ParameterPlace, job: Job) -> Any:
+def setting_said(placed: ParameterPlace, job: Job) -> Any:
+    """Return a setting of a job as job files spell it."""
     value, known = placed.of(job), WORDS.get(placed.key)
     return word_of(known.words, value) if known else value
 

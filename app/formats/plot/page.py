@@ -85,7 +85,7 @@ class TextLine:
     """One line of text.
 
     Attributes:
-        at: where its foot begins, has its middle or ends, by `anchor` 0, 0.5 or 1.
+        at: where its foot begins, has its middle or ends, by `anchor` 0, 0.5 or 1. bold: in heavier letters.
         height: of the letters' body, mm on paper. angle: radians. lift: how far the foot stands above `at`, mm on
             paper.
     """
@@ -97,6 +97,7 @@ class TextLine:
     angle: float = 0.0
     lift: float = 0.0
     pen: Pen = Pen()
+    bold: bool = False
 
 
 @dataclass(frozen=True)

@@ -75,8 +75,9 @@ def _text(words: TextLine, place: Similarity, height: float) -> str:
     foot = (at[0] - words.lift * math.sin(words.angle), at[1] + words.lift * math.cos(words.angle))
     turn = f' transform="rotate({_n(-math.degrees(words.angle))} {_place(foot, height)})"' if words.angle else ""
     x, y = _place(foot, height).split()
+    weight = ' font-weight="bold"' if words.bold else ""
     return (
-        f'<text x="{x}" y="{y}"{turn} font-family="sans-serif" font-size="{_n(words.height)}" '
+        f'<text x="{x}" y="{y}"{turn} font-family="sans-serif" font-size="{_n(words.height)}"{weight} '
         f'text-anchor="{_ANCHORS[words.anchor]}" fill="{words.pen.colour}">{escape(words.text)}</text>'
     )
 

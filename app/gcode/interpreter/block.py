@@ -116,10 +116,15 @@ def _parsed(code: str, nesting: int, free: bool, polar: bool, begin: int) -> Par
         elif "a" <= letter <= "z" or (polar and letter in POLAR):
             words.append(Word(letter, values.value(), at, values.at, False))
         else:
-            raise BlockFault(
-                f"{letter!r} begins no word; expected a letter with a number.", column=-1 - at, word=letter
-            )
+            raise BlockFault(f"{letter!r} begins no word; {_instead(code, at)}.", column=-1 - at, word=letter)
     return ParsedLine(code, deleted, tuple(settings), tuple(words))
+
+
+def _instead(code: str, at: int) -> str:
+    """Return what is expected in the place of a letter that begins no word."""
+    if code[at] == "," and code[at + 1 : at + 2] in ("c", "r", "a"):
+        return "corners by ,C and ,R and angles by ,A are not followed: write them as moves"
+    return f"expected {'a decimal point in numbers' if code[at] == ',' else 'a letter with a number'}"
 
 
 _parsed_once = lru_cache(2048)(_parsed)

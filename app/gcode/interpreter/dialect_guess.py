@@ -23,7 +23,7 @@ _TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
     (dialect, re.compile(words, re.IGNORECASE | re.MULTILINE))
     for dialect, words in (
         (Dialect.GRBL, r"\bgrbl|^\s*\$[a-z0-9]"),
-        (Dialect.MACH3, r"\bmach\s?3"),
+        (Dialect.MACH3, r"\bmach\s?(?:2\s?/\s?)?3"),
         (
             Dialect.LINUXCNC,
             r"linuxcnc|^\s*(n\d+\s*)?o\s*<|#\s*<|^\s*(n\d+\s*)?o\s*\d+\s*(sub|if|while|do|repeat|call)\b|g5\.[23]|g5\.1\s*[xyij]|g64\s*p",

@@ -18,6 +18,9 @@ Value = float | Callable[[Parameters], float]
 NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)")
 NAME = re.compile(r"<([^<>\[\]()#]{1,200})>")
 FUNCTION = re.compile(r"(atan|abs|acos|asin|cos|exp|fix|fup|round|ln|sin|sqrt|tan|exists)\[")
+_DASHES = "\u2010\u2011\u2012\u2013\u2014\u2212"
+"""Signs that programs for writing put in the place of minus."""
+
 OPERATOR = re.compile(r"\*\*|[-+*/]|mod|and|xor|or|eq|ne|gt|ge|lt|le")
 
 ALIKE = 1e-4
@@ -249,9 +252,9 @@ class ValueReader:
     def _fault(self, text: str) -> BlockFault:
         """Return a fault here; a negative column is an index of the code, which the reader turns into a column."""
         found = self._peek()
-        return BlockFault(
-            f"{text}, found {found!r}." if found else f"{text}, found the end of the line.", column=-1 - self.at
-        )
+        what = repr(found) if found else "the end of the line"
+        remedy = "; write minus as -" if found and found in _DASHES else ""
+        return BlockFault(f"{text}, found {what}{remedy}.", column=-1 - self.at)
 
 
 def _negative(value: Callable[[Parameters], float]) -> Value:

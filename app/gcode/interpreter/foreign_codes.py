@@ -10,15 +10,29 @@ from .block import Block
 from .block_fault import BlockFault
 from .codes import ROTARY, ModalGroup
 from .control import Control
+from .dialect import Dialect
 from .expression import whole
 from .flow import Flow
 from .macro import subroutine
 from .parameters import Key
 
+REMEDY = "write out the moves that it makes: the reader stops here."
+"""What to do about a code that is known and not followed."""
+
 _MODES = {"G5", "G5.1"}
 """High-speed machining (G5 P10000, G5.1 Q1): how exactly the control follows the path, not which."""
 
-_PASSED = {"G8": "look-ahead", "G103": "look-ahead", "G107": "a cylinder", "G108": "look-ahead"}
+ENDS_NOTHING = frozenset({"G50.1", "G67"})
+"""Ends of mirroring and of calls, which are never in force in a program that can be read."""
+
+_PASSED = {
+    "G8": "look-ahead",
+    "G22": "a zone of the machine",
+    "G23": "a zone of the machine",
+    "G103": "look-ahead",
+    "G107": "a cylinder",
+    "G108": "look-ahead",
+}
 _RIGID = "M29"
 """The spindle of the next tapping cycle follows the axis: how it turns, not where the tool goes."""
 
@@ -29,10 +43,20 @@ _CYCLES = {
     "G70": "a circle of holes",
     "G71": "an arc of holes",
     "G72": "a line of holes",
+    "G31": "a move until a probe touches",
+    "G36": "a tool that is measured",
+    "G37": "a tool that is measured",
+    "G51.1": "mirroring",
+    "G66": "a program that is called behind each move",
+    "G76": "a bore that the tool leaves beside its wall",
+    "G77": "a bore from behind",
     "G150": "a pocket of the control's own",
     "G43.4": "a tool that tilts",
     "G43.5": "a tool that tilts",
 }
+UNITS_OF_MACH3 = {"G70": "G20", "G71": "G21"}
+"""Its older names of the units."""
+
 _ARGUMENTS: dict[str, int] = {
     letter: number for number, letter in enumerate("abcijkdef.h.m...qrstuvwxyz", 1) if letter != "."
 }
@@ -44,7 +68,8 @@ _BLOCK_TEXT = re.compile(
     rb"^[ \t]*(?:/[ \t]*)?(?:[:o][ \t]*[0-9]|[a-z#][ \t]*[-+.]?[0-9])", re.IGNORECASE | re.MULTILINE
 )
 _WHOLE_LENGTH = re.compile(rb"^[^(;\n]*[xyzijr][ \t]*[-+]?[0-9]*[1-9][0-9]*(?![0-9.])", re.IGNORECASE | re.MULTILINE)
-_UNITS = re.compile(rb"g[ \t]*2[01](?![0-9.])", re.IGNORECASE)
+_UNITS = re.compile(rb"g[ \t]*[27][01](?![0-9.])", re.IGNORECASE)
+"""G70 and G71 too: what they are on other controls than Mach3 is refused there."""
 
 
 def is_leader(text: bytes) -> bool:
@@ -84,18 +109,34 @@ def adapt(control: Control, block: Block) -> None:
         _drop(block, "pqr")
         control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
     for code in list(block.unknown):
-        if code in _CYCLES:
-            raise BlockFault(f"{code} is {_CYCLES[code]}, which is not followed; the reader stops here.", letter="g")
+        if control.options.dialect is Dialect.MACH3 and code in UNITS_OF_MACH3:
+            block.unknown.remove(code)
+            _set_units(block, UNITS_OF_MACH3[code])
+        elif code in _CYCLES:
+            raise BlockFault(f"{code} is {_CYCLES[code]}, which is not followed; {REMEDY}", letter="g")
         if code == "G154" or (code.startswith("G") and 110 <= float(code[1:]) <= 129):
             block.unknown.remove(code)
             block.codes[ModalGroup.OFFSET] = "G54.1"
             block.values.setdefault("p", float(code[1:]) - 109)
+        elif code in ENDS_NOTHING:
+            block.unknown.remove(code)
+            _drop(block, "xyz" if code == "G50.1" else "")
         elif code == _RIGID:
             block.unknown.remove(code)
         elif code in _PASSED:
             block.unknown.remove(code)
             _drop(block, "pq")
             control.warn(f"{code} ({_PASSED[code]}) is passed over.", "g")
+
+
+def _set_units(block: Block, code: str) -> None:
+    """Take a unit by another name.
+
+    Raises:
+        Fault: the block has both units.
+    """
+    if block.codes.setdefault(ModalGroup.UNITS, code) != code:
+        raise BlockFault("the block says both inch and mm; keep one of G20, G21, G70 and G71.", letter="g")
 
 
 def _drop(block: Block, letters: str) -> None:

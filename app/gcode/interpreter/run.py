@@ -17,6 +17,7 @@ from .foreign_codes import adapt, call_macro, is_leader, warn_of_numbers
 from .macro import call_or_return, is_macro, obey_macro
 from .moves import move
 from .notes import notes
+from .odd_bytes import warn_of_bytes
 from .options import ReadOptions
 from .own_header import registers_hold_wear
 from .places import Cursor, JumpTargets
@@ -48,6 +49,7 @@ _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
 _PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
 _COMPUTED = re.compile(r"[#\[]")
 """What the lane computes for controls with O words alone."""
+_OF_ANOTHER = "take it out, or say --dialect where the program is for another control."
 _ENDS = ("M2", "M30")
 
 
@@ -60,7 +62,7 @@ class InterpreterRun:
 
     def __init__(self, data: bytes, options: ReadOptions, progress: Progress, watch: Watch | None = None) -> None:
         """Stand before the first line; with a watch every block is done by itself, and told to it."""
-        self._text, self._options, self._progress = ProgramBuffer(data), options, progress
+        self._file, self._text, self._options, self._progress = data, ProgramBuffer(data), options, progress
         self._control = Control(options)
         self._control.registers_hold_wear = registers_hold_wear(data)
         self._rules = self._control.rules
@@ -98,6 +100,7 @@ class InterpreterRun:
         """
         try:
             self._skip_leader()
+            warn_of_bytes(self._control, self._file)
             warn_of_numbers(self._control, self._text.data)
             while self._flow.next.offset < len(self._text.data):
                 if not self._step():
@@ -138,7 +141,7 @@ class InterpreterRun:
 
     def _miss_end(self) -> None:
         """Tell that the text has no end, if the control wants one."""
-        if self._options.dialect is Dialect.LINUXCNC and self._control.row:
+        if self._options.dialect is Dialect.LINUXCNC and self._text.line_count:
             self._control.line = self._text.line_count
             self._control.warn("the program has no end; LinuxCNC wants M2, M30 or % behind it.")
 
@@ -335,11 +338,11 @@ class InterpreterRun:
         title, strict = self._rules.title, self._options.dialect in (Dialect.LINUXCNC, Dialect.GRBL)
         for code in [*block.codes.values(), *block.coolant]:
             if code in self._rules.missing:
-                raise BlockFault(f"{title} does not know {code}.", letter=code[0].lower())
+                raise BlockFault(f"{title} does not know {code}; {_OF_ANOTHER}", letter=code[0].lower())
         for code in block.unknown:
             own = code[0] == "M" and 100 <= float(code[1:]) < 200
             if (code[0] == "G" or strict) and not (own and self._options.dialect is Dialect.LINUXCNC):
-                raise BlockFault(f"{code} is not known.", letter=code[0].lower())
+                raise BlockFault(f"{code} is not known; {_OF_ANOTHER}", letter=code[0].lower())
             self._control.warn(f"{code} is the machine builder's own; what it does is not followed.", code[0].lower())
         unused = (
             "" if block.unknown or any(code in block.codes.values() for code in ("M98", "G65")) else self._unused(block)

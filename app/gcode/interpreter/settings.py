@@ -15,6 +15,7 @@ from .compensation import Compensation
 from .control import Control
 from .expression import whole
 from .feeds import set_feed
+from .foreign_codes import REMEDY
 from .offsets import ZERO, Place, added, offset_name, replaced, taken
 from .options import ToolOffset
 from .program import EventKind
@@ -249,7 +250,7 @@ def _refused(control: Control, block: Block) -> None:
     refused = {"G7": "the diameter mode of lathes", "G16": "polar coordinates", "G51": "scaling", "G68": "rotation"}
     for code in block.codes.values():
         if code in refused:
-            raise BlockFault(f"{refused[code]} ({code}) is not followed; the reader stops here.", letter="g")
+            raise BlockFault(f"{refused[code]} ({code}) is not followed; {REMEDY}", letter="g")
 
 
 _STEPS: tuple[tuple[ModalGroup, Callable[[Control, Block], None]], ...] = (

@@ -8,7 +8,7 @@ import re
 from .block_fault import BlockFault
 
 _BLANKS = {ord(c): None for c in " \t\v\f\x00\ufeff"}
-"""What a control skips everywhere; NUL and DEL were the leader of paper tapes."""
+"""What a control skips everywhere; NUL was the leader of paper tapes."""
 
 _NOT_CODE = re.compile(r"\([^()]*\)|;.*|[ \t\v\f\x00\ufeff]+")
 

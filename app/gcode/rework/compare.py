@@ -62,6 +62,13 @@ class _ComparedGap(NamedTuple):
     pairs: list[Rows]
 
 
+class _SideBySide(NamedTuple):
+    """(2, k) motions of both programs that run along the same path at the same time, and (k,) how far each time, mm."""
+
+    pairs: Rows
+    length: Floats
+
+
 class DifferenceKind(Enum):
     """What differs."""
 
@@ -280,7 +287,26 @@ class _Comparison:
             return _ComparedGap(self._apart(spans, whole=False), [])
         counts = f"{spans[0].stop - spans[0].first} and {spans[1].stop - spans[1].first} motions"
         item = ProgramDifference(DifferenceKind.SAME_PATH, *spans, longest, None, f"the same path in {counts}")
-        return _ComparedGap(item, [_side_by_side(*each) for each in lines])
+        return _ComparedGap(item, [self._together(_side_by_side(*each)) for each in lines])
+
+    def _together(self, found: _SideBySide) -> Rows:
+        """Return the pairs without those that are between one end and the same end in the other program: where lengths
+        differ in their last digits, each program comes to its end a little before or after the other.
+        """
+        pairs, length = found
+        if not pairs.shape[1]:
+            return pairs
+        before, after = pairs[:, :-2], pairs[:, 2:]
+        ends = self._a.program.motions.end[before[0]], self._b.program.motions.end[before[1]]
+        one_end = np.linalg.norm(ends[0] - ends[1], axis=1) <= self._tolerance
+        shortest = np.minimum(
+            np.minimum(self._a.length[before[0]], self._a.length[after[0]]),
+            np.minimum(self._b.length[before[1]], self._b.length[after[1]]),
+        )
+        between = np.all(before != after, axis=0) & one_end & (length[1:-1] < shortest / 2)
+        kept = np.ones(pairs.shape[1], bool)
+        kept[1:-1] = ~between
+        return pairs[:, kept]
 
     def _leash(self, spans: tuple[ProgramSpan, ProgramSpan]) -> float:
         return leash(
@@ -409,17 +435,20 @@ class _Comparison:
         return one is not None and other is not None and float(np.linalg.norm(one - other)) > self._tolerance
 
 
-def _side_by_side(a: Polyline, b: Polyline) -> Rows:
-    """Return (2, k) pairs of motions that run along the same path at the same time."""
+def _side_by_side(a: Polyline, b: Polyline) -> _SideBySide:
+    """Return the motions that run along the same path at the same time."""
     ends: Floats = np.sort(np.concatenate([path.along / (path.along[-1] or 1.0) for path in (a, b)]))
-    middle = (ends[1:] + ends[:-1])[ends[1:] > ends[:-1]] / 2
+    ends = ends[np.concatenate([[True], ends[1:] > ends[:-1]])]
+    middle = (ends[1:] + ends[:-1]) / 2
     owners = [
         path.owner[np.clip(np.searchsorted(path.along, middle * path.along[-1]), 1, len(path.along) - 1)]
         for path in (a, b)
     ]
     pairs = np.stack(owners)
-    fresh = np.any(pairs[:, 1:] != pairs[:, :-1], axis=0)
-    return pairs[:, np.concatenate([[True], fresh])] if pairs.shape[1] else pairs
+    if not pairs.shape[1]:
+        return _SideBySide(pairs, np.empty(0))
+    fresh = np.flatnonzero(np.concatenate([[True], np.any(pairs[:, 1:] != pairs[:, :-1], axis=0)]))
+    return _SideBySide(pairs[:, fresh], np.add.reduceat(np.diff(ends), fresh) * a.along[-1])
 
 
 def _pause(events: tuple[Pause, ...]) -> str:

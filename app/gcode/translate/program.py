@@ -41,6 +41,8 @@ _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", 
 _COMMENT = re.compile(r"\(([^()]*)\)|;(.*)$")
 _O_WORD = re.compile(r"(?:/|n[0-9.]+)*o")
 _COMPENSATION = frozenset({"G41", "G42", "G41.1", "G42.1"})
+_END_OF_FILE = "\x1a"
+"""What DOS programs put behind a text."""
 _STALE = re.compile(
     r"hitofude for |hitofude: blend_mm|hitofude smooth:|proven on the path|the control may add|"
     r"(?:tolerance|largest bend|effective points)\b.*(?:proven|after|corrected)",
@@ -274,7 +276,7 @@ def _check_rest(source: TranslationSource, line: int, ends: bool) -> None:
         source: the program. line: 1-based.
         ends: whether the line stands behind the last one that was done.
     """
-    text = code(source.lines[line - 1])
+    text = code(source.lines[line - 1]).strip(_END_OF_FILE)
     title = source.post.title
     if (
         not text
@@ -282,6 +284,8 @@ def _check_rest(source: TranslationSource, line: int, ends: bool) -> None:
         or (NUMBER.match(text) and not ends and DIALECT_RULES[source.dialect].fanuc_flow)
     ):
         return
+    if text.startswith("$"):
+        raise source.refusal(line, f"a command of the control itself ($) has no counterpart on {title}")
     raise source.refusal(line, f"what stands behind the end is not read, so it cannot be written for {title}")
 
 

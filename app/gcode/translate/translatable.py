@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from ...core.errors import InputError
 from ...model.motion import Plane
 from ..interpreter.block import ALWAYS, POLAR
-from ..interpreter.codes import ROTARY, TAKES, ModalGroup
+from ..interpreter.codes import CYCLES, ROTARY, TAKES, ModalGroup
 from ..interpreter.dialect import DIALECT_RULES, Dialect
+from ..interpreter.foreign_codes import UNITS_OF_MACH3
 from ..interpreter.program import ProgramProblem
 from ..interpreter.steps import BlockStep
 from ..interpreter.text import column_of
@@ -21,7 +22,7 @@ ARC_MODES = (Dialect.LINUXCNC, Dialect.GRBL, Dialect.MACH3)
 """They know G91.1 and G92.1."""
 _ALIKE_TEXT = """G0 G1 G2 G3 G4 G17 G18 G19 G20 G21 G40 G49 G54 G55 G56 G57 G58 G59 G61 G61.1 G64 G80 G90 G91 G90.1
 G91.1 G93 G94 G97
-G98 G99 G187 G15 G50 G69 M0 M1 M2 M30 M3 M4 M5 M7 M8 M9"""
+G98 G99 G187 G15 G50 G50.1 G67 G69 M0 M1 M2 M30 M3 M4 M5 M7 M8 M9"""
 ALIKE = frozenset(_ALIKE_TEXT.split())
 """Codes that mean the same everywhere, are said in another way, or end what is never in force in a program that can be
 read.
@@ -120,7 +121,7 @@ def _missing(code: str, step: BlockStep, source: TranslationSource) -> str:
         return _untapped(code, step, source)
     if code in _BY_HAND:
         return _BY_HAND[code].format(code, post.title)
-    if code in WRITTEN_OUT or code in SPLINES:
+    if code in WRITTEN_OUT or code in SPLINES or (source.dialect is Dialect.MACH3 and code in UNITS_OF_MACH3):
         return ""
     if code in rules.missing and code not in _SAID_OTHERWISE and code not in WRITTEN_AS_MOTIONS:
         return f"{post.title} has no {code}"
@@ -201,10 +202,11 @@ def _odd_words(step: BlockStep) -> Iterator[tuple[str, str]]:
     """Yield words that no code of the block takes, or that turn another axis, with the reason to refuse them."""
     block, codes = step.block, [*step.block.codes.values(), *step.block.coolant]
     taken = set(ALWAYS).union(*(TAKES.get(code, "") for code in [*codes, step.motion]))
+    taken |= {"u"} if "G4" in codes else {"k"} if step.motion in CYCLES else set()
     for letter, value in block.values.items():
         if letter in POLAR:
             yield letter, "polar coordinates are not written for {}"
-        elif letter in ROTARY:
+        elif letter in ROTARY and not (letter == "u" and block.codes.get(ModalGroup.ONCE) == "G4"):
             yield letter, f"the axis {letter.upper()} is not written for {{}}"
         elif letter not in taken:
             yield letter, "no code here takes this word, so it cannot be said for {}"

@@ -25,7 +25,7 @@ def polyline_loops(
     """
     loops = []
     for number in np.unique(primitives.region):
-        area = _area(rows, primitives, int(number)).buffer(-distance, quad_segs=32)
+        area = _beyond(rows, primitives, int(number), distance)
         for polygon in getattr(area, "geoms", [area]):
             for hole, line in enumerate((polygon.exterior, *polygon.interiors) if not polygon.is_empty else ()):
                 points = _on_level(field, shapely.get_coordinates(shapely.segmentize(line, _STEP))[:-1], distance)
@@ -35,14 +35,18 @@ def polyline_loops(
     return loops
 
 
-def _area(rows: Rows, primitives: Primitives, number: int) -> shapely.Geometry:
-    """Return one region as a polygon, by even-odd overlay of its contours."""
+def _beyond(rows: Rows, primitives: Primitives, number: int, distance: float) -> shapely.Geometry:
+    """Return what of one region is farther than a distance from its outlines, some of which may go there and back."""
     area: shapely.Geometry = shapely.Polygon()
+    ways = []
     starts = np.flatnonzero((primitives.region == number) & (primitives.previous >= np.arange(len(rows))))
     for first in starts:
         last = int(primitives.previous[first])
-        area = area.symmetric_difference(shapely.make_valid(shapely.Polygon(sample(rows[first : last + 1], _CHORD))))
-    return area
+        points = sample(rows[first : last + 1], _CHORD)
+        ways.append(shapely.LineString(np.concatenate([points, points[:1]])))
+        if len(points) > 2:  # else a line there and back, which has no area
+            area = area.symmetric_difference(shapely.make_valid(shapely.Polygon(points)))
+    return shapely.difference(area, shapely.union_all(shapely.buffer(ways, distance, quad_segs=32)))
 
 
 def _on_level(field: DistanceField, points: NDArray[np.float64], distance: float) -> NDArray[np.float64]:

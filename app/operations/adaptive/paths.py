@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -9,13 +10,14 @@ from ...core.progress import Progress
 from ...geometry.offset.offset import OffsetLevel
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
-from ...model.operation import AdaptiveOperation, Direction
+from ...model.operation import Direction, Operation
 from ...model.part import Units
 from ...toolpath.build import StrokeLabel
 from ...toolpath.entry.entry import EntryContext
 from ...toolpath.machining_areas import MachiningArea
 from ...toolpath.narrow_regions import finest, necks, too_small
 from ...toolpath.operation_context import OperationContext, check_depth, levels_of
+from ..from_outside import know_as_clear, open_stock
 from .limit import EngagementLimit
 from .passes import DiscPasses, farthest, nearest_first
 from .plan import ClearingTask, ConnectedPath, least_turn, mirrored, mirrored_part, plan
@@ -27,19 +29,20 @@ _TOLD = 20
 """Places that are told one by one."""
 
 
-def limit_of(job: Job, operation: AdaptiveOperation) -> EngagementLimit:
+def limit_of(job: Job, operation: Operation) -> EngagementLimit:
     """Return what the cutter of an operation may be engaged."""
     coarser = _INCH if job.out_units is Units.INCH else 1.0
-    return EngagementLimit(job.tool(operation.cut.tool).radius, operation.most_engaged_deg, coarser)
+    assert operation.proven_angle is not None
+    return EngagementLimit(job.tool(operation.cut.tool).radius, operation.proven_angle, coarser)
 
 
-def room_needed(job: Job, operation: AdaptiveOperation) -> float:
+def room_needed(job: Job, operation: Operation) -> float:
     """Return how far from the walls the cutter's centre must have room to be, mm."""
     limit = limit_of(job, operation)
     return limit.radius + least_turn(limit) + operation.cut.stock_to_leave
 
 
-def least_width(job: Job, operation: AdaptiveOperation) -> float:
+def least_width(job: Job, operation: Operation) -> float:
     """Return the least width, mm, of a region that this operation, or another one without a limit, machines."""
     others = replace(job, operations=tuple(each for each in job.operations if each.proven_angle is None))
     return min(2 * room_needed(job, operation), finest(others, operation))
@@ -49,7 +52,6 @@ def adaptive(context: OperationContext, index: int, progress: Progress) -> None:
     """Clear the area of an operation."""
     job = context.job
     operation = job.operations[index]
-    assert isinstance(operation, AdaptiveOperation)
     area, cut, tool = context.areas.of(operation), operation.cut, job.tool(operation.cut.tool)
     if area is None:
         return
@@ -59,7 +61,10 @@ def adaptive(context: OperationContext, index: int, progress: Progress) -> None:
     context.findings.extend(too_narrow(job, operation, area, level))
     climb = cut.direction is Direction.CLIMB
     walls = area.primitives if climb else mirrored(area.primitives)
-    parts = plan(ClearingTask(walls, cut.stock_to_leave, farthest(label, levels)), limit, progress.part(0.05, 0.9))
+    stock = open_stock(context, operation, area)
+    seen = stock if climb or stock is None else stock.mirrored()
+    task = ClearingTask(walls, cut.stock_to_leave, farthest(label, levels), seen)
+    parts = plan(task, limit, progress.part(0.05, 0.9))
     if not climb:
         parts = tuple(mirrored_part(part) for part in parts)
     context.findings.extend(_left(parts, operation))
@@ -68,14 +73,16 @@ def adaptive(context: OperationContext, index: int, progress: Progress) -> None:
     parts = tuple(nearest_first(parts, context.at))
     keep = tool.radius + cut.stock_to_leave
     ground = EntryContext(tool, cut.entry, area.distances, keep, True, cut.direction, context.cleared, context.tabs)
-    passes = DiscPasses(context.builder, label, ground, levels, operation.lift)
+    if stock is not None:
+        know_as_clear(context, operation, stock, [part.runs[0].rows[0, :2] for part in parts])
+    passes = DiscPasses(context.builder, label, ground, levels, operation.lift_between)
     passes.cut(parts, progress.part(0.9, 1.0))
     context.strokes += sum(len(part.runs) for part in parts) * len(levels.passes)
     context.at = (float(parts[-1].runs[-1].rows[-1, 2]), float(parts[-1].runs[-1].rows[-1, 3]))
     context.findings.extend(passes.entries.findings(tool, cut.entry.kind))
 
 
-def too_narrow(job: Job, operation: AdaptiveOperation, area: MachiningArea, level: OffsetLevel) -> list[Finding]:
+def too_narrow(job: Job, operation: Operation, area: MachiningArea, level: OffsetLevel) -> list[Finding]:
     """Return which regions are too small for the cutter, and which necks it does not pass, keeping its limit."""
     tool = job.tool(operation.cut.tool)
     return [
@@ -84,9 +91,9 @@ def too_narrow(job: Job, operation: AdaptiveOperation, area: MachiningArea, leve
     ]
 
 
-def _left(parts: Sequence[ConnectedPath], operation: AdaptiveOperation) -> list[Finding]:
+def _left(parts: Sequence[ConnectedPath], operation: Operation) -> list[Finding]:
     """Return what was left because the limit could not be kept there."""
-    angle = f"{operation.limit_deg:g} degrees"
+    angle = f"{round(math.degrees(operation.proven_angle or 0.0), 6):g} degrees"
     found = []
     for stop in [stop for part in parts for stop in part.stops][:_TOLD]:
         x, y = stop.place

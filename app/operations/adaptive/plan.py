@@ -14,6 +14,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ...geometry.primitives import Primitives, Rows, sample
+from ...toolpath.open_edges import BoxSides
 from .axis import RoughAxis, rough_axis
 from .cleared_discs import ClearedDiscs, Point, WallClearance
 from .limit import EngagementLimit
@@ -35,6 +36,9 @@ _SHARP = 0.1
 
 _SLIVER = 0.005
 """mm; as much may stand in a corner: less than counts as left."""
+
+_BESIDE = 0.5
+"""mm beside the stock at least at which the cutter comes down, as the first turn is not quite about its centre."""
 
 _CHORD = 1e-3
 
@@ -65,11 +69,13 @@ class ClearingTask:
         walls: closed contours, the area to the left.
         leave: stock to leave on them, mm.
         farthest: mm that the cutter goes over clear ground rather than through the air.
+        stock: beside which it begins, where the area goes on past its edges; None = the area does not.
     """
 
     walls: Primitives
     leave: float
     farthest: float
+    stock: BoxSides | None = None
 
 
 def plan(task: ClearingTask, limit: EngagementLimit, progress: Progress = NO_PROGRESS) -> tuple[ConnectedPath, ...]:
@@ -91,13 +97,22 @@ def plan(task: ClearingTask, limit: EngagementLimit, progress: Progress = NO_PRO
     room = WallClearance(field, task.leave, limit.radius + least)
     axis = rough_axis(task.walls, room, corners, _SPACING * limit.radius, progress.part(0.2, 0.4))
     axis = _complete(axis, coarse, room)
-    parts, found = [], trees(axis)
+    parts, found = [], trees(axis, _beside_stock(axis, task.stock, limit.radius, least))
     for k, tree in enumerate(found):
         if axis.reach[tree.root] < limit.radius + least - 1e-9:
             continue
         part = progress.part(0.4 + 0.6 * k / len(found), 0.4 + 0.6 * (k + 1) / len(found))
         parts.append(_part(_PlannedArea(room, axis, (fine, coarse), (tip, least), task), tree, limit, part))
     return tuple(parts)
+
+
+def _beside_stock(axis: RoughAxis, stock: BoxSides | None, radius: float, least: float) -> NDArray[np.bool_] | None:
+    """Return (n,) at which points of the axis the cutter may begin wholly beside the stock, None where it has no
+    business there.
+    """
+    if stock is None:
+        return None
+    return (stock.away(axis.points) >= radius + _BESIDE) & (axis.reach >= radius + least)
 
 
 @dataclass(frozen=True, eq=False)

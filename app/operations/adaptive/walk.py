@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.progress import Progress
 from .axis import RoughAxis
@@ -147,7 +148,7 @@ class AxisTree:
     """A spanning tree of a connected part of the axis.
 
     Attributes:
-        root: its widest point.
+        root: its widest point, of those at which it should begin if it has any.
         order: all points, each after the one before it.
         after: the points behind each, the shortest branch first.
     """
@@ -161,8 +162,12 @@ class AxisTree:
         return self.after.get(node, [])
 
 
-def trees(axis: RoughAxis) -> list[AxisTree]:
-    """Return a spanning tree of each connected part, made of its widest edges."""
+def trees(axis: RoughAxis, begin: NDArray[np.bool_] | None = None) -> list[AxisTree]:
+    """Return a spanning tree of each connected part, made of its widest edges.
+
+    Args:
+        begin: (n,) points of the axis at which it should begin rather than elsewhere; None = no matter where.
+    """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
 
@@ -179,7 +184,9 @@ def trees(axis: RoughAxis) -> list[AxisTree]:
     linked[axis.edges.ravel()] = True
     for part in np.unique(label[linked]) if linked.any() else ():
         members = np.flatnonzero(label == part)
-        root = int(members[np.argmax(axis.reach[members])])
+        wished = members[begin[members]] if begin is not None else members
+        roots = wished if len(wished) else members
+        root = int(roots[np.argmax(axis.reach[roots])])
         order, before = breadth_first_order(spanning, root, directed=False)
         found.append(_tree(axis, root, order.tolist(), before))
     return found

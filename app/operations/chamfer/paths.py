@@ -29,7 +29,7 @@ from ...toolpath.drawn_contours import DrawnContours
 from ...toolpath.machining_areas import MachiningArea
 from ...toolpath.operation_context import OperationContext, levels_of
 from ...toolpath.selected import selected
-from ..engrave.open_line import clear_parts
+from ..engrave.open_line import clear_parts, runs_of_parts
 from ..vcarve.branches import AxisBranch
 from ..vcarve.paths import CarvedPass, PassWriter, VCutter, carved
 
@@ -163,26 +163,7 @@ def _clear(
         worst = int(np.argmax((1 - whole) * size))
         x, y = points_at(ring.rows[[worst]], np.array([0.5]))[0].tolist()
         lost.append((x, y, float(((1 - whole) * size).sum())))
-        yield from (replace(ring, rows=piece) for piece in _pieces(ring.rows, row, low, high))
-
-
-def _pieces(rows: np.ndarray, row: np.ndarray, low: np.ndarray, high: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield runs of parts of rows that follow one another without a gap; around the ring's beginning, too."""
-    parts = []
-    for k, a, b in zip(row.tolist(), low.tolist(), high.tolist(), strict=True):
-        part = rows[k].copy()
-        part[:2], part[2:4] = points_at(rows[[k, k]], np.array([a, b]))
-        parts.append(part)
-    runs: list[list[np.ndarray]] = []
-    for part in parts:
-        if runs and np.hypot(*(runs[-1][-1][2:4] - part[:2])) < _WELD:
-            part[:2] = runs[-1][-1][2:4]
-            runs[-1].append(part)
-        else:
-            runs.append([part])
-    if len(runs) > 1 and np.hypot(*(runs[-1][-1][2:4] - runs[0][0][:2])) < _WELD:
-        runs[0] = [*runs.pop(), *runs[0]]
-    return (np.array(run) for run in runs)
+        yield from (replace(ring, rows=piece) for piece in runs_of_parts(ring.rows, row, low, high))
 
 
 def _stopped_short(lost: Sequence[tuple[float, float, float]], tool: Tool, cone: ChamferCone) -> Iterator[Finding]:

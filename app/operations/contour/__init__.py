@@ -10,7 +10,7 @@ from ...model.operation import ContourOperation, Operation, Side
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..engrave.open_line import line_paths
 from ..registry import OperationMethod, register
-from .paths import contour, wall_findings
+from .paths import contour, prepared_contour, wall_findings
 
 
 def _missed(areas: MachiningAreas, operation: Operation, area: MachiningArea | None) -> Iterable[Finding]:
@@ -23,4 +23,4 @@ def _missed(areas: MachiningAreas, operation: Operation, area: MachiningArea | N
     return wall_findings(areas, operation, area, level)[1]
 
 
-register(ContourOperation, OperationMethod(contour, _missed))
+register(ContourOperation, OperationMethod(contour, _missed, prepared=prepared_contour))

@@ -35,10 +35,11 @@ from ...toolpath.leads.tab import (
 )
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ...toolpath.narrow_regions import finest, too_small
-from ...toolpath.operation_context import OperationContext, emit, passes_of
+from ...toolpath.operation_context import OperationContext, PreparedStrokes, passes_of
 from ...toolpath.selected import selected
 from ...toolpath.side import wall_paths
 from ..engrave.open_line import line_paths
+from ..from_outside import emit_prepared, open_stock
 from .dogbone import CornerRelief, corner_reliefs, recorded, refused_relief_findings
 from .gaps import WallGap, gaps
 from .narrow_places import clamp_findings, narrow_place_findings, narrow_places
@@ -92,6 +93,13 @@ class _ContourStrokes:
 
 
 def contour(context: OperationContext, index: int, progress: Progress) -> None:
+    """Carry out a contour operation."""
+    prepared = prepared_contour(context, index, progress.part(0.0, 0.7))
+    if prepared is not None:
+        emit_prepared(context, index, prepared, progress.part(0.7, 1.0))
+
+
+def prepared_contour(context: OperationContext, index: int, progress: Progress) -> PreparedStrokes | None:
     """Steps 120 and 130: offset every contour by the contour tool's radius, and fill the area it bounds; or follow the
     lines.
 
@@ -103,15 +111,15 @@ def contour(context: OperationContext, index: int, progress: Progress) -> None:
     assert isinstance(operation, ContourOperation)
     area = context.areas.of(operation)
     if area is None:
-        return
+        return None
     work = _ContourJob(context, index, operation, area, context.job.tool(operation.cut.tool))
     rough = None
     if operation.side is Side.ON:
-        paths, reported = line_paths(area, work.tool, operation.cut.direction, progress.part(0.0, 0.5))
+        paths, reported = line_paths(area, work.tool, operation.cut.direction, progress.part(0.0, 0.7))
         context.findings.extend(reported)
         finish = _finish(work, paths, ())
     else:
-        levels = _levels(work, progress.part(0.0, 0.5))
+        levels = _levels(work, progress.part(0.0, 0.7))
         found = _looked_at(work, levels[0], progress)
         paths = wall_paths(levels[0], area, operation.cut.direction)
         finish = _finish(work, paths, _bones(work, found, levels[0], progress))
@@ -120,8 +128,8 @@ def contour(context: OperationContext, index: int, progress: Progress) -> None:
             rough = _rough(work, wall_paths(levels[1], area, operation.cut.direction), levels[1].distance, finish, ways)
             context.findings.extend(_about_thick(work))
     context.findings.extend(overlap_findings(finish.runs, work.around(work.wall)))
-    progress.step(0.7, "Contours")
-    emit(context, index, area, _together(work, finish, rough), progress.part(0.7, 1.0))
+    progress.step(1.0, "Contours")
+    return PreparedStrokes(area, _together(work, finish, rough), open_stock(context, operation, area))
 
 
 def _about_thick(work: _ContourJob) -> list[Finding]:
@@ -152,7 +160,7 @@ def _looked_at(work: _ContourJob, level: OffsetLevel, progress: Progress) -> lis
     (step 130).
     """
     context, area = work.context, work.area
-    progress.step(0.5, "Fill")
+    progress.step(0.7, "Fill")
     context.on_bitmap = check_on_bitmap(area.distances, level, context.observer)
     context.findings.extend(context.on_bitmap.findings())
     found, reported = wall_findings(context.areas, work.operation, area, level)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -124,6 +126,25 @@ def clear_parts(
     rows_found, lows, highs = (np.concatenate([each[k] for each in found]) for k in range(3))
     order = np.lexsort((lows, rows_found))
     return rows_found[order], lows[order], highs[order]
+
+
+def runs_of_parts(rows: Rows, row: NDArray[np.int64], low: Floats, high: Floats) -> Iterator[Rows]:
+    """Yield runs of parts of rows that follow one another without a gap; around the ring's beginning, too."""
+    parts = []
+    for k, a, b in zip(row.tolist(), low.tolist(), high.tolist(), strict=True):
+        part = rows[k].copy()
+        part[:2], part[2:4] = points_at(rows[[k, k]], np.array([a, b]))
+        parts.append(part)
+    runs: list[list[np.ndarray]] = []
+    for part in parts:
+        if runs and np.hypot(*(runs[-1][-1][2:4] - part[:2])) < tolerances.WELD:
+            part[:2] = runs[-1][-1][2:4]
+            runs[-1].append(part)
+        else:
+            runs.append([part])
+    if len(runs) > 1 and np.hypot(*(runs[-1][-1][2:4] - runs[0][0][:2])) < tolerances.WELD:
+        runs[0] = [*runs.pop(), *runs[0]]
+    return (np.array(run) for run in runs)
 
 
 def _told(cut_off: list[tuple[float, float, float]], tool: Tool) -> list[Finding]:

@@ -23,6 +23,7 @@ from ...toolpath.linking.runs import NOTHING, GapFilling, between, fill
 from ...toolpath.machining_areas import MachiningArea
 from ...toolpath.narrow_regions import finest, necks, too_small
 from ...toolpath.operation_context import OperationContext, emit, passes_of
+from ..from_outside import from_outside, open_stock
 
 _SHARES = (1.6, 1.8, 1.7, 1.75, 1.65, 1.5, 1.4)
 """Of the radius: stepovers that are compared; the first is the best guess."""
@@ -52,20 +53,40 @@ def pocket(context: OperationContext, index: int, progress: Progress) -> None:
         return
     wall = wall_distance(context.job, operation)
     outermost = max(wall, operation.cut.stock_to_leave) + tool.radius
-    stepovers = (
-        (stepover_of(operation, tool),) if operation.stepover else candidates(tool.radius, len(area.primitives.rows))
-    )
-    link_options = LinkOptions(operation.cut.direction, operation.outside_in)
-    chosen = shortest(area, PocketTarget(outermost, tool.radius, link_options), stepovers, progress.part(0, 0.9))
-    context.note((*chosen.levels, *chosen.filling.halves))
-    first = chosen.levels[0] if chosen.levels else OffsetLevel(outermost, ())
+    target = PocketTarget(outermost, tool.radius, LinkOptions(operation.cut.direction, operation.outside_in))
+    first = clear_in_rings(context, index, area, target, progress)
     small = too_small(area.regions, first, tool, 0.0 if wall else finest(context.job, operation))
     context.findings.extend(each for each in small if not _left_to_contours(each.amount or 0.0, context.job, operation))
+
+
+def clear_in_rings(
+    context: OperationContext, index: int, area: MachiningArea, target: PocketTarget, progress: Progress
+) -> OffsetLevel:
+    """Clear an area for one of the job's operations, in rings, and return the outermost ones.
+
+    Raises:
+        ParameterError: the stepover is larger than the tool, or the operation deeper than the stock.
+        Cancelled: by progress.
+    """
+    operation, tool = context.job.operations[index], context.job.tool(context.job.operations[index].cut.tool)
+    stepovers = (
+        (stepover_of(operation, tool),)
+        if operation.ring_stepover
+        else candidates(tool.radius, len(area.primitives.rows))
+    )
+    chosen = shortest(area, target, stepovers, progress.part(0, 0.9))
+    context.note((*chosen.levels, *chosen.filling.halves))
+    first = chosen.levels[0] if chosen.levels else OffsetLevel(target.outermost, ())
     context.findings.extend(necks(first, area.primitives, area.distances, tool))
     if chosen.strokes:
         context.stepovers[index] = chosen.stepover
     context.strokes += len(chosen.strokes) * passes_of(context, index)
-    emit(context, index, area, chosen.strokes, progress.part(0.9, 1.0))
+    stock = open_stock(context, operation, area)
+    strokes = (
+        chosen.strokes if stock is None else from_outside(context, operation, area, chosen.strokes, target.outermost)
+    )
+    emit(context, index, area, strokes, progress.part(0.9, 1.0))
+    return first
 
 
 @dataclass(frozen=True)

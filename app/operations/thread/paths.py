@@ -1,8 +1,8 @@
-"""Thread milling: right-handed threads on a helix of the pitch, in and out on half circles.
+"""Thread milling: on a helix of the pitch, in and out on half circles.
 
-Climb milling goes round counter-clockwise and up in a hole, clockwise and down on a boss. The half circle through the
-hole's middle stays on the thread's own surface: seen from the axis it turns half as fast as it goes round, so that it
-rises by a quarter of the pitch.
+Climb milling goes round counter-clockwise in a hole, clockwise on a boss. A right-handed thread rises
+counter-clockwise, a left-handed one falls. The half circle through the hole's middle stays on the thread's own surface:
+seen from the axis it turns half as fast as it goes round, so that it rises, or falls, by a quarter of the pitch.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class ThreadWay:
     Attributes:
         radius: of its centre's helix, mm. lead: height that a half circle in or out takes, mm.
         starts: height of the lower end of each pass, mm. turns: of each.
-        pitch: mm. ccw: seen from above; then it goes up, else down.
+        pitch: mm. ccw: seen from above. up: whether it goes up on its way round.
         beside: how far from the axis each half circle begins, mm: 0 in a hole.
         feed: of the mill's centre, mm/min.
     """
@@ -47,6 +47,7 @@ class ThreadWay:
     turns: int
     pitch: float
     ccw: bool
+    up: bool
     beside: float
     feed: float
 
@@ -67,6 +68,7 @@ def way_of(operation: ThreadOperation, tool: Tool) -> ThreadWay:
     thread, cut = operation.thread, operation.cut
     pitch, teeth = thread.pitch, teeth_of(tool, thread.pitch)
     ccw = (cut.direction is Direction.CLIMB) != operation.external
+    up = ccw != operation.left_hand
     if operation.external:
         radius = thread.bolt_core / 2 + tool.radius + correction(thread, tool.radius, True)
         lead, beside = pitch * operation.lead(tool) / (2 * radius), radius + 2 * operation.lead(tool)
@@ -81,10 +83,10 @@ def way_of(operation: ThreadOperation, tool: Tool) -> ThreadWay:
         )
     first = lead - cut.depth
     if teeth == 1:
-        return ThreadWay(radius, lead, (first,), math.ceil(-first / pitch - 1e-9), pitch, ccw, beside, feed)
+        return ThreadWay(radius, lead, (first,), math.ceil(-first / pitch - 1e-9), pitch, ccw, up, beside, feed)
     passes = math.ceil(-first / (teeth * pitch) - 1e-9)
     starts = tuple(first + k * teeth * pitch for k in range(passes))
-    return ThreadWay(radius, lead, starts if ccw else starts[::-1], 1, pitch, ccw, beside, feed)
+    return ThreadWay(radius, lead, starts if up else starts[::-1], 1, pitch, ccw, up, beside, feed)
 
 
 def thread(context: OperationContext, index: int, progress: Progress) -> None:
@@ -119,8 +121,8 @@ def _cut_thread(context: OperationContext, hole: CircleHole, way: ThreadWay, lab
     rise = way.turns * way.pitch
     over_hole(context, place, label)
     for low in way.starts:
-        ends = (low, low + rise) if way.ccw else (low + rise, low)
-        lead = way.lead if way.ccw else -way.lead
+        ends = (low, low + rise) if way.up else (low + rise, low)
+        lead = way.lead if way.up else -way.lead
         builder.straight((*place, ends[0] - lead), Purpose.PLUNGE, label)
         turning = way.ccw != bool(way.beside)
         ways = (
@@ -155,9 +157,11 @@ def _turns_finding(operation: ThreadOperation, tool: Tool, way: ThreadWay) -> Fi
     how = f"{way.turns} turns with one tooth" if teeth_of(tool, way.pitch) == 1 else f"{passes} x 1 turn with all teeth"
     short = correction(operation.thread, tool.radius, operation.external)
     moved = f", {short:.4f} mm farther from the wall for the form of the flanks"
+    hand = ", left-handed," if operation.left_hand else ""
+    where = "on the boss" if operation.external else "in the hole"
     text = (
-        f"T{tool.number} mills {operation.thread.value} {'on the boss' if operation.external else 'in the hole'}: "
-        f"{how}, {'up' if way.ccw else 'down'}{moved}. The cut shows no turns of a thread, only the "
+        f"T{tool.number} mills {operation.thread.value}{hand} {where}: "
+        f"{how}, {'up' if way.up else 'down'}{moved}. The cut shows no turns of a thread, only the "
         "core within the mill's teeth."
     )
     return Finding(FindingKind.ASSUMED, text, counts=False)

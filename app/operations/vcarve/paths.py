@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
@@ -12,16 +12,19 @@ import shapely
 from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...geometry.buffer import buffered
+from ...geometry.distance import DistanceField
 from ...geometry.medial_axis.axis import medial_axes
 from ...geometry.offset.offset import Ring, offset_levels
-from ...geometry.primitives import CX, TURN, Primitives, R, Rows, sample
+from ...geometry.primitives import CX, TURN, Primitives, R, Rows, sample, within_half_turn
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import Purpose
 from ...model.operation import Operation
+from ...model.tool import Tool
 from ...toolpath.build import MovesBuilder, Stroke, StrokeLabel
 from ...toolpath.depth.depth import DepthLevels
 from ...toolpath.operation_context import OperationContext, check_depth, levels_of
+from ..engrave.open_line import clear_parts, runs_of_parts
 from .branches import AxisBranch, Floats, branches
 from .graph import graph_of, prune, trails
 
@@ -32,6 +35,9 @@ _SAME = 1e-9
 
 _CLEARED = 1e-3
 """mm; stock to leave that is so near to how wide the cone is clears the floor that it leaves."""
+
+RIDGE = 0.1
+"""mm; the height of the ridges that the cone leaves where the flat tool does not reach the floor."""
 
 _SLACK = 1e-6
 """mm by which passes overlap, so that digits leave no gap between them."""
@@ -101,7 +107,9 @@ def vcarve(context: OperationContext, index: int, progress: Progress) -> None:
         return
     check_depth(job, cut)
     levels, label = levels_of(context, cut), StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)
-    passes = list(carved(area.primitives, cone, levels.passes, progress.part(0.0, 0.9)))
+    passes = list(carved(area.primitives, cone, levels.passes, progress.part(0.0, 0.7)))
+    if (flat := flat_tool_of(job, operation)) is not None and passes[-1].rings:
+        passes.append(floor_corners(area.primitives, cone, -passes[-1].z, flat.radius, progress.part(0.7, 0.9)))
     context.findings.extend(_too_wide(job, operation, cone, passes[-1].rings))
     context.findings.extend(_cut_into(job, operation, cone))
     writer = PassWriter(context.builder, label, levels, cone)
@@ -136,6 +144,47 @@ def carved(primitives: Primitives, cone: VCutter, heights: Sequence[float], prog
         points = [AxisBranch(disc[None]) for disc in lone if low - _SLACK <= disc[2] <= high]
         yield CarvedPass(z, (*trails(graph_of(parts)), *points), level.rings)
         low = high
+
+
+def flat_tool_of(job: Job, operation: Operation) -> Tool | None:
+    """Return the tool that clears the floor of a carving before it; None where none is asked for."""
+    wanted = operation.prepared_by(job.tool(operation.cut.tool))
+    return job.tool(wanted[0].cut.tool) if wanted else None
+
+
+def floor_corners(primitives: Primitives, cone: VCutter, depth: float, flat: float, progress: Progress) -> CarvedPass:
+    """Return the ways at the greatest depth over what of the floor a flat tool does not reach: in its corners and where
+    it is narrow.
+
+    Rings inside the one from which the cone touches the walls, so near to one another that no ridge between them is
+    higher than `RIDGE`, where they are farther from the flat tool's centre than it is wide; and the medial axis there.
+
+    Args:
+        depth: greatest, mm. flat: radius of the flat tool, mm.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    wall = cone.radius(depth)
+    step = 2 * max(cone.tip, 0.0) + 2 * RIDGE * cone.rate
+    inner = wall - cone.tip + flat
+    levels = [*np.arange(wall + step, inner - _SAME, step).tolist(), inner]
+    made = offset_levels(primitives, levels, progress.part(0.0, 0.4), frame=False)
+    reached = [ring.rows for ring in made[-1].rings]
+    field = DistanceField.of(within_half_turn(np.concatenate(reached))) if reached else None
+    rings = tuple(piece for level in made[:-1] for ring in level.rings for piece in _beyond_flat(ring, field, flat))
+    whole = [branch for axis in medial_axes(primitives, progress.part(0.4, 1.0)) for branch in branches(axis)]
+    parts = [part for branch in whole for part in branch.between(wall - _SLACK, inner)]
+    return CarvedPass(-depth, tuple(trails(graph_of(parts))), rings)
+
+
+def _beyond_flat(ring: Ring, field: DistanceField | None, flat: float) -> Iterator[Ring]:
+    """Yield what of a ring is farther than a flat tool's radius, mm, from all places of its centre."""
+    if field is None:
+        yield ring
+        return
+    row, low, high = clear_parts(ring.rows, field, flat - _SLACK, bounded=False)
+    yield from (replace(ring, rows=piece) for piece in runs_of_parts(ring.rows, row, low, high))
 
 
 def _round_ones(primitives: Primitives) -> list[Floats]:
@@ -228,8 +277,8 @@ def _too_wide(job: Job, operation: Operation, cone: VCutter, rings: Sequence[Rin
         x, y = shapely.get_coordinates(shapely.point_on_surface(floor))[0].tolist()
         text = (
             f"At ({x:.3f}, {y:.3f}) the area is wider than T{tool.number} {tool.label} at its greatest depth, "
-            f"{cut.depth:g} mm: {floor.area:.3f} mm2 of floor are left to a flat tool; clear them first by a pocket "
-            f"operation of the same depth with {wide:.4f} mm of stock to leave."
+            f"{cut.depth:g} mm: {floor.area:.3f} mm2 of floor are left to a flat tool; name one as its flat_tool, or "
+            f"clear them first by a pocket operation of the same depth with {wide:.4f} mm of stock to leave."
         )
         found.append(Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(floor.area)))
     return found

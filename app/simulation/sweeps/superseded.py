@@ -8,6 +8,9 @@ it comes, so none may lie between.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,32 +35,54 @@ def superseded(motions: Motions, cutter: NDArray[np.int32], does: NDArray[np.uin
     kind = motions.kind
     turns = ((kind == MotionKind.ARC_CW) | (kind == MotionKind.ARC_CCW)) & (motions.plane == Plane.XY)
     rows = np.flatnonzero((does == CUTS) & (turns | (kind <= MotionKind.LINE)))
-    way, first, last = _ways(motions, rows, turns[rows])
-    span = np.cumsum(does == ASKS)[rows]
+    ways = _ways(motions, rows, turns[rows])
+    group = _groups((*ways.columns, cutter[rows], np.cumsum(does == ASKS)[rows]))
     answer = np.zeros(len(motions), bool)
-    answer[rows[_not_lowest(_groups(np.column_stack([way, cutter[rows], span])), first, last)]] = True
+    answer[rows[_not_lowest(group, ways.first, ways.last)]] = True
     return answer
 
 
-def _ways(motions: Motions, rows: NDArray[np.intp], turns: Mask) -> tuple[NDArray[np.int64], Floats, Floats]:
-    """Return what ways motions go in XY as whole numbers (m, k), and at what height they begin and end there, mm.
+class _Ways(NamedTuple):
+    """What ways m motions go in XY.
+
+    Attributes:
+        columns: (m,) each; motions go one way where all of these are alike.
+        first, last: (m,) the heights at which they begin and end there, mm.
+    """
+
+    columns: tuple[NDArray[np.generic], ...]
+    first: Floats
+    last: Floats
+
+
+def _ways(motions: Motions, rows: NDArray[np.intp], turns: Mask) -> _Ways:
+    """Return the ways of motions, column by column: of millions a table of them, and its copies, take a gigabyte.
 
     A line is the same from its other end; an arc too, the other way round.
     """
-    start, end, centre = motions.start[rows], motions.end[rows], np.where(turns[:, None], motions.centre[rows], 0.0)
-    later = (start[:, 0] > end[:, 0]) | ((start[:, 0] == end[:, 0]) & (start[:, 1] > end[:, 1]))
-    swapped = np.where(turns, motions.kind[rows] == MotionKind.ARC_CW, later)[:, None]
-    a, b = np.where(swapped, end, start), np.where(swapped, start, end)
-    places = np.rint(np.column_stack([a[:, :2], b[:, :2], centre[:, :2]]) / SAME).astype(np.int64)
-    return np.column_stack([places, np.where(turns, motions.turns[rows], 0)]), a[:, 2], b[:, 2]
+    start, end, centre = motions.start, motions.end, motions.centre
+    x, other_x = start[rows, 0], end[rows, 0]
+    later = (x > other_x) | ((x == other_x) & (start[rows, 1] > end[rows, 1]))
+    swapped = np.where(turns, motions.kind[rows] == MotionKind.ARC_CW, later)
+    columns: list[NDArray[np.generic]] = []
+    for axis in (0, 1):
+        a, b = start[rows, axis], end[rows, axis]
+        found = (np.where(swapped, b, a), np.where(swapped, a, b), np.where(turns, centre[rows, axis], 0.0))
+        columns += [np.rint(each / SAME) for each in found]
+    columns.append(np.where(turns, motions.turns[rows], 0))
+    low, high = start[rows, 2], end[rows, 2]
+    return _Ways(tuple(columns), np.where(swapped, high, low), np.where(swapped, low, high))
 
 
-def _groups(keys: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return (m,) a number for each row, the same for rows that are alike."""
-    order = np.lexsort(keys.T)
-    changes = np.any(np.diff(keys[order], axis=0) != 0, axis=1)
-    group = np.empty(len(keys), np.int64)
-    group[order] = np.concatenate([[0], np.cumsum(changes)]) if len(keys) else 0
+def _groups(columns: Sequence[NDArray[np.generic]]) -> NDArray[np.int64]:
+    """Return (m,) a number for each row, the same for rows whose columns (m,) are all alike."""
+    order = np.lexsort(columns)
+    changes = np.zeros(max(len(order) - 1, 0), np.bool_)
+    for column in columns:
+        sorted_column = column[order]
+        changes |= sorted_column[1:] != sorted_column[:-1]
+    group = np.empty(len(order), np.int64)
+    group[order] = np.concatenate([[0], np.cumsum(changes)]) if len(order) else 0
     return group
 
 

@@ -152,7 +152,8 @@ class _Shapes:
         shapes, leave = self.plain(work.area), work.operation.cut.stock_to_leave
         key = id(work.area.regions), leave
         if key not in self._floors:
-            self._floors[key] = united(grown(shapes, -leave, CHORD) if leave else shapes)
+            floor = united(grown(shapes, -leave, CHORD) if leave else shapes)
+            self._floors[key] = without(floor, _polygons(work.area.air)) if work.area.air else floor
         return self._floors[key]
 
     def reach(self, work: _ClearingOperation) -> Shape:
@@ -262,6 +263,11 @@ def _on_lines(work: _ClearingOperation, made: _Shapes) -> Shape:
         shapely.union_all([_line(contour) for contour in work.area.lines]), shapely.union_all(made.inner(work))
     )
     return buffered(lines, tool.radius - FITS, 64)
+
+
+def _polygons(contours: Sequence[Contour]) -> Shape:
+    """Return outlines that do not cross as one shape."""
+    return united([shapely.Polygon(sample(contour_rows(contour), CHORD)) for contour in contours])
 
 
 def _line(contour: Contour) -> Shape:

@@ -146,6 +146,11 @@ class Computation(QObject):
         progress.step(0.95, "Preparing the picture")
         return ComputationResult(made, self._prepare(made))
 
+    def making(self, job: Job) -> Callable[[Progress], MakeResult]:
+        """Return what makes another job of the same drawing, for a worker to run; what is computed stays as it is."""
+        pixels, findings = self.pixels_of(job.part), self.drawing_findings
+        return lambda progress: _make(job, pixels, findings, progress)
+
     def pixels_of(self, part: Part) -> BitmapPart | None:
         """Return the pixels of a part that is a picture's and was not drawn in since, else None."""
         if self.pixels is None:
@@ -184,12 +189,17 @@ class Computation(QObject):
         return WaitingTimes(changes["count"], changes["time_s"], waited - changes["time_s"], moved)
 
     def operation_times(self) -> dict[int, float]:
-        """Return the time of each operation, seconds, by its index; nothing while the result is out of date."""
+        """Return the time of each operation, seconds, by its index, with that of what it asks to come before it;
+        nothing while the result is out of date.
+        """
         if self.made is None or self.state is not ComputationState.CURRENT:
             return {}
-        return {
-            index: each["time_s"] for index, each in enumerate(self.made.report.data["operations"]) if each["enabled"]
-        }
+        job, count, times = self.made.job, len(self._document.job.operations), dict[int, float]()
+        for index, each in enumerate(self.made.report.data["operations"]):
+            if each["enabled"]:
+                owner = index if index < count else job.prepares(index)
+                times[owner or 0] = times.get(owner or 0, 0.0) + each["time_s"]
+        return times
 
     def _on_change(self, change: DocumentChange) -> None:
         if not change & (DocumentChange.PART | DocumentChange.JOB):

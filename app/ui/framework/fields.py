@@ -4,7 +4,7 @@ it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Collection, Hashable, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
@@ -283,6 +283,11 @@ class ChoiceField(QWidget):
     def value(self) -> Hashable:
         """The one that is underlined; None where none is."""
         return next((value for value, button in self.buttons.items() if button.isChecked()), None)
+
+    def leave_out(self, values: Collection[Hashable]) -> None:
+        """Offer all but some of the values."""
+        for value, button in self.buttons.items():
+            button.setVisible(value not in values)
 
     def show_value(self, value: Hashable) -> None:
         """Underline the job's value."""

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from .icons import IconButton
+from .labels import Elided
 from .samples import LineSample, PathLineKind
 from .section import hairline
 from .theme import LIGHT, Theme
 
 _GAP_PX = 8
+_BESIDE_PX = 76
+"""What of a sheet's width is beside the words of a row."""
 
 
 class LegendRow(QToolButton):
@@ -24,18 +29,25 @@ class LegendRow(QToolButton):
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setFixedHeight(24)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.line, self.label = LineSample(sample), QLabel(sample.value)
+        self.line, self.label = LineSample(sample), Elided(sample.value)
         self.setAccessibleName(f"Show {sample.value.lower()}")
         self.setToolTip(f"Show or hide: {sample.value.lower()}")
         row = QHBoxLayout(self)
         row.setContentsMargins(4, 0, 8, 0)
         row.setSpacing(10)
         row.addWidget(self.line)
-        row.addWidget(self.label)
-        row.addStretch(1)
+        row.addWidget(self.label, 1)
         for child in (self.line, self.label):
             child.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.toggled.connect(self._show_state)
+
+    def show_names(self, kind: str, names: Sequence[str], width: int) -> None:
+        """Name it, and what it is of: as many as there is room for in a sheet so many px wide; the tool tip has all."""
+        room, measure = width - _BESIDE_PX, self.label.fontMetrics().horizontalAdvance
+        whole = " ".join((kind, *names))
+        shorter = (f"{' '.join((kind, *names[:count]))} …" for count in range(len(names) - 1, 0, -1))
+        self.label.setText(next((text for text in (whole, *shorter) if measure(text) <= room), kind))
+        self.setToolTip(f"Show or hide: {whole[:1].lower()}{whole[1:]}")
 
     def _show_state(self, on: bool) -> None:
         self.line.setEnabled(on)

@@ -59,6 +59,8 @@ class ParameterField:
         if isinstance(self.field, NumberField):
             self.field.show_value(None if value is None else self.placed.parameter.shown(value), note)
         else:
+            if isinstance(self.field, ChoiceField):
+                self.field.leave_out(self.placed.parameter.not_taken)
             self.field.show_value(value)
 
     def kept(self, value: Any) -> Any:

@@ -47,13 +47,15 @@ def places(settings: Settings) -> set[Path]:
 
 
 def _warm(settings: Settings, progress: Progress) -> None:
-    """Sweep, which may wait for a disk, and load what the first Open and Compute need, which would make the window
-    stutter later.
+    """Sweep, which may wait for a disk, and load what the first line, Open, Compute and plot need, which would make the
+    window stutter later.
     """
     from ...core.jit.warm import warm
+    from ...drafting.expressions.grammar import read_script
 
+    read_script("")  # a parser is made of the grammar
     sweep(*places(settings))
-    for engine in _ENGINES:
+    for engine in (*_ENGINES, "pyqtgraph"):
         import_module(engine)
     warm(progress)
 

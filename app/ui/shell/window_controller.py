@@ -19,6 +19,7 @@ from ..framework.view import View, views
 from ..framework.workspace import Workspace
 from ..panels.changes import Subject, SubjectKind
 from ..views.canvas.modes import CanvasTool
+from ..views.curves.better_controller import BetterController
 from ..views.curves.controller import SmoothingController
 from ..views.cut.controller import CutController
 from ..views.cut.image_controller import ImageController
@@ -58,6 +59,7 @@ from .owned_curves_controller import OwnedCurvesController
 from .proposal_controller import ProposalController
 from .recovery_controller import RecoveryController
 from .shape_language_controller import ShapeLanguageController
+from .sheet_export_controller import SheetExportController
 from .shortcuts import Shortcuts
 from .snap_controller import SnapController
 from .start_page.controller import StartController
@@ -134,6 +136,7 @@ class WindowController(QObject):
         self.film_controller = TextFilmController(views.stages, window.film_panel, own.of, workspace)
         self.import_controller = ImportController(views.stages, window.import_panel, workspace)
         self.smoothing_controller = SmoothingController(views.curves, window.curves_panel, self.nc, workspace)
+        self.better_controller = BetterController(views.curves, window.curves_panel, self.nc, workspace)
         self.scenes = SceneController(views.surfaces, window.scene_side, window.scene, workspace)
         self.scene_export = SceneExportController(views.surfaces, lambda: self.scenes.work.proven, workspace)
         self.plot_controller = PlotController(views.plot, window.plot_panel, workspace)
@@ -152,6 +155,7 @@ class WindowController(QObject):
         """Make what serves the drawing and its job."""
         window, canvas = self.window_, self.window_.canvas
         self.drawing_export = DrawingExportController(window, workspace)
+        self.sheet_export = SheetExportController(window, workspace)
         self.tools = ToolExchange(window.panel, workspace)
         self.tab_controller = TabController(window.panel, canvas, self.document)
         self.underlay_controller = UnderlayController(canvas, workspace, commands)
@@ -181,8 +185,16 @@ class WindowController(QObject):
     def _connect_helpers(self) -> None:
         window, views = self.window_, self.window_.views
         self._on("export_drawing", self.drawing_export.start)
-        self.drawing_export.failed.connect(self._say_error)
-        for part in (self.drawing_export, self.tools, self.proposal_controller, self.template_controller):
+        self._on("sheet", self.sheet_export.start)
+        for exporting in (self.drawing_export, self.sheet_export):
+            exporting.failed.connect(self._say_error)
+        for part in (
+            self.drawing_export,
+            self.sheet_export,
+            self.tools,
+            self.proposal_controller,
+            self.template_controller,
+        ):
             part.said.connect(self._say)
         self.proposal_controller.failed.connect(self._say_error)
         self.template_controller.failed.connect(self._say_error)
@@ -204,6 +216,7 @@ class WindowController(QObject):
         self._connect_controller(self.image_controller, View.CUT)
         self._connect_controller(self.recorder, View.CUT)
         self._connect_controller(self.smoothing_controller, View.CURVES)
+        self._connect_controller(self.better_controller, View.CURVES)
         self._connect_controller(self.scenes, View.SURFACES)
         self._connect_controller(self.scene_export, View.SURFACES)
         self._connect_controller(self.nc, View.NC)
@@ -356,7 +369,8 @@ class WindowController(QObject):
         files.begun.connect(self.open_start)
 
     def open_start(self) -> None:
-        """Show the last files, samples, and what a new part is to be."""
+        """Show the last files, samples, and what a new part is to be; what was said of the part before goes."""
+        self.window_.notice.dismiss()
         self.start_controller.open(self.window_.theme)
         self.window_.views.start.new.lengths[0].edit.setFocus()
 

@@ -18,6 +18,7 @@ from ...model.hole_operations import BoreOperation, CountersinkOperation
 from ...model.job import Copies, Job
 from ...model.operation import ContourOperation, CutParameters, Operation, Order, Side
 from ...model.part import Contour
+from ...model.slot_operation import SlotOperation
 from ...model.tool import Tool
 from ...toolpath.drawn_contours import drawn_contours
 from .contour_sorts import SortedContours, by_diameter
@@ -35,6 +36,7 @@ class CurvePurpose(Enum):
     OUTSIDE = "contour outside"
     INSIDE = "contour inside"
     ON = "contour on line"
+    SLOT = "slot"
     DRILL = "drill"
     BORE = "bore"
     COUNTERSINK = "countersink"
@@ -137,14 +139,14 @@ def _check(contours: Sequence[Contour], way: CurvePurpose) -> None:
     """Refuse curves that cannot become what they are to."""
     if not contours:
         raise GeometryError("No selected curve is machined by this job; select a curve of a layer that is shown.")
-    if way in (CurvePurpose.ON, CurvePurpose.ENGRAVE):
+    if way in (CurvePurpose.ON, CurvePurpose.SLOT, CurvePurpose.ENGRAVE):
         return
     for each in contours:
         x, y = each.primitives[-1].end
         if not each.closed:
             raise GeometryError(
                 f"A selected curve is open at ({x:.3f}, {y:.3f}), so it bounds nothing; close it, or choose contour on "
-                "line or engrave."
+                "line, slot or engrave."
             )
         if way in _OF_CIRCLES and as_circle(each) is None:
             done = {CurvePurpose.DRILL: "drilled", CurvePurpose.BORE: "bored"}.get(way, "countersunk")
@@ -206,6 +208,8 @@ def _made(
         case _:
             tool = work.rack.fitting(LINE_TOOL, LINE_TOOL, work.depth)
             cut = work.cut(tool, work.depth, ())
+            if way is CurvePurpose.SLOT:
+                return [ProposedOperation(SlotOperation(cut), f"a slot along the lines, {work.depth:g} mm deep")]
             return [ProposedOperation(ContourOperation(cut, Side.ON), f"along the lines, {work.depth:g} mm deep")]
 
 

@@ -7,6 +7,7 @@ from app.gcode.interpreter.dialect_guess import guess_dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from tests.gcode.interpreter.programs import ends, read, told, warnings
+from tests.gcode.interpreter.rs274_motions import rs274
 
 OTHERS = [Dialect.FANUC, Dialect.HAAS, Dialect.MACH3]
 
@@ -129,3 +130,36 @@ def test_linuxcnc_wants_a_feed_behind_every_feed_mode() -> None:
 def test_a_program_without_an_end_is_told() -> None:
     assert any("no end" in text for text in warnings("G0 X1\nG0 X2\n"))
     assert not warnings("%\nG0 X1\n%\n") + warnings("G0 X1\nM30\n") + warnings("G0 X1\n", Dialect.GRBL)
+
+
+VECTRIC = "( for Mach2/3 from Vectric )\nN120G00{}G17G90G40G49G80\n{}G91.1\nG00X1.000Y2.000\nM30\n%\n"
+
+
+@pytest.mark.parametrize(("unit", "older", "x"), [("G21", "G71", 1.0), ("G20", "G70", 25.4), ("", "G70", 25.4)])
+def test_older_names_of_the_units_on_mach3(unit: str, older: str, x: float) -> None:
+    text = VECTRIC.format(unit, older)
+    assert guess_dialect(text.encode()) is Dialect.MACH3
+    assert ends(read(text, Dialect.MACH3))[-1] == pytest.approx((x, 2 * x, 0.0))
+    assert not any("units" in warning for warning in warnings(text, Dialect.MACH3))
+
+
+def test_older_names_of_the_units_are_refused_beside_others_and_elsewhere() -> None:
+    assert "both inch and mm" in told("G21 G70\n", Dialect.MACH3)
+    assert "say --dialect" in told("G71 G91.1\n")
+    assert "an arc of holes" in told("G71\n", Dialect.HAAS)
+
+
+@pytest.mark.parametrize("line", ["G67", "G50.1 X0. Y0.", "G17 G40 G49 G50 G67 G69 G80 G90"])
+def test_ends_of_what_is_never_in_force_are_nothing(line: str) -> None:
+    text = f"G21\n{line}\nG0 X1.\nM30\n"
+    assert ends(read(text, Dialect.FANUC)) == [(1, 0, 0)] and not warnings(text, Dialect.FANUC)
+
+
+@pytest.mark.parametrize("code", ["G31 Z-5. F50.", "G51.1 X0.", "G76 X1. Z-5. R2. Q0.5 F100.", "G66 P9100", "G68 R90."])
+def test_what_is_not_followed_is_told_with_what_to_do(code: str) -> None:
+    assert "is not followed; write out the moves that it makes" in told(f"G21\nG0 X1.\n{code}\n", Dialect.FANUC)
+
+
+@pytest.mark.parametrize("text", ["(only a comment)\n", "G21\nG90\n"])
+def test_a_program_without_moves_has_no_end_either(text: str) -> None:
+    assert rs274(text.encode())[1] and any("has no end" in warning for warning in warnings(text))

@@ -78,7 +78,19 @@ def test_a_mend_is_one_step_that_is_computed_and_can_be_taken_back(qtbot: QtBot,
     panel.choose(next(each for each in panel.entries if each.kind is FindingKind.SHANK_CONTACT))
     words = [button.text() for button in panel.mends]
     assert words[0] == "T1 of the library" and "T1 flutes 7 mm" in words and "Depth 3.5 mm" in words
-    panel.mends[words.index("Depth 3.5 mm")].click()
+    own, at = wiring.cut_controller.cut, words.index("Depth 3.5 mm")
+    panel.looks[at].click()
+    qtbot.waitUntil(lambda: wiring.cut_controller.cut is not own, timeout=60_000)
+    assert wiring.document.job.operations[0].cut == cut, "a preview changes nothing"
+    assert wiring.cut_controller.cut.picture.lowest == pytest.approx(-3.5, abs=1e-4) != own.picture.lowest
+    assert panel.title.text() == "Preview" and "preview" in wiring.window_.file_label.text()
+    assert not any(each.kind is FindingKind.SHANK_CONTACT for each in panel.entries)
+    panel.mends[1].click()
+    assert wiring.cut_controller.cut is own and "preview" not in wiring.window_.file_label.text()
+    panel.choose(next(each for each in panel.entries if each.kind is FindingKind.SHANK_CONTACT))
+    panel.looks[at].click()
+    qtbot.waitUntil(lambda: wiring.cut_controller.cut is not own, timeout=60_000)
+    panel.mends[0].click()
     assert not panel.mends and wiring.document.undo_name == "Depth 3.5 mm"
     qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=60_000)
     assert wiring.window_.status.badge.text().startswith("✓ 0 gouge")

@@ -3,7 +3,9 @@
 from dataclasses import replace
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QApplication
 
 from app.ui.framework.labels import Elided
 from app.ui.framework.verdict import VerdictLevel, VerdictSummary
@@ -33,6 +35,32 @@ def test_the_panel_stands_in_the_job_panels_place_while_there_is_a_cut(qtbot, be
     assert "mm²" in window.cut_panel.histogram.sums.text()
     beside.display_controller.show_view(View.DRAW)
     assert window.panel.isVisible() and not window.cut_panel.isVisible()
+
+
+def test_the_panel_is_as_wide_as_its_border_was_dragged(qtbot, beside):
+    panel, window = beside.window_.cut_panel, beside.window_
+    usual, at = panel.width(), QPoint(2, 200)
+    qtbot.mousePress(panel.grip, Qt.MouseButton.LeftButton, pos=at)
+    start = panel.grip.mapToGlobal(at)
+    for way in (60, 150):
+        move = QMouseEvent(
+            QEvent.Type.MouseMove,
+            QPointF(at),
+            QPointF(start - QPoint(way, 0)),
+            Qt.MouseButton.NoButton,
+            Qt.MouseButton.LeftButton,
+            Qt.KeyboardModifier.NoModifier,
+        )
+        QApplication.sendEvent(panel.grip, move)
+        assert panel.width() == usual + way
+    qtbot.mouseRelease(panel.grip, Qt.MouseButton.LeftButton, pos=at)
+    window.resize(1300, 800)
+    qtbot.waitUntil(lambda: window.width() == 1300)
+    assert panel.width() == usual + 150, "it stays"
+    panel.choose_width(5000)
+    assert panel.width() <= 0.6 * window.width() + 1, "the cut keeps room"
+    qtbot.mouseDClick(panel.grip, Qt.MouseButton.LeftButton, pos=at)
+    assert panel.width() == usual
 
 
 def test_what_is_wrong_is_read_whole_and_where_gives_way(qtbot):

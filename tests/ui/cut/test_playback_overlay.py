@@ -120,7 +120,7 @@ def test_cells_and_colours_that_change_together_are_those_of_the_picture(qtbot, 
     assert np.array_equal(rest(qtbot, view), shown)
 
 
-def test_wedges_have_a_row_for_a_ball_and_are_off_at_first(qtbot, view):
+def test_wedges_have_a_row_for_a_tool_and_are_off_at_first(qtbot, view):
     row = view.legend.wedges
     assert not row.isVisible() and not row.isChecked()
     bare = rest(qtbot, view)
@@ -140,6 +140,8 @@ def test_wedges_have_a_row_for_a_ball_and_are_off_at_first(qtbot, view):
     view.playback.show_wedges(None)
     assert np.array_equal(rest(qtbot, view)[:, :600], without[:, :600])
     view.playback.show_tool(replace(BALL, kind=ToolKind.FLAT), TIP)
+    assert row.isVisible(), "every cutter has facets"
+    view.playback.show_tool(None, None)
     assert not row.isVisible()
 
 

@@ -7,18 +7,20 @@ import numpy as np
 import pytest
 
 from app.ui.views.cut.camera import Camera, StandardView
-from app.ui.views.cut.cell_colours import CutColourBy
+from app.ui.views.cut.cell_colours import CutColourBy, cell_colours
 from app.ui.views.cut.cell_picking import SectionPlane
 from app.ui.views.cut.cut_picture import CutMoves, CutPaths
-from app.ui.views.cut.rendering.cut_frame import CutFrame, section_ends
+from app.ui.views.cut.rendering.cut_frame import CutFrame
 from app.ui.views.cut.rendering.cut_scene import CutScene
 from app.ui.views.cut.rendering.path_ribbons import rows_of, thinned
+from app.ui.views.cut.rendering.stock_textures import BLOCK, block_heights
 from app.ui.views.nc.motion_shapes import MotionLineStyle
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import (
     AMBIENT,
     CANVAS,
     DIRECT,
+    INKS,
     LIGHT,
     LOOK,
     METAL,
@@ -87,12 +89,12 @@ def test_a_sphere_is_shaded_pixel_by_pixel(context, tmp_path):
     from_above(context, heights, tmp_path, "sphere", slopes)
 
 
-def test_coarse_triangles_take_their_normals_from_every_cell(context):
+def test_a_quick_picture_takes_its_normals_from_every_cell(context):
     x, _ = cells(256)
     picture = flat_picture(-2.0 + 0.02 * np.sin(x * 12))
     camera = seen(picture, StandardView.TOP)
-    fine, coarse = (painted(context, picture, camera, budget=budget).astype(int) for budget in (0, 16 * 16))
-    assert np.abs(fine - coarse).max(axis=2).mean() < 1.0
+    fine, coarse = (painted(context, picture, camera, budget=budget).astype(int) for budget in (0, SIZE[0] * SIZE[1]))
+    assert np.abs(fine - coarse).max(axis=2).mean() < 1.5
     assert fine[SIZE[1] // 2, 60:260, 0].std() > 10
 
 
@@ -227,26 +229,59 @@ def test_painting_piece_by_piece_gives_the_same_and_shows_nothing_half_done(cont
     assert np.any(in_pieces != coarse)
 
 
-def test_only_cells_in_sight_are_painted_and_none_of_them_is_missing(context):
+def test_a_closer_look_has_no_gaps(context):
     x, y = cells(256)
     picture = flat_picture(-3.0 + np.sin(x * 3) * np.cos(y * 2))
     camera = Camera(pitch=0.9).fitted(picture.low, picture.high, SIZE).zoomed(6.0, (100.0, 120.0), SIZE)
+    assert not np.any(np.all(painted(context, picture, camera) == GROUND, axis=2))
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (8, 9), (17, 40), (64, 7)])
+def test_the_highest_of_a_block_is_the_highest_corner_of_its_squares(shape):
+    heights = np.random.default_rng(3).normal(size=shape).astype(np.float32)
+    counts = [size // BLOCK + 1 for size in shape]
+    whole = block_heights(heights, *(slice(0, count) for count in counts))
+    for row in range(counts[0]):
+        for column in range(counts[1]):
+            cells = (range(BLOCK * k - 1, BLOCK * (k + 1)) for k in (row, column))
+            at = (np.clip(list(some), 0, size - 1) for some, size in zip(cells, shape, strict=True))
+            assert whole[row, column] == heights[np.ix_(*at)].max()
+    part = block_heights(heights, slice(counts[0] - 1, counts[0]), slice(0, counts[1]))
+    assert np.array_equal(part, whole[-1:])
+
+
+def test_few_lines_of_sight_while_things_move_and_four_in_a_pixel_at_rest():
+    def rays(budget):
+        return CutFrame(Camera(), (800, 600), LOOK, budget).rays
+
+    assert rays(0) == (1600, 1200)
+    assert rays(800 * 600) == rays(10**9) == (800, 600)
+    assert rays(800 * 600 // 4) == (400, 300)
+    assert rays(1) == (200, 150)
+
+
+@pytest.mark.parametrize("turn", [0.1, 0.35, 0.7])
+def test_an_upright_wall_stands_where_it_was_cut_and_not_where_cells_end(context, turn):
+    """From above the rim of a half plane is straight to a quarter of a cell, at any angle to the cells."""
+    x, y = cells(128)
+    normal = np.array([math.cos(turn), math.sin(turn)])
+    low = (x - 5) * normal[0] + (y - 5) * normal[1] > 0
+    moves = CutMoves(np.array([1], np.int32), np.array([1], np.int32), np.zeros(1, np.int32))
+    picture = flat_picture(np.where(low, -4.0, 0.0), move=low.astype(np.int32) - 1, moves=moves)
+    size = (640, 640)
+    camera = seen(picture, StandardView.TOP, size).zoomed(3.0, (320.0, 320.0), size)
     with context:
         scene = CutScene(context)
         scene.show_picture(picture)
-        first, last = CutFrame(camera, SIZE, LOOK).seen_cells(picture, picture.highest)
+        scene.show_colours(cell_colours(picture, CutColourBy.TOOL, INKS))
+        scene.draw(CutFrame(camera, size, LOOK))
+        image = scene.pixels().astype(float)
         scene.release()
-    assert (last[0] - first[0]) * (last[1] - first[1]) < 0.6 * 256**2
-    image = painted(context, picture, camera)
-    assert not np.any(np.all(image == GROUND, axis=2))
-
-
-def test_where_a_section_enters_and_leaves_the_stock():
-    low, high = np.array([0.0, 0.0, -1.0]), np.array([10.0, 4.0, 0.0])
-    assert section_ends(SectionPlane((0.0, -1.0), -1.0), low, high) == ((0.0, 1.0), (10.0, 1.0))
-    assert section_ends(SectionPlane((1.0, 0.0), 12.0), low, high) is None
-    ends = section_ends(SectionPlane((math.sqrt(0.5), math.sqrt(0.5)), math.sqrt(0.5) * 4), low, high)
-    assert np.allclose(sorted(ends), [(0.0, 4.0), (4.0, 0.0)])
+    grey = image[..., 1] > 0.5 * image[..., 0]  # what was cut is red
+    px, py = pictures.places_of_pixels(camera, 0.0, size)
+    across = (px - 5) * normal[0] + (py - 5) * normal[1]
+    edges = [0.5 * (across[row][grey[row]].max() + across[row][~grey[row]].min()) for row in range(0, 640, 7)]
+    assert np.abs(edges).max() < 0.25 * picture.pitch
 
 
 def test_a_long_path_is_thinned_within_its_unbroken_parts_alone():

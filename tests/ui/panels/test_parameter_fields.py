@@ -6,9 +6,10 @@ import pytest
 
 from app.drafting.document import Document
 from app.model import operation_kinds as operations
+from app.model.chamfer_operation import ChamferOperation
 from app.model.fields import parameters_of
 from app.model.job import Job
-from app.model.operation import CutParameters
+from app.model.operation import ContourOperation, CutParameters, Side
 from app.model.operation_kinds import OPERATION_KINDS, register
 from app.model.part import Part
 from app.ui.framework.fields import ChoiceField, ListField, NumberField
@@ -73,3 +74,13 @@ def test_what_is_out_of_range_is_said_at_the_field(form):
 def test_long_choices_are_a_list(form):
     assert isinstance(form.fields["entry"].field, ListField)
     assert isinstance(form.fields["side"].field, ChoiceField)
+
+
+def test_what_a_kind_refuses_is_not_offered(form):
+    def offered(kind):
+        form.show_operation(job_of(kind), 0, None)
+        buttons = form.fields["side"].field.buttons
+        return [side for side, button in buttons.items() if not button.isHidden()]
+
+    assert offered(ChamferOperation) == [Side.INSIDE, Side.OUTSIDE]
+    assert offered(ContourOperation) == [Side.INSIDE, Side.OUTSIDE, Side.ON]

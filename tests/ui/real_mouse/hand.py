@@ -24,7 +24,7 @@ class Hand(QObject):
     """Acts on a window from a thread of its own, while the window lives on the other.
 
     Attributes:
-        clicks: made so far. typed: lines typed so far.
+        clicks: made so far. typed: lines typed so far. values: numbers, points and names typed so far.
     """
 
     _asked = Signal(object)
@@ -32,7 +32,7 @@ class Hand(QObject):
     def __init__(self, wiring: WindowController) -> None:
         super().__init__()
         self.wiring, self.window = wiring, wiring.window_
-        self.clicks, self.typed = 0, 0
+        self.clicks, self.typed, self.values = 0, 0, 0
         self._answers: queue.Queue[Any] = queue.Queue()
         self._asked.connect(self._answer, Qt.ConnectionType.QueuedConnection)
 
@@ -90,16 +90,23 @@ class Hand(QObject):
 
     def type_line(self, text: str) -> None:
         """Type something and Enter."""
-        self.typed += 1
-        _xdotool("type", "--delay", "8", text)
+        self._type(text)
         self.press("Return")
 
     def type_seen_line(self, text: str) -> None:
         """Type something, and Enter once the field that has the keys shows it: a busy one shows it late."""
-        self.typed += 1
-        _xdotool("type", "--delay", "8", text)
-        self.wait_until(lambda: _shown_in_field() == text, "what was typed")
+        self.type_seen(text)
         self.press("Return")
+
+    def type_seen(self, text: str) -> None:
+        """Type something, and wait until the field that has the keys shows it."""
+        self._type(text)
+        self.wait_until(lambda: _shown_in_field() == text, "what was typed")
+
+    def _type(self, text: str) -> None:
+        self.typed += 1
+        self.values += max(1, sum(any(map(str.isdigit, word)) for word in text.split()))
+        _xdotool("type", "--delay", "8", text)
 
     def press(self, keys: str) -> None:
         """Press a key, such as F5 or ctrl+e."""

@@ -3,10 +3,6 @@ look, export.
 """
 
 import json
-import os
-import shutil
-import subprocess
-import sys
 from collections import Counter
 from pathlib import Path
 
@@ -18,6 +14,7 @@ from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.model.curves import Circle, Curve
 from app.model.part import Part
+from tests.ui.real_mouse.display import run_on_display
 
 MOST_CLICKS = 60
 
@@ -36,24 +33,8 @@ def _shape(curve: Curve) -> object:
 @pytest.fixture(scope="module")
 def job(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Do the job once; return the folder of what came of it."""
-    if not (shutil.which("xvfb-run") and shutil.which("xdotool")):
-        pytest.skip(
-            "xvfb-run and xdotool are needed for a virtual display with a mouse: apt install xvfb xauth xdotool"
-        )
-    folder, root = tmp_path_factory.mktemp("job"), Path(__file__).resolve().parents[3]
-    own = {"QT_QPA_PLATFORM": "xcb", "HITOFUDE_CONFIG": str(folder / "config"), "PYTHONPATH": str(root)}
-    command = [
-        "xvfb-run",
-        "-a",
-        "-s",
-        "-screen 0 1400x900x24",
-        sys.executable,
-        "-m",
-        "tests.ui.real_mouse.fig2_job",
-        str(folder),
-    ]
-    run = subprocess.run(command, cwd=root, env=os.environ | own, capture_output=True, text=True, timeout=400)
-    assert run.returncode == 0, run.stderr + (folder / "counts.json").read_text("utf-8")
+    folder = tmp_path_factory.mktemp("job")
+    run_on_display(folder, "tests.ui.real_mouse.fig2_job", str(folder))
     return folder
 
 

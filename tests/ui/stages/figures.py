@@ -85,9 +85,14 @@ def stage(view: StagesView, number: int) -> QImage:
 
 
 def picture(view: StagesView) -> QImage:
-    """Return what the view shows, fitted."""
+    """Return what the view shows, fitted, and close it: one that stays open lies over the windows of later tests and
+    takes their mouse.
+    """
     view.pixels.fit_now()
-    return view.pixels.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    image = view.pixels.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    view.close()
+    view.deleteLater()
+    return image
 
 
 def offset_contour() -> QImage:

@@ -136,3 +136,12 @@ def test_a_program_is_drawn_by_its_cuts(qapp, tmp_path):
     image = thumbnail(path, QSize(200, 120), LIGHT, NO_PROGRESS)
     inked = [(x, y) for x in range(200) for y in range(120) if image.pixelColor(x, y).rgb() != LIGHT.canvas.rgb()]
     assert max(x for x, _ in inked) - min(x for x, _ in inked) == pytest.approx(1.5 * 92, abs=4)
+
+
+def test_what_was_said_of_the_part_before_does_not_lie_over_the_page(wiring):
+    wiring.window_.notice.ask("This is the sample part.", [("Draw your own", lambda: None)])
+    wiring.open_start()
+    assert not wiring.window_.notice.isVisible()
+    wiring.window_.notice.ask("What is to become of the changes?", [("Save", lambda: None)], stays=True)
+    wiring.open_start()
+    assert wiring.window_.notice.isVisible(), "a question waits for its answer"

@@ -11,6 +11,7 @@ from typing import ClassVar
 
 from ....core.tolerances import WELD
 from ....drafting.curves.shapes import rectangle
+from ....drafting.expressions.words import number_text, point_text
 from ....model.curves import Curve, Point
 from .drawing_tool import InputKind, Pick, ToolContext, ToolPreview
 from .prompt_tool import Answer, Prompt, PromptTool, answer_text, distance_aside, distance_from, point_of
@@ -331,15 +332,41 @@ class DimensionTool(PromptTool):
 
 @dataclass
 class TextTool(PromptTool):
-    """Where it stands, then its words, typed in the command line."""
+    """Where it stands, on a point or along a curve, then its words, typed in the command line, then a font if asked."""
 
     name = "Text"
+    toggles = ("along", "centre", "back", "font")
     asks = (
         Prompt("lower left of the words, or their height", sets="height"),
         Prompt("type the words", InputKind.WORDS),
+        Prompt("type the name of a font", InputKind.WORDS),
     )
     numbers: ClassVar[Mapping[str, float]] = {"height": 10.0}
-    form = "text {0} {height} {1}"
+
+    @property
+    def ask(self) -> Prompt:
+        """The question now; along a curve the first one is which."""
+        if "along" in self.on and not self.answers:
+            return Prompt("a curve where the words stand, or their height", InputKind.CURVE, sets="height")
+        return super().ask
+
+    def give(self, answer: Answer) -> str | None:
+        """Take an answer; a font only where it was asked for."""
+        self._keep([*self.answers, answer])
+        return self.made() if len(self.answers) >= (3 if "font" in self.on else 2) else None
+
+    def line_of(self, answers: Sequence[Answer]) -> str:
+        """Return `text P height words` or `text along CURVE height words at P`, with what is switched on."""
+        place, words, *font = answers
+        where = f"along {place.id}" if isinstance(place, Pick) else answer_text(place)
+        options = [
+            "align centre" if "centre" in self.on else "",
+            f"at {point_text(place.at)}" if isinstance(place, Pick) else "",
+            "back" if isinstance(place, Pick) and "back" in self.on else "",
+            *(f"font {answer_text(name)}" for name in font),
+        ]
+        line = f"text {where} {number_text(self.value('height'))} {answer_text(words)}"
+        return " ".join([line, *filter(None, options)])
 
 
 @dataclass

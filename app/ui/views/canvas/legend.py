@@ -17,6 +17,8 @@ from ...framework.theme import LIGHT, Theme
 from .modes import PathColourBy
 from .painting.engagement_colours import STEPS, colours
 
+WIDTH = 170
+
 
 class EngagementScale(QWidget):
     """The colours of engagement, and the shares of the diameter between them."""
@@ -62,7 +64,7 @@ class Legend(LegendSheet):
     colour_chosen = Signal(PathColourBy)
 
     def __init__(self, parent: QWidget) -> None:
-        super().__init__(parent, heading("Legend"), 170)
+        super().__init__(parent, heading("Legend"), WIDTH)
         self._folded_for_room = False
         self.rows: dict[PathLineKind, LegendRow] = {}
         for sample in (sample for sample in PathLineKind if sample is not PathLineKind.WEDGES):
@@ -115,12 +117,13 @@ class Legend(LegendSheet):
         any.
         """
         for sample in (PathLineKind.POCKET, PathLineKind.REST, PathLineKind.CONTOUR):
-            self.rows[sample].label.setText(f"{sample.value} {_tools(job.operations, sample)}".strip())
+            numbers = _tools(job.operations, sample)
+            self.rows[sample].show_names(sample.value, numbers, WIDTH)
         self.rows[PathLineKind.REST].setVisible(bool(_tools(job.operations, PathLineKind.REST)))
         self.rows[PathLineKind.CLAMP].setVisible(bool(job.keep_out_layers))
         self.fit_contents()
 
 
-def _tools(operations: tuple[Operation, ...], sample: PathLineKind) -> str:
+def _tools(operations: tuple[Operation, ...], sample: PathLineKind) -> tuple[str, ...]:
     numbers = dict.fromkeys(op.cut.tool for op in operations if sample_of(op) is sample and op.cut.enabled)
-    return " ".join(f"T{number}" for number in numbers)
+    return tuple(f"T{number}" for number in numbers)

@@ -14,6 +14,7 @@ from ...framework.figures import counted, grouped
 from ...framework.labels import muted
 from ...framework.section import EDGE, hairline, heading
 from ...panels.side_panel import WIDTH
+from .better_form import BetterForm
 from .outline_field import OutlineField
 from .points_form import PointsForm
 
@@ -81,6 +82,7 @@ class CurvesPanel(QScrollArea):
         self.smooth, self.save, self.nc = QPushButton("Smooth"), QPushButton("Save as…"), QPushButton("Open in NC")
         self.smooth.setProperty("role", "primary")
         self.reason, self.program, self.title, self.finding = reason_label(), muted(), QLabel(), reason_label()
+        self.better = BetterForm()
         self.figures: dict[str, QLabel] = {}
         self._grid = QGridLayout()
         self._result = QWidget()
@@ -134,6 +136,7 @@ class CurvesPanel(QScrollArea):
         told.addSpacing(4)
         told.addLayout(buttons)
         column.addWidget(self._result)
+        column.addWidget(self.better)
         column.addStretch(1)
         self._result.hide()
         self.setWidget(inner)
@@ -204,6 +207,7 @@ class CurvesPanel(QScrollArea):
         self.program.setText(name)
         self.program.setVisible(bool(name))
         self.smooth.setEnabled(bool(name))
+        self.better.show_program(bool(name))
 
     def show_busy(self, busy: bool) -> None:
         """Offer to leave what is being done."""

@@ -15,7 +15,7 @@ class CellPatch:
 
     Attributes:
         row, col: of the lowest left one.
-        heights: (h, w) float32 mm. values: (h, w) places in the palette. relief: (h, w, 4) as `app.ui.views.cut.relief`
+        heights: (h, w) float32 mm. values: (h, w) places in the palette. relief: (h, w, 8) as `app.ui.views.cut.relief`
             makes it.
     """
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
@@ -49,6 +49,26 @@ def job_shown(made: MakeResult, name: str, colour: CutColourBy, progress: Progre
     return shown_cut(made.cut, files, colour, progress)
 
 
+@dataclass(frozen=True, eq=False)
+class MendTrial:
+    """A mend, and the cut as it would be with it; None where nothing would be cut."""
+
+    mend: Mend
+    cut: ShownCut | None
+
+
+def trial_shown(
+    mend: Mend, making: Callable[[Progress], MakeResult], colour: CutColourBy, progress: Progress
+) -> MendTrial:
+    """Make the job of a mend and prepare its cut.
+
+    Raises:
+        HitofudeError: the job cannot be made. Cancelled: it was asked to stop.
+    """
+    made = making(progress.part(0.0, 0.8))
+    return MendTrial(mend, job_shown(made, made.job.part.name, colour, progress.part(0.8, 1.0)))
+
+
 class CutController(Controller):
     """Follows the computation, and shows the cut of another program when it is asked to.
 
@@ -77,9 +97,10 @@ class CutController(Controller):
         self._foreign: ForeignProgram | None = None
         self._shown_foreign: ForeignProgram | None = None
         self._made: MakeResult | None = None
+        self._trial: MendTrial | None = None
         self._marked = False
         self._at: TimelinePlace | None = None
-        self.worker, self.foreign_worker = Worker(self), Worker(self)
+        self.worker, self.foreign_worker, self.trial_worker = Worker(self), Worker(self), Worker(self)
         self.zoom_controller = ZoomController(self._view.model, self._view.render_scheduler, self)
         self.zoom_controller.found.connect(self._view.show_detail)
         self.player = page.player
@@ -91,10 +112,19 @@ class CutController(Controller):
         for worker in (self.worker, self.foreign_worker):
             worker.done.connect(self._on_done)
             worker.failed.connect(self._on_failed)
+        self.trial_worker.done.connect(self._on_tried)
+        self.trial_worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
         activity.follow(self.foreign_worker)
+        activity.follow(self.trial_worker, "Cutting a preview…")
         activity.cancelled.connect(self.worker.cancel)
         activity.ended.connect(self.player.pause)
-        for worker in (self.worker, self.zoom_controller.worker, self._view.colours.worker, self.player.worker):
+        for worker in (
+            self.worker,
+            self.trial_worker,
+            self.zoom_controller.worker,
+            self._view.colours.worker,
+            self.player.worker,
+        ):
             activity.ended.connect(worker.finish)
         activity.ended.connect(self._leave)
         self.zoom_controller.failed.connect(self.failed)
@@ -109,6 +139,7 @@ class CutController(Controller):
         self._panel.form_requested.connect(self._open_form)
         self._panel.left.connect(self.back)
         self._panel.mend_requested.connect(self._mend)
+        self._panel.preview_requested.connect(self._preview)
         self._panel.nc.line_picked.connect(self._go_to_line)
         self._view.cell_picked.connect(lambda x, y, z, motion: self.mark_motion(motion))
         self._form.accepted.connect(self._cut_as)
@@ -116,8 +147,13 @@ class CutController(Controller):
 
     @property
     def shown_document(self) -> ShownDocument | None:
-        """The cut of another program than the job's, or that it is being made; None = the job's."""
-        foreign, cut = self._foreign, self.cut
+        """The cut of another program than the job's, or that it is being made, or what a mend would make; None = the
+        job's.
+        """
+        foreign, cut, trial = self._foreign, self.cut, self._trial
+        if trial is not None and cut is not None:
+            told = VerdictSummary(level_of(cut), f"Preview · {title_of(cut)}", sentences_of(cut))
+            return ShownDocument(f"{trial.mend.words} · preview", False, told, tuple(cut.cut.findings), self._look_at)
         if foreign is None:
             return None
         if cut is None or cut.given is None or self.foreign_worker.busy:
@@ -157,7 +193,7 @@ class CutController(Controller):
 
     def _leave(self) -> None:
         """Let go of what takes much memory; the window itself may be kept by somebody for longer."""
-        self._foreign = self._shown_foreign = self._own = self._made = None
+        self._foreign = self._shown_foreign = self._own = self._made = self._trial = None
         self._show(None)
 
     def _follow(self) -> None:
@@ -203,6 +239,8 @@ class CutController(Controller):
 
     def _show(self, cut: ShownCut | None) -> None:
         self.cut, self._marked, self._at = cut, False, None
+        if self._trial is not None and cut is not self._trial.cut:
+            self._trial = None
         self._view.show_cut(cut.picture if cut is not None else None)
         self.zoom_controller.follow(ZoomTarget(cut.cut) if cut is not None else None)
         self._panel.show_cut(cut)
@@ -213,14 +251,17 @@ class CutController(Controller):
 
     def _tell(self) -> None:
         """The job's own cut is headed by the badge's verdict, or by that it is out of date."""
+        if self._trial is not None and self._computation.outdated:
+            self._show(self._own)
+            return
         made, own = self._computation.made, self.cut is not None and self.cut is self._own
-        self._offer_mends()
         if not own or made is None:
             self._panel.show_told(None)
         elif self._computation.outdated:
             self._panel.show_told(VerdictSummary(VerdictLevel.NONE, "Out of date: compute again"))
         else:
             self._panel.show_told(verdict_summary(made.findings, made.report.data))
+        self._offer_mends()
 
     def operation_of(self, motion: int) -> int | None:
         """Return the index of the job's operation that a motion of the cut belongs to; None where that is not known."""
@@ -263,6 +304,9 @@ class CutController(Controller):
         from ....usecases.mending import Fault, mends
 
         entry, made = self._panel.chosen, self._made
+        if self._trial is not None:
+            self._panel.show_trial(self._trial.mend)
+            return
         if entry is None or made is None or self.cut is not self._own or self._computation.outdated:
             self._panel.show_mends(())
             return
@@ -274,6 +318,22 @@ class CutController(Controller):
         """Change the job and compute it again."""
         self._document.change_job(mend.words, mend.job)
         self._computation.start()
+
+    def _preview(self, mend: Mend) -> None:
+        """Have the job of a mend cut, to be looked at before anything is changed."""
+        making, colour = self._computation.making(mend.job), self._view.colour
+        self.trial_worker.start(lambda progress: trial_shown(mend, making, colour, progress), self._document.revision)
+
+    def _on_tried(self, answer: JobOutcome) -> None:
+        """Show it, unless the job is another one by now, or another program is looked at."""
+        trial = answer.value
+        if not isinstance(trial, MendTrial) or answer.revision != self._document.revision or self.cut is not self._own:
+            return
+        if trial.cut is None:
+            self.failed.emit("Nothing would be cut then.")
+            return
+        self._trial = trial
+        self._show(trial.cut)
 
     def _show_key(self) -> None:
         """The histogram has the colours of the deviation, whatever the metal's tell."""

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.progress import NO_PROGRESS, Progress
-from ....model.motion import MotionKind
+from ....model.motion import MotionKind, Motions
+from ....model.motion_part import place_on
 from ....model.tool import Tool
 from ....simulation.gpu.wedges_picture import MOVES, WedgesPicture, has_wedges, wedges_picture
 from .cell_colours import CutColourBy, values_of
@@ -24,6 +25,10 @@ from .rendering.tool_body import Place
 if TYPE_CHECKING:
     from ....usecases.playback import Playback, PlayFrame
     from ....usecases.timeline import Timeline, TimelinePlace
+
+
+_CHORDS = 8
+"""Of a curve among the moves whose sweep is shown."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,16 +194,27 @@ class LiveCells:
 
 
 def last_tips(timeline: Timeline, row: int, tip: Floats) -> Floats:
-    """Return (k, 3) the places of the tip on the last straight moves at feed rate up to where it is, mm; k >= 1."""
+    """Return (k, 3) the places of the tip on the last moves at feed rate up to where it is, mm, k >= 1; curves by
+    chords.
+    """
     motions, own = timeline.own(row)
-    tips, tool = [tip], timeline.tool[row]
+    parts, tool = [tip[None]], timeline.tool[row]
     for at in range(own, max(own - MOVES, -1), -1):
         if (
-            motions.kind[at] != MotionKind.LINE
+            motions.kind[at] == MotionKind.RAPID
             or timeline.tool[row - own + at] != tool
             or not np.all(np.isfinite(motions.start[at]))
         ):
             break
-        if np.any(motions.start[at] != tips[-1]):
-            tips.append(motions.start[at])
-    return np.array(tips[::-1])
+        parts.append(_done(motions, at, parts[-1][-1])[::-1])
+    tips = np.concatenate(parts)
+    moved = np.concatenate([[True], np.any(np.diff(tips, axis=0) != 0, axis=1)])
+    return np.asarray(tips[moved][::-1])
+
+
+def _done(motions: Motions, row: int, until: Floats) -> Floats:
+    """Return places of a motion from its start on, mm; of one that is bent up to a place of it."""
+    if motions.kind[row] == MotionKind.LINE:
+        return motions.start[row : row + 1]
+    places = np.array([place_on(motions, row, share) for share in np.linspace(0.0, 1.0, _CHORDS + 1)])
+    return places[: max(int(np.argmin(np.linalg.norm(places - until, axis=1))), 1)]

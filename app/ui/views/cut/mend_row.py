@@ -1,4 +1,4 @@
-"""A button that mends a finding, and what it changes."""
+"""A button that mends a finding, what it changes, and a look at it before it is taken."""
 
 from __future__ import annotations
 
@@ -16,12 +16,15 @@ class MendRow(QWidget):
     """Words on the button, and beside it from what to what; the tool tip says that it can be taken back.
 
     Attributes:
-        button: changes the job.
+        button: changes the job. look: shows the cut as it would be then.
     """
 
     def __init__(self, mend: Mend) -> None:
         super().__init__()
-        self.button = QPushButton(mend.words)
+        self.button, self.look = QPushButton(mend.words), QPushButton("Preview")
+        self.look.setProperty("role", "link")
+        self.look.setToolTip("Cut it so, and look, before anything is changed")
+        self.look.setAccessibleName(f"Preview: {mend.words}")
         change = Elided(mend.change, "muted")
         tip = f"{mend.words}: {mend.change}. The paths are computed again; Ctrl+Z takes it back."
         for widget in (self.button, change):
@@ -32,3 +35,24 @@ class MendRow(QWidget):
         row.setSpacing(8)
         row.addWidget(self.button)
         row.addWidget(change, 1)
+        row.addWidget(self.look)
+
+
+class TrialRow(QWidget):
+    """The cut as a mend would make it is shown: take it, or go back.
+
+    Attributes:
+        take: changes the job so. back: shows the job's own cut.
+    """
+
+    def __init__(self, mend: Mend) -> None:
+        super().__init__()
+        self.take, self.back = QPushButton(f"Take: {mend.words}"), QPushButton("Back")
+        self.take.setProperty("role", "primary")
+        self.take.setToolTip(f"{mend.words}: {mend.change}. Ctrl+Z takes it back.")
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(8)
+        row.addWidget(self.take)
+        row.addWidget(self.back)
+        row.addStretch(1)

@@ -27,11 +27,12 @@ from ...framework.labels import Elided, muted
 from ...framework.section import EDGE, ListRow, hairline, heading, theme_children
 from ...framework.theme import LIGHT, Theme
 from ...framework.verdict import VerdictLevel, VerdictSummary
+from ...framework.width_grip import WidthGrip
 from ...panels.side_panel import WIDTH
 from .cell_colours import ColourKey
 from .findings import CutFinding, FindingColour, findings_of, level_of, sentences_of, title_of
 from .histogram_plot import HistogramPlot
-from .mend_row import MendRow
+from .mend_row import MendRow, TrialRow
 from .nc_beside import NcBeside
 from .overlay_text import pitch_words
 from .shown_cut import ShownCut
@@ -44,6 +45,9 @@ _TEXT_PX, _LEAST_LIST_PX, _ROOM_PX, _TIGHT_PX = 64, 56, 760, 640
 
 ROOMY_PX, WIDE_PX = 1600, 420
 """From this width of the window on the panel is so wide."""
+
+_MOST_SHARE = 0.6
+"""Of the window's width, for the panel."""
 
 _TITLE_PX = 230
 """So wide a place's title is shown whole; the words of where it lies give way first."""
@@ -95,11 +99,12 @@ class CutPanel(QWidget):
     Signals:
         picked(CutFinding): the user wants to see this place. line_requested(motion): and its line in the NC view.
         form_requested(): tools and stock shall be others. left(): the job's own cut shall be shown.
-        mend_requested(Mend): the job shall be changed so.
+        mend_requested(Mend): the job shall be changed so. preview_requested(Mend): and this shall be seen before.
 
     Attributes:
         shown: what it tells of; None = nothing. entries: the places. chosen: the one that was picked last.
-        nc: the text beside the cut. mends: the buttons that change the job.
+        nc: the text beside the cut. mends: the buttons that change the job. looks: those that show
+            the cut as it would be then. grip: makes it wider.
     """
 
     picked = Signal(CutFinding)
@@ -107,6 +112,7 @@ class CutPanel(QWidget):
     form_requested = Signal()
     left = Signal()
     mend_requested = Signal(object)
+    preview_requested = Signal(object)
 
     def __init__(self) -> None:
         super().__init__()
@@ -122,6 +128,7 @@ class CutPanel(QWidget):
         self.counted, self.sentence, self.go = heading("Places"), muted(), QPushButton("Show the line")
         self.nc, self.histogram = NcBeside(), HistogramPlot()
         self.mends: list[QPushButton] = []
+        self.looks: list[QPushButton] = []
         self._mending = QVBoxLayout()
         self.inner, self.list, self.details = QWidget(), QScrollArea(), QWidget()
         self._rows = QVBoxLayout(self.inner)
@@ -130,6 +137,10 @@ class CutPanel(QWidget):
             QPushButton("Tools and stock…"),
             QPushButton("Back to the job's cut"),
         )
+        self._width = self._window_width = 0
+        self.grip = WidthGrip(self)
+        self.grip.dragged.connect(self.choose_width)
+        self.grip.given_up.connect(partial(self.choose_width, 0))
         self._lay_out()
         self.go.clicked.connect(self._want_line)
         self.form.clicked.connect(self.form_requested)
@@ -203,8 +214,15 @@ class CutPanel(QWidget):
         self._make_room()
 
     def fit_beside(self, width: int) -> None:
-        """Be wider in a wide window, of so many px: whole lines of NC text can be read then."""
-        self.setFixedWidth(WIDE_PX if width >= ROOMY_PX else WIDTH)
+        """Be wider in a wide window, of so many px, so that whole lines of NC text can be read; or as was chosen."""
+        self._window_width = width
+        usual = WIDE_PX if width >= ROOMY_PX else WIDTH
+        self.setFixedWidth(min(max(self._width or usual, WIDTH), max(WIDTH, round(_MOST_SHARE * width))))
+
+    def choose_width(self, width: int) -> None:
+        """Be so wide from now on, px, as far as the cut keeps room; 0 = as it is by itself."""
+        self._width = width
+        self.fit_beside(self._window_width)
 
     def show_told(self, told: VerdictSummary | None) -> None:
         """Head the panel with the badge's verdict; None = there is none on this cut."""
@@ -234,17 +252,45 @@ class CutPanel(QWidget):
 
     def show_mends(self, mends: Sequence[Mend]) -> None:
         """Offer what mends the chosen place: a button each, and beside it what it changes."""
+        self._clear_mends()
+        for mend in mends:
+            row = MendRow(mend)
+            row.button.clicked.connect(partial(self._mend, mend))
+            row.look.clicked.connect(partial(self._preview, mend))
+            self.mends.append(row.button)
+            self.looks.append(row.look)
+            self._add_mend(row)
+
+    def show_trial(self, mend: Mend) -> None:
+        """Say that what is shown is what a mend would make, and ask whether it is taken."""
+        self._clear_mends()
+        self.title.setText("Preview")
+        self.title.setProperty("role", "warning")
+        restyle(self.title)
+        self.name.setText(mend.words)
+        row = TrialRow(mend)
+        row.take.clicked.connect(partial(self._mend, mend))
+        row.back.clicked.connect(self.left)
+        self.mends = [row.take, row.back]
+        self._add_mend(row)
+        self.sentence.setText(f"{mend.words}: {mend.change}. Nothing is changed yet.")
+        self.go.hide()
+        self.details.show()
+        self._make_room()
+
+    def _add_mend(self, row: QWidget) -> None:
+        theme_children(row, self._theme)
+        self._mending.addWidget(row)
+
+    def _clear_mends(self) -> None:
         while (item := self._mending.takeAt(0)) is not None:
             if (widget := item.widget()) is not None:
                 widget.hide()
                 widget.deleteLater()
-        self.mends = []
-        for mend in mends:
-            row = MendRow(mend)
-            theme_children(row, self._theme)
-            row.button.clicked.connect(partial(self._mend, mend))
-            self.mends.append(row.button)
-            self._mending.addWidget(row)
+        self.mends, self.looks = [], []
+
+    def _preview(self, mend: Mend, *_: object) -> None:
+        self.preview_requested.emit(mend)
 
     def _mend(self, mend: Mend, *_: object) -> None:
         self.mend_requested.emit(mend)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,27 +13,31 @@ from ....core.pool import pool
 
 Bytes = NDArray[np.uint8]
 
+BANDS = 8
+"""Bytes that a cell's relief has: four of its top, four of the wall beside it."""
+
 GAIN, LIMIT = 2.5, 0.15
 """Slopes well under LIMIT are lit as if they were GAIN times as steep."""
 
-WALL = 2.0
-"""From this slope on cells count as a wall: there the steps of the grid, not the metal, would tell the slope's
-direction.
-"""
+WALL = 4.0
+"""Cells that differ by more than so many of their widths from the ones next to them may stand beside a wall."""
 
-_WIDE = 11
-"""Cells that are taken together to tell which way a wall faces; how steep it is, its own cells tell."""
+_SUDDEN = 1.4
+"""They do where the cells two away differ by less than so many times as much: a slope goes on, a wall does not."""
+
+_BELL, _BELL_REACH = 2.0, 5
+"""Width of the bell that cells round a wall are weighed with, and how far it reaches, cells."""
 
 _COARSE = 4
 _SPANS = (3, 7, 15)
 """Widths, in squares of 4 x 4 cells, of the neighbourhoods that a corner is compared with."""
 
-_DARKEST = 0.45
+_DARKEST = 0.5
 
 _BANDS, _FEW = max(2, os.cpu_count() or 2), 100_000
 """Parts that a relief is worked out in at a time, where there are not only few cells."""
 
-_NEAR = _WIDE // 2 + 1
+_NEAR = _BELL_REACH + 1
 """A normal is told by cells at most this far away."""
 
 REACH = (max(_SPANS) // 2 + 3) * _COARSE
@@ -41,59 +45,35 @@ REACH = (max(_SPANS) // 2 + 3) * _COARSE
 
 
 def relief(heights: NDArray[np.float32], pitch: float) -> Bytes:
-    """Return (rows, columns, 4) bytes: x and y of each cell's normal, the light that reaches it, 255.
+    """Return (rows, columns, 8) bytes: x and y of each cell's normal, the light that reaches it, 255; and beside walls
+    how far it is from one and which way that faces, 0 (`relief_kernels.relief_map`).
 
     Args:
         heights: (rows, columns) mm.
         pitch: mm.
     """
     heights = np.ascontiguousarray(heights)
-    return _relief(heights, corner_light(heights, pitch), pitch)
+    return _relief(heights, means_around(heights), pitch, (0, 0))
 
 
 def relief_part(heights: NDArray[np.float32], pitch: float, rows: slice, columns: slice) -> Bytes:
     """Return what `relief` has for a rectangle of cells, to the bit, in the time that the rectangle takes.
 
-    Only the light of corners is worked out for all cells, as their squares of four by four lie across the whole.
+    Only what the light of corners asks is worked out for all cells, as its squares of four by four lie across the
+    whole.
 
     Args:
         heights: all of them, (rows, columns) mm. pitch: mm.
         rows, columns: the rectangle, within the heights.
     """
-    light = corner_light(heights, pitch)
     wide = tuple(slice(max(part.start - _NEAR, 0), part.stop + _NEAR) for part in (rows, columns))
     inner = tuple(
         slice(part.start - outer.start, part.stop - outer.start)
         for part, outer in zip((rows, columns), wide, strict=True)
     )
-    return np.ascontiguousarray(
-        _relief(np.ascontiguousarray(heights[wide]), np.ascontiguousarray(light[wide]), pitch)[inner]
-    )
-
-
-def _relief(heights: NDArray[np.float32], light: Bytes, pitch: float) -> Bytes:
-    import cv2
-
-    out = np.empty(heights.shape, "<u4")
-    smooth = np.asarray(cv2.GaussianBlur(heights, (_WIDE, _WIDE), 0.0, borderType=cv2.BORDER_REPLICATE))
-    spread = np.asarray(cv2.morphologyEx(heights, cv2.MORPH_GRADIENT, np.ones((3, 3), np.uint8)))
-    steep = np.where(spread > np.float32(2 * WALL * pitch), spread / np.float32(2 * pitch), np.float32(0.0))
-    rows, bands = heights.shape[0], 1 if heights.size < _FEW else _BANDS
-    ends = np.linspace(0, rows, bands + 1).astype(int).tolist()
-    done = [pool().submit(_band, (heights, smooth, steep, light), pitch, out, span) for span in pairwise(ends)]
-    for each in done:
-        each.result()
-    return out.view(np.uint8).reshape(*heights.shape, 4)
-
-
-def _band(fields: tuple[NDArray[Any], ...], pitch: float, out: NDArray[np.uint32], span: tuple[int, int]) -> None:
-    """Write the relief of some rows; slopes want one more on either side."""
-    from .relief_kernels import relief_map
-
-    first, last = max(span[0] - 1, 0), min(span[1] + 1, len(out))
-    made = np.empty((last - first, out.shape[1]), out.dtype)
-    relief_map(*(each[first:last] for each in fields), np.float32(pitch), np.float32(GAIN), np.float32(LIMIT), made)
-    out[span[0] : span[1]] = made[span[0] - first : span[1] - first]
+    first = wide[0].start, wide[1].start
+    part = _relief(np.ascontiguousarray(heights[wide]), means_around(heights), pitch, first)
+    return np.ascontiguousarray(part[inner])
 
 
 def corner_light(heights: NDArray[np.float32], pitch: float) -> Bytes:
@@ -102,18 +82,75 @@ def corner_light(heights: NDArray[np.float32], pitch: float) -> Bytes:
 
     A plane, however it slopes, gets all of it.
     """
+    return relief(heights, pitch)[..., 2]
+
+
+def _relief(heights: NDArray[np.float32], around: NDArray[np.float32], pitch: float, first: tuple[int, int]) -> Bytes:
+    """Return the relief of cells; `first` are the row and the column of the whole, of which `around` tells, that they
+    begin with.
+    """
+    import cv2
+
+    out = np.empty(heights.shape, "<u8")
+    lowest, highest, wide_low, wide_high = (
+        np.asarray(extreme(heights, np.ones((size, size), np.uint8), borderType=cv2.BORDER_REPLICATE))
+        for size in (3, 5)
+        for extreme in (cv2.erode, cv2.dilate)
+    )
+    rise = highest - lowest
+    wall = (rise > np.float32(WALL * pitch)) & (wide_high - wide_low < np.float32(_SUDDEN) * rise)
+    fields = tuple(each.astype(np.float32) for each in (heights, lowest, np.where(wall, highest, lowest)))
+    rows, bands = heights.shape[0], 1 if heights.size < _FEW else _BANDS
+    ends = np.linspace(0, rows, bands + 1).astype(int).tolist()
+    light = _LightSource(around, pitch, first)
+    done = [pool().submit(_band, fields, light, out, span) for span in pairwise(ends)]
+    for each in done:
+        each.result()
+    return out.view(np.uint8).reshape(*heights.shape, BANDS)
+
+
+@dataclass(frozen=True, eq=False)
+class _LightSource:
+    """What tells the light of cells: means of `means_around`, pitch, mm, and the row and column of the whole that they
+    begin with.
+    """
+
+    around: NDArray[np.float32]
+    pitch: float
+    first: tuple[int, int]
+
+
+def _band(
+    fields: tuple[NDArray[np.float32], ...], light: _LightSource, out: NDArray[np.uint64], span: tuple[int, int]
+) -> None:
+    """Write the relief of some rows; it wants some more on either side."""
+    from .relief_kernels import relief_map
+
+    first, last = max(span[0] - _NEAR, 0), min(span[1] + _NEAR, len(out))
+    made = np.empty((last - first, out.shape[1]), out.dtype)
+    gains = np.array([1.0 / (wide * _COARSE * light.pitch) for wide in _SPANS], np.float32)
+    frame = np.array([light.first[0] + first, light.first[1], _COARSE], float)
+    shape = np.array([light.pitch, GAIN, LIMIT, _BELL, _DARKEST], np.float32)
+    relief_map(*(each[first:last] for each in fields), light.around, gains, frame, _bell(), shape, made)
+    out[span[0] : span[1]] = made[span[0] - first : span[1] - first]
+
+
+def _bell() -> NDArray[np.float32]:
+    along = np.exp(-0.5 * (np.arange(-_BELL_REACH, _BELL_REACH + 1) / _BELL) ** 2)
+    weights = np.outer(along, along)
+    return np.ascontiguousarray(weights / weights.sum(), np.float32)
+
+
+def means_around(heights: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return (3, rows / 4, columns / 4), two or more each, the mean height of the neighbourhoods of each square of four
+    by four cells, mm.
+    """
     import cv2
 
     rows, columns = heights.shape
-    size = (-(-columns // _COARSE), -(-rows // _COARSE))
+    size = (max(-(-columns // _COARSE), 2), max(-(-rows // _COARSE), 2))
     small = np.asarray(cv2.resize(heights, size, interpolation=cv2.INTER_AREA))
     margin = min(max(_SPANS) // 2, min(small.shape) - 1)
     wide = np.pad(small, margin, mode="reflect", reflect_type="odd")  # a slope goes on beyond the stock
-    shade = np.zeros_like(small)
-    for span in _SPANS:
-        around = np.asarray(cv2.blur(wide, (span, span)))[
-            margin : margin + small.shape[0], margin : margin + small.shape[1]
-        ]
-        shade += np.clip((around - small) / np.float32(span * _COARSE * pitch), 0.0, 0.5)
-    light = np.round(255.0 * (1.0 - _DARKEST * np.minimum(shade * 1.5, 1.0))).astype(np.uint8)
-    return np.ascontiguousarray(cv2.resize(light, (columns, rows), interpolation=cv2.INTER_LINEAR))
+    inner = tuple(slice(margin, margin + count) for count in small.shape)
+    return np.ascontiguousarray([np.asarray(cv2.blur(wide, (span, span)))[inner] for span in _SPANS], np.float32)

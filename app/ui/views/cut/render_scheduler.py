@@ -19,11 +19,11 @@ from .rendering.cut_scene import CutScene
 from .rendering.render_target import RenderStyle
 from .surface import GlSurface, ImageSurface, pixel_size
 
-REST_MS = 140
+REST_MS = 80
 """After so long without a movement the fine picture is begun."""
 
 _FAST_MS, _SLOW_MS = 25.0, 60.0
-_LEAST_BUDGET, _MOST_BUDGET = 1 << 14, 1 << 22
+_LEAST_BUDGET, _FIRST_BUDGET, _MOST_BUDGET = 1 << 14, 1 << 16, 1 << 22
 
 
 class RenderScheduler(QObject):
@@ -33,7 +33,7 @@ class RenderScheduler(QObject):
         stirred(): what is seen begins to change. rested(): nothing has moved for a while.
 
     Attributes:
-        budget: squares that a picture of the moving cut is painted with; it follows the time that painting takes.
+        budget: lines of sight of a picture of the moving cut; it follows the time that painting takes.
         frame_ms: how long the last coarse picture took, ms.
         fine: whether the fine picture is shown. due: whether the coarse one is still to be painted.
         playback: what lies over the cut while it is played. surface: on which it is painted; None until there is one.
@@ -47,7 +47,7 @@ class RenderScheduler(QObject):
         super().__init__(widget)
         self._model, self._widget = model, widget
         self.surface: GlSurface | ImageSurface | None = None
-        self.budget, self.frame_ms, self.fine = 2 * _LEAST_BUDGET, 0.0, False
+        self.budget, self.frame_ms, self.fine = _FIRST_BUDGET, 0.0, False
         self._colours: CellColours | None = None
         self._detail_values: Bytes | None = None
         self._look = RenderStyle((0.0,) * 3, (0.5,) * 3, (0.5,) * 3, ((0.5, 0.5, 0.5, 1.0),) * 4)

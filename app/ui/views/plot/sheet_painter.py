@@ -142,6 +142,7 @@ def _write(painter: QPainter, words: TextLine, place: Similarity) -> None:
     font = QFont("sans-serif")
     font.setStyleHint(QFont.StyleHint.SansSerif)
     font.setPixelSize(_FONT_PX)
+    font.setBold(words.bold)
     size = words.height / _FONT_PX
     painter.save()
     painter.translate(*place(words.at))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,8 +18,8 @@ from ..tool_outline import DrawnTool
 from .cut_frame import CLIP_PLANES, CutFrame
 from .facets import Facets
 from .path_ribbons import PathRibbons, RibbonProjection
-from .render_target import RenderTarget
-from .stock_textures import StockShaders, StockTextures
+from .render_target import MetalTarget, RenderTarget
+from .stock_textures import Rectangle, StockExtent, StockTextures
 from .tool_body import Place, ToolBody
 
 if TYPE_CHECKING:
@@ -44,12 +45,15 @@ class CutScene:
         self.ctx = ctx
         self.picture: CutPicture | None = None
         self.detail: CutPicture | None = None
-        self._programs = StockShaders.made(ctx)
+        self._stock = compiled(ctx, "part.vert", "stock.frag", "STOCK")
+        self._over = compiled(ctx, "screen.vert", "screen.frag", "OVER")
+        self._over_all = ctx.vertex_array(self._over, [])
         self._palette = ctx.texture((256, 1), 4)
-        self._whole, self._part = (StockTextures(ctx, self._programs, self._palette) for _ in range(2))
+        self._whole, self._part = (StockTextures(ctx, self._stock, self._palette) for _ in range(2))
         self._paths = PathRibbons(ctx, compiled(ctx, "path.vert", "path.frag", "PATH"))
         self._tool, self._facets = ToolBody(ctx), Facets(ctx)
         self._stage: RenderTarget | None = None
+        self._metal: dict[bool, MetalTarget] = {}
 
     def show_picture(self, picture: CutPicture | None) -> None:
         """Take heights over; colours stay until others are shown, details do not."""
@@ -105,13 +109,24 @@ class CutScene:
         """
         stage = self._stage_of(frame.size)
         back = stage.quick if frame.budget else stage.smooth
+        reach, metal, finer = 0.0, self._metal_of(frame), None
+        if self.picture is not None:
+            reach = self._reach(frame, self.picture)
+            extents = self._extents(reach, self.picture)
+            if not frame.budget:  # first a line of sight in a pixel, then more where that is not enough
+                once = replace(frame, budget=frame.size[0] * frame.size[1])
+                finer, metal = metal, self._metal_of(once)
+                yield from self._draw_metal(once, extents, metal)
+                metal.find_uneven()
+                yield from self._draw_metal(frame, extents, finer, metal)
+            else:
+                yield from self._draw_metal(frame, extents, metal, at_once=True)
         back.use()
         back.clear(*frame.look.canvas, 1.0, depth=1.0)
         if self.picture is not None:
-            reach = self._reach(frame, self.picture)
-            for step in self._draw_metal(frame, reach):
-                yield step
-                back.use()
+            self._put_over(frame.size, metal, finer)
+            for plane in CLIP_PLANES:
+                self.ctx.enable_direct(plane)
             self._paths.draw(
                 frame.look,
                 frame.shown,
@@ -141,17 +156,51 @@ class CutScene:
         """Give everything back to the graphics system."""
         if self._stage is not None:
             self._stage.release()
-        for held in (self._whole, self._part, self._palette, self._paths, self._tool, self._facets, self._programs):
+        for target in self._metal.values():
+            target.release()
+        for held in (self._whole, self._part, self._palette, self._paths, self._tool, self._facets):
             held.release()
+        for program in (self._stock, self._over_all, self._over):
+            program.release()
 
-    def _draw_metal(self, frame: CutFrame, reach: float) -> Iterator[None]:
+    def _draw_metal(
+        self,
+        frame: CutFrame,
+        extents: list[StockExtent],
+        metal: MetalTarget,
+        plain: MetalTarget | None = None,
+        at_once: bool = False,
+    ) -> Iterator[None]:
         """Paint the whole, but for the part that there is a finer look at, and that part."""
+        target = metal.framebuffer
+        target.use()
+        target.clear(*frame.look.canvas, 1.0, depth=1.0)
+        for field, extent in zip((self._whole, self._part), extents, strict=False):
+            target.use()
+            for step in field.draw(frame, extent, plain, at_once):
+                yield step
+                target.use()
+
+    def _extents(self, reach: float, picture: CutPicture) -> list[StockExtent]:
+        """Return where there is something of the whole, and of the part that there is a finer look at."""
+        sides = _rectangle(picture)
         if self.detail is None:
-            yield from self._whole.draw(frame, reach)
-            return
-        low, high = self.detail.low, self.detail.high
-        yield from self._whole.draw(frame, reach, (low[0], low[1], high[0], high[1]))
-        yield from self._part.draw(frame, reach)
+            return [StockExtent(reach, sides)]
+        return [StockExtent(reach, sides, _rectangle(self.detail)), StockExtent(reach, sides)]
+
+    def _put_over(self, size: tuple[int, int], metal: MetalTarget, finer: MetalTarget | None) -> None:
+        """Fill the framebuffer in use, of a size in px, with the metal: its finer picture where there is one and the
+        other one is uneven.
+        """
+        self.ctx.enable_only(self.ctx.DEPTH_TEST)
+        textures = (metal.colours, metal.depths, (finer or metal).colours, metal.uneven)
+        for place, (name, texture) in enumerate(zip(("picture", "depths", "finer", "uneven"), textures, strict=True)):
+            texture.use(place)
+            self._over[name] = place
+        self._over["has_finer"], self._over["size"] = int(finer is not None), size
+        self.ctx.depth_func = "1"
+        self._over_all.render(self.ctx.TRIANGLES, vertices=3)
+        self.ctx.depth_func = "<"
 
     def _reach(self, frame: CutFrame, picture: CutPicture) -> float:
         """Return how far from the camera's target there may be something, mm."""
@@ -169,3 +218,22 @@ class CutScene:
         if self._stage is None:
             self._stage = RenderTarget.made(self.ctx, size, min(SAMPLES, self.ctx.max_samples))
         return self._stage
+
+    def _metal_of(self, frame: CutFrame) -> MetalTarget:
+        """Return where the metal of a picture is painted: one size for pictures at rest, another one while things
+        move.
+        """
+        moving = bool(frame.budget)
+        held = self._metal.get(moving)
+        if held is not None and held.framebuffer.size != frame.rays:
+            held.release()
+            held = None
+        if held is None:
+            held = self._metal[moving] = MetalTarget.made(self.ctx, frame.rays)
+        return held
+
+
+def _rectangle(picture: CutPicture) -> Rectangle:
+    """Return what of the plane a picture covers, mm."""
+    (x0, y0, _), (x1, y1, _) = picture.low.tolist(), picture.high.tolist()
+    return x0, y0, x1, y1

@@ -1,4 +1,4 @@
-"""One field of heights on the graphics side: its top, its sides, its floor. No Qt."""
+"""One field of heights on the graphics side, and the lines of sight that are followed over it. No Qt."""
 
 from __future__ import annotations
 
@@ -9,89 +9,104 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .....simulation.gpu.graphics import compiled
 from ..camera import Floats
 from ..cell_patch import CellPatch
-from ..cut_picture import CutPicture
-from .cut_frame import CLIP_PLANES, CutFrame, section_ends
+from ..cut_picture import CutPicture, Heights
+from .cut_frame import FINE, CutFrame
+from .render_target import MetalTarget
 
 if TYPE_CHECKING:
     import moderngl
 
-BAND_QUADS = 30_000
-"""Squares that are painted before somebody else may do something."""
+STRIP_RAYS = 100_000
+"""Lines of sight that are followed before somebody else may do something."""
 
-Hole = tuple[float, float, float, float]
-NO_HOLE: Hole = (1.0, 1.0, -1.0, -1.0)
-"""x0, y0, x1, y1 of what is not painted, mm; an empty one."""
+Rectangle = tuple[float, float, float, float]
+"""x0, y0, x1, y1, mm."""
 
-_HEIGHTS, _VALUES, _PALETTE, _RELIEF = 0, 1, 2, 3
+NO_HOLE: Rectangle = (1.0, 1.0, -1.0, -1.0)
+
+BLOCK = 8
+"""Squares between cells, across and down, whose highest is known: what passes over it meets none of them."""
+
+_HEIGHTS, _VALUES, _PALETTE, _RELIEF, _BLOCKS, _WALLS, _UNEVEN = range(7)
 _SHARP = 0.7
 """Where a cell is wider than so many px, its neighbours need not be averaged."""
 
 
-@dataclass(frozen=True, eq=False)
-class StockShaders:
-    """How metal is painted: its top, whole or with something taken away, its sides and its floor; each with an empty
-    array.
+@dataclass(frozen=True, slots=True)
+class StockExtent:
+    """Where there is something to be met.
+
+    Attributes:
+        reach: nothing is farther than this from the camera's target, mm.
+        sides: of the stock, which may be larger than what is painted.
+        hole: what somebody else paints.
     """
 
-    whole: moderngl.Program
-    clipped: moderngl.Program
-    wall: moderngl.Program
-    floor: moderngl.Program
-    bare: dict[moderngl.Program, moderngl.VertexArray]
+    reach: float
+    sides: Rectangle
+    hole: Rectangle = NO_HOLE
 
-    @staticmethod
-    def made(ctx: moderngl.Context) -> StockShaders:
-        """Compile them.
 
-        Raises:
-            moderngl.Error: the graphics system does not take them.
-        """
-        parts = (("field", "TOP"), ("field", "TOP_CLIPPED"), ("wall", "SIDE"), ("floor", "UNDERSIDE"))
-        whole, clipped, wall, floor = (compiled(ctx, f"{name}.vert", "metal.frag", part) for name, part in parts)
-        return StockShaders(
-            whole, clipped, wall, floor, {each: ctx.vertex_array(each, []) for each in (whole, clipped, wall, floor)}
-        )
+def block_heights(heights: Heights, rows: slice, columns: slice) -> Heights:
+    """Return the highest corner of the squares of each block.
 
-    def release(self) -> None:
-        """Give everything back to the graphics system."""
-        for program, array in self.bare.items():
-            array.release()
-            program.release()
+    Squares lie between the centres of cells, and round the outer ones: block k holds the squares 8 k to 8 k + 7, so the
+    cells 8 k - 1 to 8 k + 7.
+
+    Args:
+        heights: (n, m) of all cells. rows, columns: of the blocks that are asked for, of n // 8 + 1 and m // 8 + 1.
+    """
+    part = heights
+    for axis, blocks in enumerate((rows, columns)):
+        cells = np.arange(BLOCK * blocks.start - 1, BLOCK * blocks.stop)
+        wide = np.take(part, np.clip(cells, 0, heights.shape[axis] - 1), axis=axis)
+        wide = np.moveaxis(wide, axis, 0)
+        own = wide[:-1].reshape(-1, BLOCK, wide.shape[1]).max(axis=1)
+        part = np.moveaxis(np.maximum(own, wide[BLOCK::BLOCK]), 0, axis)
+    return np.ascontiguousarray(part)
 
 
 class StockTextures:
     """Heights and colours of one picture as textures."""
 
-    def __init__(self, ctx: moderngl.Context, programs: StockShaders, palette: moderngl.Texture) -> None:
-        self._ctx, self._programs, self._palette = ctx, programs, palette
+    def __init__(self, ctx: moderngl.Context, program: moderngl.Program, palette: moderngl.Texture) -> None:
+        self._ctx, self._program, self._palette = ctx, program, palette
+        self._parts = ctx.buffer(reserve=16)
+        self._array = ctx.vertex_array(program, [(self._parts, "4f4/i", "part")])
         self._picture: CutPicture | None = None
-        self._range, self._averaged = (0.0, 0.0), True
-        self._heights = ctx.texture((1, 1), 1, dtype="f4")
-        self._values, self._relief = (ctx.texture((1, 1), bands) for bands in (1, 4))
+        self._cells: Heights = np.zeros((1, 1), np.float32)
+        self._tops = self._cells
+        self._highest, self._averaged = 0.0, True
+        self._heights, self._blocks = (ctx.texture((1, 1), 1, dtype="f4") for _ in range(2))
+        self._values, self._relief, self._walls = (ctx.texture((1, 1), bands) for bands in (1, 4, 4))
 
     def fill(self, picture: CutPicture) -> None:
         """Take heights over; colours stay until others come."""
-        ctx, self._picture = self._ctx, picture
+        ctx, self._picture, self._cells = self._ctx, picture, picture.heights.copy()
         self._heights = self._filled(self._heights, picture.heights)
-        self._heights.filter = (ctx.LINEAR, ctx.LINEAR)
-        self._relief = self._filled(self._relief, picture.relief)
+        every = (slice(0, count // BLOCK + 1) for count in picture.heights.shape)
+        self._tops = block_heights(picture.heights, *every)
+        self._blocks = self._filled(self._blocks, self._tops)
+        self._relief = self._filled(self._relief, picture.relief[..., :4])
+        self._walls = self._filled(self._walls, picture.relief[..., 4:])
+        for texture in (self._heights, self._blocks, self._walls):
+            texture.filter = (ctx.NEAREST, ctx.NEAREST)
         self._relief.build_mipmaps()
-        self._range, self._averaged = (picture.lowest, picture.highest), True
+        self._highest, self._averaged = picture.highest, True
 
     def patch(self, patch: CellPatch) -> None:
         """Take other heights, relief and colours over for a rectangle of cells; after `fill` and `colour`."""
-        low, high = self._range
-        self._range = min(low, float(patch.heights.min())), max(high, float(patch.heights.max()))
         place = (patch.col, patch.row, patch.heights.shape[1], patch.heights.shape[0])
         for texture, data in (
             (self._heights, patch.heights),
-            (self._relief, patch.relief),
+            (self._relief, patch.relief[..., :4]),
+            (self._walls, patch.relief[..., 4:]),
             (self._values, patch.values),
         ):
             texture.write(np.ascontiguousarray(data), viewport=place, alignment=1)
+        self._patch_blocks(patch)
         self._averaged = False
 
     def colour(self, values: NDArray[np.uint8]) -> None:
@@ -99,122 +114,126 @@ class StockTextures:
         self._values = self._filled(self._values, values)
         self._values.filter = (self._ctx.NEAREST, self._ctx.NEAREST)
 
-    def draw(self, frame: CutFrame, reach: float, hole: Hole = NO_HOLE) -> Iterator[None]:
-        """Paint into the framebuffer in use, piece by piece; nothing before `fill`.
+    def draw(
+        self, frame: CutFrame, box: StockExtent, plain: MetalTarget | None = None, at_once: bool = False
+    ) -> Iterator[None]:
+        """Paint into the framebuffer in use, strip by strip; nothing before `fill`.
 
         Args:
             frame: how it is looked at.
-            reach: nothing is farther than this from the camera's target, mm.
-            hole: what somebody else paints.
+            box: where there is something.
+            plain: the picture with a line of sight in a pixel, where this one is to have `FINE` by `FINE`: they are
+                followed where it is not even. None: all are.
+            at_once: nobody wants to do something meanwhile.
         """
-        picture, programs = self._picture, self._programs
+        picture = self._picture
         if picture is None:
             return
-        for program in programs.bare:
-            self._set_uniforms(program, frame, picture, reach)
-            if "hole" in program:
-                program["hole"] = hole
-        self._begin()
-        self._draw_walls(frame, picture)
-        if frame.camera.pitch < 0:
-            programs.bare[programs.floor].render(self._ctx.TRIANGLE_STRIP, vertices=4)
-        has_holes = self._range[0] <= picture.floor or frame.section is not None or hole is not NO_HOLE
-        yield from self._draw_top(frame, picture, programs.clipped if has_holes else programs.whole)
+        width, height = frame.rays
+        self._set_uniforms(frame, picture, box.reach)
+        for name, around in (("hole", box.hole), ("stock_box", box.sides)):
+            self._program[name] = picture_cells(picture, around)
+        self._program["finer"] = int(plain is not None)
+        self._set_relief_filter(frame, picture, moving=at_once)
+        low, high = self._rows_in_sight(frame, picture)
+        parts = (
+            plain.uneven_tiles(low // FINE, -(-high // FINE)) if plain is not None else _strips(low, high, frame.rays)
+        )
+        rays = (parts[:, 2:] - parts[:, :2]).prod(axis=1) * (width * height)
+        batch = np.zeros(len(parts)) if at_once else np.floor(np.cumsum(rays) / STRIP_RAYS)
+        for number in np.unique(batch):
+            some = np.ascontiguousarray(parts[batch == number], "f4")
+            self._begin(plain)
+            self._parts.orphan(some.nbytes)
+            self._parts.write(some.tobytes())
+            self._array.render(self._ctx.TRIANGLE_STRIP, vertices=4, instances=len(some))
+            if not at_once:
+                self._ctx.finish()
+                yield None
 
     def release(self) -> None:
         """Give everything back to the graphics system."""
-        for held in (self._heights, self._values, self._relief):
+        for held in (self._array, self._parts, self._heights, self._blocks, self._values, self._relief, self._walls):
             held.release()
 
-    def _draw_top(self, frame: CutFrame, picture: CutPicture, field: moderngl.Program) -> Iterator[None]:
-        ctx, array = self._ctx, self._programs.bare[field]
-        (column, row), (last_column, last_row) = frame.seen_cells(picture, self._range[1])
-        stride = frame.stride(picture, (last_column - column) * (last_row - row))
-        across, along = -(-(last_column - column) // stride), -(-(last_row - row) // stride)
-        sharp = picture.pitch * frame.camera.scale > _SHARP
-        if not (sharp or self._averaged or frame.budget):
+    def _patch_blocks(self, patch: CellPatch) -> None:
+        """Find the highest of each block anew that has a cell of the patch."""
+        self._cells[patch.rows, patch.columns] = patch.heights
+        rows, columns = (
+            slice(part.start // BLOCK, min(part.stop // BLOCK, size // BLOCK) + 1)
+            for part, size in zip((patch.rows, patch.columns), self._cells.shape, strict=True)
+        )
+        own = block_heights(self._cells, rows, columns)
+        self._tops[rows, columns] = own
+        self._highest = float(self._tops.max())
+        self._blocks.write(own, viewport=(columns.start, rows.start, own.shape[1], own.shape[0]), alignment=1)
+
+    def _rows_in_sight(self, frame: CutFrame, picture: CutPicture) -> tuple[int, int]:
+        """Return the first row of rays, from below, that may meet the stock's box, and the one behind the last."""
+        low, high = picture.low, np.maximum(picture.high, (-np.inf, -np.inf, self._highest))
+        corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
+        down = frame.camera.project(corners, frame.size)[:, 1] * frame.rays[1] / frame.size[1]
+        rows = frame.rays[1] - np.array([down.max(), down.min()])
+        first, last = np.clip([np.floor(rows[0]) - 1, np.ceil(rows[1]) + 1], 0, frame.rays[1]).astype(int)
+        return int(first), int(last)
+
+    def _set_relief_filter(self, frame: CutFrame, picture: CutPicture, moving: bool) -> None:
+        ctx, sharp = self._ctx, picture.pitch * frame.camera.scale > _SHARP
+        if not (sharp or self._averaged or moving):
             self._relief.build_mipmaps()
             self._averaged = True
         self._relief.filter = (ctx.LINEAR if sharp or not self._averaged else ctx.LINEAR_MIPMAP_NEAREST, ctx.LINEAR)
-        field["stride"], field["last"] = stride, (last_column, last_row)
-        band = max(1, BAND_QUADS // max(across, 1))
-        for begin in range(0, along, band):
-            self._begin()
-            field["first"] = (column, row + begin * stride)
-            array.render(ctx.TRIANGLE_STRIP, vertices=2 * (across + 1), instances=min(band, along - begin))
-            if begin + band < along:
-                ctx.finish()
-                yield None
 
-    def _draw_walls(self, frame: CutFrame, picture: CutPicture) -> None:
-        """Paint the sides that face the eye, and the face of the section."""
-        wall, low, high = self._programs.wall, picture.low, picture.high
-        corners = [(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])]
-        coarse = frame.stride(picture, picture.heights.size)
-        facings = ((0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0))
-        for k, facing in enumerate(facings):
-            if np.dot(facing, frame.camera.axes[2, :2]) > 0:
-                self._draw_wall(
-                    corners[k],
-                    corners[(k + 1) % 4],
-                    facing,
-                    (picture.columns if k % 2 == 0 else picture.rows) // coarse,
-                )
-        ends = section_ends(frame.section, low, high) if frame.section is not None else None
-        if frame.section is not None and ends is not None:
-            wall["face"] = 1
-            wall["section"] = (0.0, 0.0, 0.0)
-            self._draw_wall(*ends, frame.section.normal, (picture.columns + picture.rows) // coarse)
-            wall["face"] = 0
-            wall["section"] = frame.clip
-
-    def _draw_wall(
-        self, begin: tuple[float, float], end: tuple[float, float], facing: tuple[float, float], pieces: int
-    ) -> None:
-        wall = self._programs.wall
-        wall["begin"], wall["end"] = begin, end
-        wall["facing"] = (*facing, 0.0)
-        wall["pieces"] = max(pieces, 1)
-        self._programs.bare[wall].render(self._ctx.TRIANGLE_STRIP, vertices=2 * (max(pieces, 1) + 1))
-
-    def _set_uniforms(self, program: moderngl.Program, frame: CutFrame, picture: CutPicture, reach: float) -> None:
-        look, axes = frame.look, frame.camera.axes
-        light = _unit(np.asarray(look.light) @ axes)
+    def _set_uniforms(self, frame: CutFrame, picture: CutPicture, reach: float) -> None:
+        look, camera, program = frame.look, frame.camera, self._program
+        light, pitch = _unit(np.asarray(look.light) @ camera.axes), picture.pitch
+        across, down = (size / rays for size, rays in zip(frame.size, frame.rays, strict=True))
+        start = camera.ray((0.0, frame.size[1]), frame.size).origin
+        normal = np.array(frame.clip[:2]) if frame.section is not None else np.zeros(2)
         values = {
             "heights": _HEIGHTS,
             "values": _VALUES,
             "palette": _PALETTE,
             "relief": _RELIEF,
-            "face": 0,
-            "section": frame.clip,
-            "corner": (picture.x0, picture.y0, picture.pitch),
+            "blocks": _BLOCKS,
+            "walls": _WALLS,
+            "uneven": _UNEVEN,
+            "corner": (picture.x0, picture.y0, pitch),
             "last_cell": (picture.columns - 1, picture.rows - 1),
             "floor_z": picture.floor,
+            "highest": self._highest,
+            "eye": tuple((start - (picture.x0, picture.y0, 0.0)) / pitch + (0.5, 0.5, 0.0)),
+            "right": tuple(camera.axes[0] * across / (camera.scale * pitch)),
+            "up": tuple(camera.axes[1] * down / (camera.scale * pitch)),
+            "away": tuple(-camera.axes[2]),
+            "depth_gain": 0.5 * pitch / reach,
+            "scale": pitch * camera.scale,
+            "section": (*normal, (frame.clip[2] - float(normal @ picture.low[:2])) / pitch + 0.5 * float(normal.sum())),
             "light": tuple(light),
-            "halfway": tuple(_unit(light + axes[2])),
+            "halfway": tuple(_unit(light + camera.axes[2])),
             "stock": look.stock,
             "hatch": look.hatch,
             "edge": look.edge,
             "strength": look.strength,
         }
         for name, value in values.items():
-            if name in program:
-                program[name] = value
-        program["to_clip"] = tuple(frame.camera.matrix(frame.size, reach).T.ravel())
+            program[name] = value
 
-    def _begin(self) -> None:
+    def _begin(self, plain: MetalTarget | None) -> None:
         """Set the state of the graphics system, which others may have changed since the last piece."""
         self._ctx.enable_only(self._ctx.DEPTH_TEST)
-        for plane in CLIP_PLANES:
-            self._ctx.enable_direct(plane)
         places = (
             (self._heights, _HEIGHTS),
             (self._values, _VALUES),
             (self._palette, _PALETTE),
             (self._relief, _RELIEF),
+            (self._blocks, _BLOCKS),
+            (self._walls, _WALLS),
         )
         for texture, place in places:
             texture.use(place)
+        if plain is not None:
+            plain.uneven.use(_UNEVEN)
 
     def _filled(self, texture: moderngl.Texture, data: NDArray[np.float32] | NDArray[np.uint8]) -> moderngl.Texture:
         """Return a texture with data, (rows, columns) or (rows, columns, bands), in it: the old one, where it fits."""
@@ -226,6 +245,23 @@ class StockTextures:
             texture.repeat_x = texture.repeat_y = False
         texture.write(np.ascontiguousarray(data), alignment=1)
         return texture
+
+
+def _strips(low: int, high: int, rays: tuple[int, int]) -> Floats:
+    """Return (n, 4) strips of rows of rays, from the first to before the last, as shares: see `uneven_tiles`."""
+    width, height = rays
+    ends = np.append(np.arange(low, high, max(1, STRIP_RAYS // width)), high) / height
+    strips = np.zeros((len(ends) - 1, 4))
+    strips[:, 1], strips[:, 2], strips[:, 3] = ends[:-1], 1.0, ends[1:]
+    return strips
+
+
+def picture_cells(picture: CutPicture, around: Rectangle) -> Rectangle:
+    """Return a rectangle as the shader takes it: in cells, 1 at the centre of the first one."""
+    x0, y0, x1, y1 = (
+        (at - corner) / picture.pitch + 0.5 for at, corner in zip(around, (picture.x0, picture.y0) * 2, strict=True)
+    )
+    return x0, y0, x1, y1
 
 
 def _unit(vector: Floats) -> Floats:

@@ -1,0 +1,120 @@
+"""The options of `batch`: its own, and those of the command that it does with every part, which are passed on to it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ..usecases.batch.task import BatchKind
+from .command import OptionParser
+from .program import load_command
+from .values import number
+
+EPILOG = """\
+Writes each part's program below OUT, and results.csv and results.html, the table of verdict, time, length and
+findings. What is done is not done again: it is known by the content of file, options and program version, kept in
+OUT/.hitofude. So Ctrl+C, a fault of the power or another option costs only what it concerns: type the command again.
+LIST.toml names parts, each with options of its own: [[part]], file = "plate.dxf", depth = 3; a table [options] is for
+all. Options are those of make, or with --check or --smooth those of check or smooth. Exit status 0: all parts are
+clean; 1: some are not, the table tells which; 2: nothing was begun.
+"""
+
+NOT_PASSED = frozenset(
+    {"help", "memory", "output", "report", "image", "write_job", "timings", "quiet", "frame", "restart_at", "compare"}
+    | {"sheet"}
+)
+"""What the commands have for one part alone."""
+
+
+def add_batch_options(parser: OptionParser) -> None:
+    """Add the options of `hitofude batch`."""
+    parser.add_argument("parts", metavar="FOLDER|LIST.toml", type=Path, help="the parts: all in a folder, or a list")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT",
+        type=Path,
+        required=True,
+        help="the folder to write to, made where there is none",
+    )
+    kind = parser.add_mutually_exclusive_group()
+    kind.add_argument("--check", action="store_true", help="check NC programs instead of making them of drawings")
+    kind.add_argument("--smooth", action="store_true", help="smooth NC programs instead")
+    parser.add_argument(
+        "--jobs", metavar="N", type=_jobs, help="parts at a time, each in its own process (default: one a core)"
+    )
+    parser.add_argument(
+        "--limit",
+        metavar="MIN",
+        type=number("limit", unit="min"),
+        default=60.0,
+        help="a part that takes longer is ended (default 60)",
+    )
+    parser.add_argument(
+        "--scheduler", metavar="tcp://HOST:PORT", help="work on the cluster of this Dask scheduler (hitofude[cluster])"
+    )
+    parser.add_argument("--reports", action="store_true", help="everything that was measured of each part, as JSON")
+    parser.add_argument(
+        "--images", choices=["svg", "png"], help="of make: a picture of part and paths beside each program"
+    )
+    parser.add_argument(
+        "--sheets", choices=["pdf", "html"], help="of make: the sheet for the machine beside each program"
+    )
+    parser.add_argument("--again", action="store_true", help="do all parts, whatever is done already")
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+    _add_passed(parser)
+
+
+def _jobs(text: str) -> int:
+    if not text.isdecimal() or not 1 <= int(text) <= 1024:
+        raise argparse.ArgumentTypeError(f"is wrong: '{text}' is no number of jobs; write one from 1 to 1024")
+    return int(text)
+
+
+class _Passed(argparse.Action):
+    """Keeps an option and its value as they were typed, for the command that reads them."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: str | Sequence[Any] | None,
+        option_string: str | None = None,
+    ) -> None:
+        kept = getattr(namespace, "passed", None) or []
+        own = f"{option_string}={values}" if isinstance(values, str) else str(option_string)
+        namespace.passed = [*kept, own]
+
+
+def _add_passed(parser: OptionParser) -> None:
+    """Add the options of the commands, each under the first command that has it."""
+    taken = {name for action in parser._actions for name in action.option_strings}
+    for kind in BatchKind:
+        group = parser.add_argument_group(f"options of {kind.value}")
+        for action in actions_of(kind):
+            names = [name for name in action.option_strings if name not in taken]
+            if names:
+                taken.update(names)
+                choices = f" ({', '.join(map(str, action.choices))})" if action.choices else ""
+                group.add_argument(
+                    *names,
+                    action=_Passed,
+                    dest="passed",
+                    nargs=0 if action.nargs == 0 else None,
+                    metavar=action.metavar or (None if action.nargs == 0 else action.dest.upper()),
+                    help=None if action.help is None else action.help + choices.replace("%", "%%"),
+                )
+
+
+def actions_of(kind: BatchKind) -> list[argparse.Action]:
+    """Return the options of a command that are for any number of parts."""
+    parser = load_command(kind.value).parser()
+    assert parser.command
+    return [each for each in parser._actions if each.option_strings and each.dest not in NOT_PASSED]
+
+
+def kind_of(arguments: argparse.Namespace) -> BatchKind:
+    """Return what is done with every part."""
+    return BatchKind.CHECK if arguments.check else BatchKind.SMOOTH if arguments.smooth else BatchKind.MAKE

@@ -1,0 +1,129 @@
+"""What of a batch is to be done: its parts, with options of their own, but for those that are done already."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from .. import __version__
+from ..core.digest import content_digest
+from ..core.errors import HitofudeError, InputError
+from ..core.input_file import read_input
+from ..core.settings import config_folder
+from ..usecases.batch.task import BatchExtras, BatchKind, BatchRow, BatchTask, BatchVerdict
+from ..usecases.bitmap_options import is_picture
+from ..usecases.examine import ExamineOptions
+from ..usecases.options import MakeOptions
+from ..usecases.smooth_result import SmoothOptions
+from .batch_list import ListedPart, listed_parts, named_outputs
+from .batch_options import kind_of
+from .batch_store import BatchStore
+from .files import identity
+from .program import load_command
+
+Options = MakeOptions | ExamineOptions | SmoothOptions
+
+
+@dataclass(frozen=True)
+class PlannedPart:
+    """A part that is to be done.
+
+    Attributes:
+        place: in the table.
+        key: of its content, options and the program's version.
+        task: what is done.
+    """
+
+    place: int
+    key: str
+    task: BatchTask
+
+
+@dataclass(frozen=True)
+class PlannedBatch:
+    """A batch that is ready to begin.
+
+    Attributes:
+        title: of its table.
+        store: its folder.
+        rows: of the table, one a part: of those that are done, and open ones. outputs: of their programs.
+        pending: parts that are to be done.
+    """
+
+    title: str
+    store: BatchStore
+    rows: list[BatchRow]
+    outputs: tuple[str, ...]
+    pending: tuple[PlannedPart, ...]
+
+
+def planned(arguments: argparse.Namespace) -> PlannedBatch:
+    """Return what is to be done; options are read, and the folder is there.
+
+    Raises:
+        HitofudeError: there is no part, or an option or the folder cannot be used.
+    """
+    kind = kind_of(arguments)
+    parts = listed_parts(arguments.parts, arguments.output, kind)
+    outputs = named_outputs(parts)
+    _ensure_apart(parts, [arguments.output / each for each in outputs])
+    passed = tuple(arguments.passed or ())
+    options = [_options_of(kind, (*passed, *part.options), is_picture(part.name)) for part in parts]
+    image, sheet = (f".{suffix}" if suffix else "" for suffix in (arguments.images, arguments.sheets))
+    extras = BatchExtras(arguments.reports, image, sheet)
+    store, rows, pending = BatchStore(arguments.output), [], []
+    for place, (part, output, own) in enumerate(zip(parts, outputs, options, strict=True)):
+        row = BatchRow(part.name, BatchVerdict.OPEN)
+        try:
+            task = BatchTask(part.name, read_input(part.path), kind, own, output, extras)
+        except HitofudeError as error:
+            row = BatchRow(part.name, BatchVerdict.REFUSED, findings=(str(error),), counting=1)
+        else:
+            key = content_digest(__version__, task, _own_posts())
+            known = None if arguments.again else store.known(output, key)
+            row = known or row
+            pending += [] if known else [PlannedPart(place, key, task)]
+        rows.append(row)
+    return PlannedBatch(f"{arguments.parts.resolve().name}: {kind.value}", store, rows, tuple(outputs), tuple(pending))
+
+
+@cache
+def _options_of(kind: BatchKind, words: tuple[str, ...], picture: bool) -> Options:
+    """Return the options of a command, its files read.
+
+    Raises:
+        HitofudeError: one is none, or cannot be used.
+    """
+    command = load_command(kind.value)
+    name = "part.png" if picture else "part.dxf" if kind is BatchKind.MAKE else "part.ngc"
+    output = () if kind is BatchKind.CHECK else ("-o", "out.ngc")
+    arguments = command.arguments([name, *output, *words])
+    if kind is BatchKind.MAKE:
+        from .make_options import read_make_options
+
+        return read_make_options(arguments)
+    if kind is BatchKind.CHECK:
+        from .check_options import examine_options
+
+        return examine_options(arguments)
+    from .smooth_options import smooth_options
+
+    return smooth_options(arguments)
+
+
+@cache
+def _own_posts() -> tuple[tuple[str, bytes], ...]:
+    """Return the user's own posts: what is written depends on them, whoever names one."""
+    folder = config_folder() / "posts"
+    return tuple((path.name, path.read_bytes()) for path in sorted(folder.glob("*.toml"))) if folder.is_dir() else ()
+
+
+def _ensure_apart(parts: Sequence[ListedPart], outputs: Sequence[Path]) -> None:
+    """Refuse to write over a part."""
+    inputs = {identity(part.path): part.path for part in parts}
+    for path in outputs:
+        if (own := inputs.get(identity(path))) is not None:
+            raise InputError(f"--output: {own} is a part, and would be written over; choose another folder")

@@ -1,0 +1,100 @@
+"""The options of `better`, and what they ask for."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..gcode.interpreter.dialect import Dialect
+from ..gcode.posts.posts import load_post, post_names
+from ..usecases.better.improve import BetterOptions
+from ..usecases.examine import CONTROLS
+from ..usecases.setup import SetupRequest
+from ..usecases.setup_tools import ToolSource
+from ..usecases.smooth import OutputForm
+from .command import OptionParser
+from .cut_options import stock_given, tool_given
+from .cut_request import with_stock
+from .values import number, typed
+
+EPILOG = """\
+For programs that go over a surface in straight passes beside one another with one ball: as CAM systems write them from
+a polyhedron. The old program is cut; the facets that its passes lie on are told apart, and where they meet lies the
+true shape; a smooth surface through these places is machined anew, its passes become curves with a proof, and the new
+program is cut out of the same stock. Both cuts are compared cell by cell: nowhere may they differ by more than T, up or
+down. The surface can be kept as a scene. Exit status 0: better, and within T; 1: with findings; 2: bad input, or the
+tolerance does not hold the facets.
+"""
+
+
+def add_better_options(parser: OptionParser) -> None:
+    """Add the options of `hitofude better`."""
+    parser.add_argument("program", metavar="PROGRAM.ngc", type=Path, help="the NC program")
+    parser.add_argument("-o", "--output", metavar="OUT.ngc", type=Path, required=True, help="the better program")
+    parser.add_argument(
+        "--tolerance",
+        metavar="T",
+        type=number("tolerance"),
+        default=BetterOptions.tolerance,
+        help="by how much the new cut may differ from the old one, up or down, square to the surface "
+        f"(default {BetterOptions.tolerance:g} mm)",
+    )
+    parser.add_argument(
+        "--epsilon",
+        metavar="E",
+        type=number("epsilon"),
+        help="points so near to one plane are a facet; far less than facets are off the true shape (mm; default what "
+        "suits of a fiftieth and a twentieth of T)",
+    )
+    parser.add_argument(
+        "--pitch", metavar="P", type=number("pitch"), help="from pass to pass (mm; default as the old passes)"
+    )
+    parser.add_argument(
+        "--as",
+        dest="form",
+        choices=[form.value for form in OutputForm],
+        default=OutputForm.ARCS.value,
+        help="what curves are written as (default arcs)",
+    )
+    parser.add_argument(
+        "--stock",
+        metavar="BOX|FILE",
+        type=typed(stock_given),
+        help="as for cut: X0,Y0,Z0,X1,Y1,Z1, a solid, or heights that other tools have left",
+    )
+    parser.add_argument(
+        "--tool",
+        metavar="NUMBER=ball:DIAMETER",
+        type=typed(tool_given),
+        action="append",
+        default=[],
+        help="the tool, where the program does not tell of it",
+    )
+    parser.add_argument("--post", metavar="NAME", choices=post_names(), help="whose words the new program has")
+    parser.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
+    parser.add_argument("--scene", metavar="OUT.toml", type=Path, help="the smooth surface and its passes as a scene")
+    parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was found, as JSON")
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+
+
+def better_options(arguments: argparse.Namespace) -> BetterOptions:
+    """Return what was asked for."""
+    if arguments.post:
+        load_post(arguments.post)
+    return BetterOptions(
+        arguments.tolerance,
+        arguments.epsilon,
+        arguments.pitch,
+        OutputForm(arguments.form),
+        post=arguments.post,
+        dialect=Dialect(arguments.dialect) if arguments.dialect else None,
+    )
+
+
+def better_setup(arguments: argparse.Namespace) -> SetupRequest:
+    """Return tools and stock as they are told.
+
+    Raises:
+        InputError: a file cannot be read.
+    """
+    return with_stock(SetupRequest((ToolSource("--tool", dict(arguments.tool)),)), arguments.stock)

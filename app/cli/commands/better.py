@@ -1,0 +1,47 @@
+"""`hitofude better`: a program of passes over a surface becomes a better one, proven by a second cut."""
+
+from __future__ import annotations
+
+import argparse
+
+from ...core.input_file import read_input
+from ...formats.scene.write import scene_text
+from ...usecases.better.improve import better
+from ...usecases.better.report import findings, lines, report_text
+from ..better_options import EPILOG, add_better_options, better_options, better_setup
+from ..command import CliCommand
+from ..files import check_outputs, named_files, shown_progress
+from ..outcome import CommandOutcome
+from ..output import finding_lines
+from ..signals import StopFlag
+
+
+def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
+    """Do the work and return the exit status: 0 better and within the tolerance, 1 with findings."""
+    outputs = named_files(arguments, "output", "scene", "report")
+    check_outputs(outputs, [arguments.program])
+    progress = shown_progress(arguments.quiet, stopped)
+    asked, setup = better_options(arguments), better_setup(arguments)
+    done = better(arguments.program.name, read_input(arguments.program), asked, setup, progress)
+    files = {outputs["output"]: done.data}
+    if "scene" in outputs:
+        files[outputs["scene"]] = scene_text(done.scene).encode()
+    if "report" in outputs:
+        files[outputs["report"]] = report_text(done).encode()
+    found = findings(done)
+    counts = any(finding.counts for finding in found)
+    return CommandOutcome(files, [*lines(done), *finding_lines(found)], counts).delivered(arguments, progress)
+
+
+COMMAND = CliCommand(
+    "better",
+    "program",
+    "the NC program and -o OUT.ngc",
+    (
+        "Make a better program of one that goes over a surface in passes: fewer blocks, smaller bends, nearer to the "
+        "true shape, and prove by a second cut that it leaves the same."
+    ),
+    EPILOG,
+    add_better_options,
+    _run,
+)

@@ -1,0 +1,92 @@
+"""`hitofude sheet`: the paper that goes to the machine with any NC program."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ...core.errors import HitofudeError, InputError
+from ...core.input_file import read_input
+from ...core.progress import Progress
+from ...formats.sheet.write import SUFFIXES, sheet_bytes
+from ...usecases.cut import cut
+from ...usecases.cut_report import cut_report
+from ...usecases.examine import ExaminedProgram
+from ...usecases.setup import setup_of
+from ...usecases.sheet.program import SheetCut, program_sheet
+from ..command import CliCommand, OptionParser
+from ..cut_options import add_cut_options, check_cut_arguments
+from ..cut_request import cut_files, examined_programs, requested_look, setup_request
+from ..files import check_outputs, shown_progress
+from ..outcome import CommandOutcome
+from ..signals import StopFlag
+
+EPILOG = """\
+A picture of stock, path and zero, tools with stick-out and holder, times, and a certificate: what was proven, by which
+bound, with the SHA-256 of the files. Options are those of cut. Where tools or stock are not known the program is read
+only, and the sheet says so. Exit status 0: done and clean; 1: with findings; 2: a file cannot be used.
+"""
+
+
+def add_sheet_options(parser: OptionParser) -> None:
+    """Add the options of `hitofude sheet`."""
+    parser.add_argument(
+        "-o", "--output", metavar="OUT.pdf|html", type=Path, required=True, help="the sheet, for A4 or for a browser"
+    )
+    add_cut_options(parser)
+
+
+def sheet_suffix(option: str, path: Path) -> str:
+    """Return the suffix of a sheet.
+
+    Raises:
+        InputError: it is none of those that sheets have.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise InputError(f"--{option} {path}: a sheet is {' or '.join(SUFFIXES)}; change the name")
+    return suffix
+
+
+def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
+    """Do the work and return the exit status: 0 clean, 1 with findings."""
+    suffix = sheet_suffix("output", arguments.output)
+    cut_files(arguments)
+    check_outputs({"output": arguments.output}, arguments.programs)
+    progress = shown_progress(arguments.quiet, stopped)
+    programs = examined_programs(arguments, progress.part(0.0, 0.2))
+    done, why = _cut(arguments, programs, progress.part(0.2, 0.95))
+    files = {f"program {path.name}": read_input(path) for path in arguments.programs}
+    if arguments.against is not None:
+        files = {f"part {arguments.against.name}": read_input(arguments.against), **files}
+    sheet = program_sheet(programs, files, done, why)
+    lines = [f"{arguments.output}: {sheet.verdict}"]
+    return CommandOutcome({arguments.output: sheet_bytes(sheet, suffix)}, lines, bool(sheet.findings)).delivered(
+        arguments, progress
+    )
+
+
+def _cut(
+    arguments: argparse.Namespace, programs: tuple[ExaminedProgram, ...], progress: Progress
+) -> tuple[SheetCut | None, str]:
+    """Return the program, cut out of its stock, or why it cannot be."""
+    request = setup_request(arguments)
+    try:
+        ready = setup_of(programs, request, progress.part(0.0, 0.1))
+    except HitofudeError as error:
+        return None, str(error)
+    done = cut(ready.setup, requested_look(arguments), progress.part(0.1, 1.0))
+    return SheetCut(ready, done, cut_report(done, ready)), ""
+
+
+COMMAND = CliCommand(
+    "sheet",
+    "",
+    "the NC program and -o OUT.pdf",
+    "Write the sheet that goes to the machine with an NC program: what is set up, what it does, what is proven.",
+    EPILOG,
+    add_sheet_options,
+    _run,
+    intermixed=True,
+    check=check_cut_arguments,
+)

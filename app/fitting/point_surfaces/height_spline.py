@@ -1,0 +1,228 @@
+"""A smooth surface of heights through scattered places: a bicubic B-spline, as coarse as the places themselves allow.
+
+How many spans it has is not asked of the places that it goes by, which ever more spans come ever nearer to, but of
+places that were left out: half of them find the surface, the other half say how far it is off, and the other way round.
+That figure is no proof, but it is measured on what the surface has not seen.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ...core.errors import GeometryError
+from ...core.progress import NO_PROGRESS, Progress
+from ...model.motion import Floats
+
+_SPANS = (2, 3, 4, 6, 8, 12, 16, 24, 32, 48)
+"""Along the longer side, tried one after the other."""
+_STIFF = (1e-7, 1e-6, 1e-5, 1e-4, 1e-3)
+"""Weights of the third differences of control points, which hold the surface where there are no places."""
+_ASTRAY = 8.0
+"""Times the median of what is left: places farther off than that are left out, they are no corners."""
+_ROUNDS = 4
+"""Times that this is asked: one that is far off pulls its neighbours with it at first."""
+_LEAST = 1e-4
+"""mm; no place that is nearer than that times `_ASTRAY` is left out."""
+_BELIEVED = 0.9
+"""Of the places that were left out: the others may be no corners, or lie beyond all that were not left out."""
+_LIGHT, RIM = 1e-3, 0.1
+"""Of the weight of all places together: what all points weigh that have places round them, and usually those at the
+rim, which nothing else holds.
+"""
+_WORSE = 3
+"""Numbers of spans in a row that are worse than the best: finer ones are not tried."""
+
+
+@dataclass(frozen=True)
+class Box:
+    """Where a surface of heights is: u0 to u1 along, v0 to v1 across, mm."""
+
+    u0: float
+    u1: float
+    v0: float
+    v1: float
+
+
+@dataclass(frozen=True, eq=False)
+class HoldingPoints:
+    """Points (m, 3) near to a surface, u, v, z, mm; rim: of the weight of all places, what they would weigh together
+    were all of them at the rim.
+    """
+
+    points: Floats
+    rim: float = RIM
+
+
+@dataclass(frozen=True, eq=False)
+class HeightSpline:
+    """z = f(u, v), bicubic and twice smooth.
+
+    Attributes:
+        knots_u: (m + 4,) evenly, mm. knots_v: (n + 4,). control: (m, n) mm.
+    """
+
+    knots_u: Floats
+    knots_v: Floats
+    control: Floats
+
+    def heights(self, places: Floats) -> Floats:
+        """Return the heights (k,) at places (k, 2), mm; beyond the box those of its rim."""
+        along, across = _basis(places[:, 0], self.knots_u), _basis(places[:, 1], self.knots_v)
+        heights: Floats = np.einsum("ij,ij->i", along @ self.control, across.toarray())
+        return heights
+
+    def slopes(self, places: Floats) -> Floats:
+        """Return the slopes (k, 2) along u and v at places (k, 2)."""
+        from scipy.interpolate import BSpline
+
+        u = np.clip(places[:, 0], self.knots_u[3], self.knots_u[-4])
+        v = np.clip(places[:, 1], self.knots_v[3], self.knots_v[-4])
+        du = BSpline(self.knots_u, self.control, 3).derivative()(u)
+        dv = BSpline(self.knots_v, self.control.T, 3).derivative()(v)
+        along = np.einsum("ij,ij->i", du, _basis(v, self.knots_v).toarray())
+        return np.column_stack([along, np.einsum("ij,ij->i", dv, _basis(u, self.knots_u).toarray())])
+
+
+@dataclass(frozen=True, eq=False)
+class FittedHeights:
+    """A surface of heights, and what is known of it.
+
+    Attributes:
+        spline: it. spans: along u and v.
+        left_out_mm: how far nine tenths of the places that it was not found by were from it, root of the mean square,
+            along Z, mm.
+        used: (n,) which places it goes by: others are no corners.
+    """
+
+    spline: HeightSpline
+    spans: tuple[int, int]
+    left_out_mm: float
+    used: NDArray[np.bool_]
+
+
+def fit_heights(
+    places: Floats, weights: Floats, holding: HoldingPoints, box: Box, progress: Progress = NO_PROGRESS
+) -> FittedHeights:
+    """Return a smooth surface by places.
+
+    Args:
+        places: (n, 3) u, v, z, mm, which lie on the surface, n >= 16. weights: (n,) of them, about 1.
+        holding: points near to it, which hold it where there are no places.
+        box: that it is over; all places and points lie in there.
+        progress: told of how much is done.
+
+    Raises:
+        GeometryError: there are too few places.
+        Cancelled: the job was asked to stop.
+    """
+    if len(places) < 16:
+        raise GeometryError(f"a surface by {len(places)} places; expected 16 or more.")
+    points, rim = holding.points, holding.rim
+    light = np.where(_inside(places, points), _LIGHT, rim) * float(weights.sum()) / max(len(points), 1)
+    used = np.ones(len(places), np.bool_)
+    work = _FitTask(places, weights, points, light, box)
+    for turn in range(_ROUNDS):
+        best = work.best(used, progress.part(turn / _ROUNDS, (turn + 1) / _ROUNDS))
+        off = np.abs(best.spline.heights(places[:, :2]) - places[:, 2])
+        near = off <= _ASTRAY * max(float(np.median(off)), _LEAST)
+        if np.array_equal(near, used):
+            break
+        used = near
+    return best
+
+
+def _inside(places: Floats, points: Floats) -> NDArray[np.bool_]:
+    """Tell which points have places round them."""
+    hull = shapely.convex_hull(shapely.MultiPoint(places[:, :2]))
+    shapely.prepare(hull)
+    inside: NDArray[np.bool_] = shapely.contains_xy(hull, points[:, 0], points[:, 1])
+    return inside
+
+
+@dataclass(frozen=True, eq=False)
+class _FitTask:
+    """What surfaces are found by."""
+
+    places: Floats
+    weights: Floats
+    points: Floats
+    light: Floats
+    box: Box
+
+    def best(self, used: NDArray[np.bool_], progress: Progress) -> FittedHeights:
+        """Return the surface that places which were left out are nearest to."""
+        rows = np.flatnonzero(used)
+        rows = rows[np.lexsort((self.places[rows, 0], np.round(self.places[rows, 1], 1)))]
+        halves = rows[::2], rows[1::2]
+        least, chosen, worse = math.inf, (2, 2, _STIFF[-1]), 0
+        for tried, spans in enumerate(_SPANS):
+            progress.step(tried / len(_SPANS), f"Fitting a surface of {spans} spans")
+            u, v = self._shares(spans)
+            if (u + 3) * (v + 3) > len(rows) / 2 and tried:
+                break
+            offs = [(self._left_out(halves, u, v, stiff), stiff) for stiff in _STIFF]
+            off, stiff = min(offs)
+            worse = 0 if off < least else worse + 1
+            if off < least:
+                least, chosen = off, (u, v, stiff)
+            if worse == _WORSE:
+                break
+        u, v, stiff = chosen
+        return FittedHeights(self._fitted(rows, u, v, stiff), (u, v), least, used)
+
+    def _shares(self, spans: int) -> tuple[int, int]:
+        long, wide = self.box.u1 - self.box.u0, self.box.v1 - self.box.v0
+        longer = max(long, wide)
+        return max(2, round(spans * long / longer)), max(2, round(spans * wide / longer))
+
+    def _left_out(self, halves: tuple[NDArray[np.int64], NDArray[np.int64]], u: int, v: int, stiff: float) -> float:
+        offs = []
+        for mine, other in (halves, halves[::-1]):
+            spline = self._fitted(mine, u, v, stiff)
+            offs.append(spline.heights(self.places[other, :2]) - self.places[other, 2])
+        squares = np.sort(np.concatenate(offs) ** 2)
+        return math.sqrt(float(squares[: math.ceil(_BELIEVED * len(squares))].mean()))
+
+    def _fitted(self, rows: NDArray[np.int64], u: int, v: int, stiff: float) -> HeightSpline:
+        """Return the surface of u x v spans by some places: least squares, and as little bent as these let it."""
+        from scipy import sparse
+        from scipy.sparse.linalg import spsolve
+
+        knots = _even(self.box.u0, self.box.u1, u), _even(self.box.v0, self.box.v1, v)
+        asked = np.concatenate([self.places[rows], self.points])
+        weights = np.concatenate([self.weights[rows], self.light])
+        along, across = (_basis(asked[:, axis], knots[axis]) for axis in (0, 1))
+        shape = along.shape[1], across.shape[1]
+        values = along.data.reshape(-1, 4)[:, :, None] * across.data.reshape(-1, 4)[:, None, :]
+        columns = along.indices.reshape(-1, 4)[:, :, None] * shape[1] + across.indices.reshape(-1, 4)[:, None, :]
+        rows_at = np.arange(0, 16 * len(asked) + 1, 16)
+        matrix = sparse.csr_matrix((values.ravel(), columns.ravel(), rows_at), (len(asked), shape[0] * shape[1]))
+        bent = [_third(count) for count in shape]
+        stiffness = sparse.kron(bent[0], sparse.identity(shape[1])) + sparse.kron(sparse.identity(shape[0]), bent[1])
+        weighted = matrix.T.multiply(weights)
+        normal = weighted @ matrix + stiff * float(weights.sum()) / (shape[0] * shape[1]) * stiffness
+        control = spsolve(normal.tocsc(), weighted @ asked[:, 2])
+        return HeightSpline(*knots, control.reshape(shape))
+
+
+def _even(low: float, high: float, spans: int) -> Floats:
+    """Return knots of a cubic spline of so many spans, evenly, three beyond each end."""
+    return np.asarray(low + (high - low) / spans * np.arange(-3, spans + 4), np.float64)
+
+
+def _basis(at: Floats, knots: Floats):  # type: ignore[no-untyped-def]  # scipy's sparse rows of four values each
+    from scipy.interpolate import BSpline
+
+    return BSpline.design_matrix(np.clip(at, knots[3], knots[-4]), knots, 3)
+
+
+def _third(count: int):  # type: ignore[no-untyped-def]  # scipy's sparse matrix
+    from scipy import sparse
+
+    steps = sparse.diags([-1.0, 3.0, -3.0, 1.0], [0, 1, 2, 3], shape=(count - 3, count), dtype=np.float64)
+    return steps.T @ steps

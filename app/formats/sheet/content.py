@@ -1,0 +1,108 @@
+"""What a set-up sheet says, whatever it is written as."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..plot.page import Box, TracedPolyline
+
+
+@dataclass(frozen=True)
+class SheetColumn:
+    """A column of a table.
+
+    Attributes:
+        title: above it. width: share of the table's width. number: figures, which stand at its right edge.
+    """
+
+    title: str
+    width: float
+    number: bool = False
+
+
+@dataclass(frozen=True)
+class SheetTable:
+    """A table: of tools, or of operations.
+
+    Attributes:
+        rows: cells by column. total: last row, in bold; none = there is none.
+    """
+
+    title: str
+    columns: tuple[SheetColumn, ...]
+    rows: tuple[tuple[str, ...], ...]
+    total: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class SheetFact:
+    """Something that whoever sets the machine up has to know: a word for it, and a sentence."""
+
+    label: str
+    text: str
+
+
+@dataclass(frozen=True)
+class SheetProof:
+    """A line of the certificate.
+
+    Attributes:
+        claim: what holds. bound: by which figure, and how it was found.
+        holds: True = proven; False = it does not hold; None = nobody has looked.
+    """
+
+    claim: str
+    bound: str
+    holds: bool | None
+
+
+@dataclass(frozen=True)
+class SheetHash:
+    """The SHA-256 of a file that the certificate is about."""
+
+    what: str
+    sha256: str
+
+
+@dataclass(frozen=True, eq=False)
+class SetupPicture:
+    """Stock, part and paths seen from above, mm, in one frame of coordinates.
+
+    Attributes:
+        stock: x0, y0, x1, y1 of the stock; None = not known.
+        zero: where the program's X 0 Y 0 is; None = not known.
+        lines: what is drawn, first to last.
+        legend: word and line of each kind.
+    """
+
+    stock: Box | None
+    zero: tuple[float, float] | None
+    lines: tuple[TracedPolyline, ...]
+    legend: tuple[tuple[str, TracedPolyline], ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class SetupSheet:
+    """Everything on the sheet of one set-up.
+
+    Attributes:
+        title: of the part. program: names of its files, and for which control.
+        verdict: the certificate in a sentence; good: whether the program may run.
+        facts: stock, zero, clamping and the like.
+        findings: sentences that count; remarks: others.
+        hashes: of drawing, job and each file.
+        made_by: program and version.
+    """
+
+    title: str
+    program: str
+    verdict: str
+    good: bool
+    picture: SetupPicture
+    facts: tuple[SheetFact, ...]
+    tables: tuple[SheetTable, ...]
+    proofs: tuple[SheetProof, ...]
+    findings: tuple[str, ...]
+    remarks: tuple[str, ...]
+    hashes: tuple[SheetHash, ...]
+    made_by: str

@@ -1,0 +1,122 @@
+"""What is done with one part of a batch: the use case of its command, and every failure as a verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import PurePosixPath
+
+import numpy as np
+
+from ...core.errors import Cancelled, HitofudeError
+from ...core.memory import MemoryShortError, within
+from ...core.progress import NO_PROGRESS, Progress
+from ...model.finding import Finding
+from ..examine import ExaminedProgram, ExamineOptions, examine
+from ..make import make
+from ..make_files import other_files
+from ..options import MakeOptions
+from ..smooth import smooth
+from ..smooth_report import findings as smooth_findings
+from ..smooth_report import report_text
+from ..smooth_result import SmoothOptions
+from .task import BatchResult, BatchRow, BatchTask, BatchVerdict
+from .thumbnail import motions_picture, part_picture
+
+
+def work(task: BatchTask, progress: Progress = NO_PROGRESS) -> BatchResult:
+    """Return what became of a part; whatever goes wrong with it is its verdict.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    try:
+        with within(task.memory):
+            return _done(task, progress)
+    except Cancelled:
+        raise
+    except MemoryShortError as error:
+        return _without_files(task, BatchVerdict.FAILED, str(error))
+    except HitofudeError as error:
+        return _without_files(task, BatchVerdict.REFUSED, str(error))
+    except MemoryError:
+        return _without_files(task, BatchVerdict.FAILED, "The memory that a part may take ran out; use fewer --jobs.")
+    except Exception as error:
+        sentence = f"This should not have happened ({type(error).__name__}: {error}); please report it with the file."
+        return _without_files(task, BatchVerdict.FAILED, sentence)
+
+
+def _without_files(task: BatchTask, verdict: BatchVerdict, sentence: str) -> BatchResult:
+    return BatchResult(BatchRow(task.name, verdict, findings=(sentence,), counting=1), {})
+
+
+def _done(task: BatchTask, progress: Progress) -> BatchResult:
+    if isinstance(task.options, MakeOptions):
+        return _made(task, task.options, progress)
+    if isinstance(task.options, SmoothOptions):
+        return _smoothed(task, task.options, progress)
+    return _checked(task, task.options, progress)
+
+
+def _beside(task: BatchTask) -> dict[str, PurePosixPath]:
+    """Return the files that are wanted beside the program, by what they hold."""
+    base, extras = PurePosixPath(task.output), task.extras
+    wanted = {"report": ".json"} if extras.report else {}
+    wanted |= {"image": extras.image} if extras.image else {}
+    wanted |= {"sheet": extras.sheet} if extras.sheet else {}
+    return {what: base.with_suffix(suffix) for what, suffix in wanted.items()}
+
+
+def _made(task: BatchTask, options: MakeOptions, progress: Progress) -> BatchResult:
+    from pathlib import Path
+
+    made = make(_file_name(task), task.data, options, progress)
+    named = {what: Path(path) for what, path in _beside(task).items()} | {"output": Path(task.output)}
+    files = {named[what].as_posix(): data for what, data in other_files(made, named, task.data).items()}
+    for file in made.files:
+        files[file.named(Path(task.output)).as_posix()] = file.nc.text.encode("ascii")
+    report = made.report.data
+    row = BatchRow(
+        task.name,
+        BatchVerdict.CLEAN if made.clean else BatchVerdict.FINDINGS,
+        report["time_s"],
+        sum(report["length_mm"].values()),
+        *_told(made.findings),
+        part_picture(made.program),
+    )
+    return BatchResult(row, files)
+
+
+def _told(findings: Sequence[Finding]) -> tuple[tuple[str, ...], int]:
+    return tuple(each.text for each in findings), sum(each.counts for each in findings)
+
+
+def _checked(task: BatchTask, options: ExamineOptions, progress: Progress) -> BatchResult:
+    examined = examine(_file_name(task), task.data, options, progress)
+    problems = tuple(each.message(examined.name) for each in examined.problems)
+    files = {path.as_posix(): examined.text().encode() for path in _beside(task).values()}
+    return BatchResult(_row_of(task, examined, problems, len(problems)), files)
+
+
+def _smoothed(task: BatchTask, options: SmoothOptions, progress: Progress) -> BatchResult:
+    done = smooth(_file_name(task), task.data, options, progress.part(0.0, 0.9))
+    after = examine(_file_name(task), done.data, ExamineOptions(dialect=done.dialects[1]), progress.part(0.9, 1.0))
+    sentences, counting = _told(smooth_findings(done))
+    files = {path.as_posix(): report_text(done).encode() for path in _beside(task).values()}
+    return BatchResult(_row_of(task, after, sentences, counting), {**files, task.output: done.data})
+
+
+def _row_of(task: BatchTask, examined: ExaminedProgram, sentences: tuple[str, ...], counting: int) -> BatchRow:
+    length = examined.report()["length_mm"]
+    return BatchRow(
+        task.name,
+        BatchVerdict.FINDINGS if counting else BatchVerdict.CLEAN,
+        float(np.nan_to_num(examined.time.total)),
+        length["cut"] + length["rapid"],
+        sentences,
+        counting,
+        motions_picture(examined.program.motions),
+    )
+
+
+def _file_name(task: BatchTask) -> str:
+    return PurePosixPath(task.name).name

@@ -1,0 +1,5 @@
+#version 330
+// One triangle over the whole picture, made from the number of the vertex alone.
+void main() {
+    gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,118 @@
+"""A plate or a gear made and exported for grbl by the real mouse and keys: `python -m … NAME FOLDER` under a display.
+
+The plate is drawn: 80 x 50 mm with rounded corners, a pocket, two drilled holes, cut out with tabs. The gear is opened.
+What came of it stands in FOLDER: the files of the program, the job as it was computed, pictures, and counts.json.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QDialogButtonBox, QFileDialog
+
+from app.core.resources import resource
+from app.model.operation import Operation
+from app.ui.framework.computation import ComputationState
+from app.ui.shell.start import build, warm_up
+from tests.ui.measure_window import Gaps, live_until
+from tests.ui.real_mouse.fig2_job import dialog_has_the_keys
+from tests.ui.real_mouse.hand import Hand
+
+
+def draw(hand: Hand) -> None:
+    """Draw two rectangles with rounded corners by typed lines, and two circles by values at the pointer."""
+    hand.type_line("rect 0,0 80,50 round 6")
+    hand.type_line("rect 25,15 55,35 round 4")
+    hand.click_button("tool_circle")
+    for word in ("12,25", "3", "68,25", "3"):
+        hand.type_line(word)
+    hand.press("Escape")
+
+
+def open_gear(hand: Hand, folder: Path) -> None:
+    """Open a drawing and have operations proposed for it, as the notice offers."""
+    own = folder / "wheel.draw"
+    own.write_bytes(resource("samples", "gear.draw").read_bytes())
+    hand.press("ctrl+o")
+    hand.wait_until(dialog_has_the_keys, "the file dialog")
+    hand.type_seen_line(str(own))
+    notice = hand.window.notice
+    hand.wait_until(lambda: notice.isVisible() and bool(notice.buttons), "the offer")
+    hand.click(notice.buttons[0])
+
+
+def whole_job(hand: Hand, gaps: Gaps, name: str, folder: Path) -> None:
+    """Draw or open, have operations proposed, compute, export for grbl."""
+    hand.focus_window()
+    hand.ask(lambda: gaps.now("draw"))
+    if name == "plate":
+        draw(hand)
+        hand.press("ctrl+F5")
+    else:
+        open_gear(hand, folder)
+    hand.wait_until(lambda: not hand.wiring.proposal_controller.worker.busy, "the proposal")
+    hand.ask(lambda: gaps.now("compute"))
+    hand.press("F5")
+    computation = hand.wiring.computation
+    hand.wait_until(lambda: computation.state in (ComputationState.CURRENT, ComputationState.FAILED), "the paths")
+    assert hand.ask(lambda: computation.state) is ComputationState.CURRENT, hand.ask(lambda: computation.error)
+    operations = hand.ask(lambda: [_in_words(each) for each in hand.wiring.document.job.operations])
+    findings = hand.ask(lambda: [each.text for each in computation.made.findings if each.counts])
+    (folder / "job.json").write_text(json.dumps({"operations": operations, "findings": findings}), "utf-8")
+    hand.ask(lambda: gaps.now("export"))
+    hand.press("ctrl+e")
+    hand.wait_until(dialog_has_the_keys, "the file dialog")
+    hand.type_seen(str(folder / name))
+    hand.click(hand.ask(_kinds_of_file))
+    hand.type_line("grbl")
+    hand.click(hand.ask(_save_button))
+    hand.wait_until(lambda: any(folder.glob(f"{name}*.nc")), "the NC files")
+
+
+def _in_words(operation: Operation) -> str:
+    side, tabs = getattr(operation, "side", None), getattr(operation, "tabs", None)
+    return " ".join(
+        [operation.WORD, *([side.value] if side is not None else []), *(["tabs"] if tabs is not None else [])]
+    )
+
+
+def _save_button() -> QAbstractButton:
+    box = _dialog().findChild(QDialogButtonBox)
+    assert box is not None
+    return box.button(QDialogButtonBox.StandardButton.Save)
+
+
+def _dialog() -> QFileDialog:
+    dialog = QApplication.activeModalWidget()
+    assert isinstance(dialog, QFileDialog)
+    return dialog
+
+
+def _kinds_of_file() -> QComboBox:
+    return next(box for box in _dialog().findChildren(QComboBox) if box.objectName() == "fileTypeCombo")
+
+
+def main(name: str, folder: Path) -> int:
+    """Do the job; return the exit status."""
+    application = QApplication([])
+    window, wiring = build()
+    window.resize(1280, 800)
+    window.show()
+    hand, warmer = Hand(wiring), warm_up(window)
+    live_until(lambda: not warmer.busy)
+    gaps = Gaps()
+    wrong = hand.play(lambda hand: whole_job(hand, gaps, name, folder))
+    counts = {"clicks": hand.clicks, "values": hand.values, "wrong": repr(wrong) if wrong else ""}
+    gaps.now("end")
+    counts |= {"longest_ms": gaps.longest, "busiest_ms": gaps.busiest}
+    (folder / "counts.json").write_text(json.dumps(counts), "utf-8")
+    window.grab().save(str(folder / "end.png"))
+    window.worker.finish(20.0)
+    del application
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1], Path(sys.argv[2])))

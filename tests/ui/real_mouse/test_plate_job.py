@@ -1,0 +1,44 @@
+"""Whole jobs for grbl by the real mouse: how little it takes, that they are right at the first F5, and that the window
+listens meanwhile.
+"""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from app.gcode.interpreter.options import ReadOptions
+from app.gcode.interpreter.reader import read_program
+from tests.ui.real_mouse.display import run_on_display
+
+MOST_CLICKS, MOST_VALUES = 15, 12
+MOST_BUSY_MS = {"start": 100.0, "draw": 100.0, "compute": 150.0, "export": 200.0, "end": 100.0}
+"""Processor time of the window's thread between two moments at which it listens, by what goes on, on a machine that may
+be shared; 100 are wanted. The toolkit's file dialog is made in the last but one.
+"""
+
+OPERATIONS = {
+    "plate": ["drill", "pocket", "contour outside tabs"],
+    "gear": ["contour outside tabs"],
+}
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", OPERATIONS)
+def test_a_whole_job_takes_few_clicks_and_is_right_at_the_first_compute(name: str, tmp_path: Path) -> None:
+    run_on_display(tmp_path, "tests.ui.real_mouse.plate_job", name, str(tmp_path))
+    counts = json.loads((tmp_path / "counts.json").read_text("utf-8"))
+    assert counts["wrong"] == ""
+    assert 0 < counts["clicks"] <= MOST_CLICKS
+    assert 0 < counts["values"] <= MOST_VALUES
+    job = json.loads((tmp_path / "job.json").read_text("utf-8"))
+    assert job["findings"] == []
+    assert [each for each in job["operations"] if each in OPERATIONS[name]] == OPERATIONS[name]
+    programs = sorted(tmp_path.glob(f"{name}*.nc"))
+    assert programs
+    for path in programs:
+        text = path.read_text("ascii")
+        program = read_program(text.encode(), ReadOptions())
+        assert program.error is None and len(program.motions) > 3
+        assert "M6" not in text, "grbl refuses it"
+    assert all(busy < MOST_BUSY_MS[doing] for doing, busy in counts["busiest_ms"].items()), counts

@@ -1,0 +1,141 @@
+"""The manual as a site: every link leads somewhere, every page is found by what stands on it, in both languages."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from app.cli.main import main
+from app.usecases.static_manual import LANGUAGES, linked, static_manual
+
+DOCS = Path(__file__).resolve().parents[2] / "resources/docs"
+
+
+class Page(HTMLParser):
+    """What a page refers to, the anchors on it, and its text."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.refers: list[str] = []
+        self.anchors: set[str] = set()
+        self.words: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.refers += [value for name, value in attrs if name in ("href", "src") and value]
+        self.anchors |= {value for name, value in attrs if name == "id" and value}
+
+    def handle_data(self, data: str) -> None:
+        self.words.append(data)
+
+
+@pytest.fixture(scope="module")
+def site() -> dict[str, bytes]:
+    return static_manual({path.name: path.read_bytes() for path in DOCS.iterdir()})
+
+
+@pytest.fixture(scope="module")
+def pages(site: dict[str, bytes]) -> dict[str, Page]:
+    return {name: Page(data.decode()) for name, data in site.items() if name.endswith(".html")}
+
+
+def sections(site: dict[str, bytes], name: str) -> list[list[str]]:
+    rows: list[list[str]] = json.loads(site[name].decode().partition("\n")[0].removeprefix("const sections = ")[:-1])
+    return rows
+
+
+def broken(refers: list[str], site: dict[str, bytes], pages: dict[str, Page], on: str) -> list[str]:
+    found = []
+    for href in refers:
+        target, _, anchor = href.partition("#")
+        if href.startswith(("https://", "http://", "mailto:")):
+            continue
+        if (target or on) not in site or (anchor and anchor not in pages[target or on].anchors):
+            found.append(f"{on}: {href}")
+    return found
+
+
+def test_every_link_leads_somewhere(site: dict[str, bytes], pages: dict[str, Page]) -> None:
+    assert not [each for name, page in pages.items() for each in broken(page.refers, site, pages, name)]
+
+
+def test_what_the_search_finds_is_there(site: dict[str, bytes], pages: dict[str, Page]) -> None:
+    for name in ("search.js", "search_ja.js"):
+        rows = sections(site, name)
+        assert len(rows) > 40 and not broken([row[0] for row in rows], site, pages, "index.html")
+        every = {row[0].partition("#")[0] for row in rows}
+        assert every == {each for each in pages if each.endswith("_ja.html") == (name == "search_ja.js")} - {
+            "index.html",
+            "index_ja.html",
+        }
+
+
+def test_a_broken_link_would_be_told() -> None:
+    site = static_manual({"a.md": b"# A\n[x](b.md) [y](#nowhere) ![z](no.png)\n"})
+    pages = {name: Page(data.decode()) for name, data in site.items() if name.endswith(".html")}
+    assert broken(pages["a.html"].refers, site, pages, "a.html") == [
+        "a.html: b.html",
+        "a.html: #nowhere",
+        "a.html: no.png",
+    ]
+
+
+def test_both_languages_have_every_page(site: dict[str, bytes], pages: dict[str, Page]) -> None:
+    english = {path.stem for path in DOCS.glob("*.md") if not path.stem.endswith("_ja")}
+    for language in LANGUAGES:
+        assert {f"{name}{language.ending}.html" for name in (*english, "index")} <= set(pages)
+    assert b'<main lang="ja">' in site["texts_ja.html"] and b'<main lang="en">' in site["manual_ja.html"]
+    assert "texts.html" in pages["texts_ja.html"].refers and "texts_ja.html" in pages["texts.html"].refers
+
+
+def test_headings_of_one_name_have_anchors_of_their_own() -> None:
+    site = static_manual({"a.md": b"# A\n## `Two` words!\n## Two words\n[x](a.md#two-words-2)\n"})
+    page = Page(site["a.html"].decode())
+    assert {"a", "two-words", "two-words-2"} <= page.anchors and "a.html#two-words-2" in page.refers
+
+
+def test_links_lead_to_pages_of_the_language() -> None:
+    english, japanese = LANGUAGES
+    assert linked("posts.md#post", english) == "posts.html#post"
+    assert linked("posts.md", japanese) == "posts_ja.html"
+    assert linked("texts_ja.md", english) == "texts_ja.html"
+    assert linked("../../README.md", japanese) == "index_ja.html"
+    assert linked("https://a.example/b.md", english) == "https://a.example/b.md"
+
+
+def test_the_search_finds_sections_by_their_words(site: dict[str, bytes]) -> None:
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("there is no node here to run the page's script with")
+    stub = """
+    const element = () => ({addEventListener() {}, replaceChildren(...a) { this.items = a; },
+      append(...a) { this.a = a; }, form: {addEventListener() {}}, value: "", hidden: true});
+    const elements = {search: element(), found: element()};
+    const document = {getElementById: id => elements[id], createElement: element, addEventListener() {}};
+    """
+    ask = """
+    for (const words of ["scallop ridge", "GRBL tool", "zzzz"]) {
+      field.value = words; found.items = []; show();
+      console.log(found.items.length, found.items.length ? found.items[0].a[0].href : found.textContent);
+    }
+    """
+    script = stub + site["search.js"].decode() + ask
+    done = subprocess.run([node, "-"], input=script, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    assert len(lines) == 3 and lines[2] == "0 Nothing found"
+    for line in lines[:2]:
+        count, href = line.split()
+        assert int(count) >= 1 and href in {row[0] for row in sections(site, "search.js")}
+
+
+def test_the_command_writes_it(tmp_path: Path, site: dict[str, bytes], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["manual", "-o", str(tmp_path / "site")]) == 0
+    assert {path.name: path.read_bytes() for path in (tmp_path / "site").iterdir()} == site
+    assert main(["manual", "-o", str(tmp_path / "no" / "site")]) == 2
+    assert "there is no folder" in capsys.readouterr().err
