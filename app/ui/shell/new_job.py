@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ...formats.tools.library import load_libraries
+from ...formats.tools.materials import stock_materials
 from ...model.job import Job, Stock
 from ...model.part import Part
 from ...model.tool import ToolKind
@@ -39,7 +40,8 @@ class NewPart:
 
 def new_job(part: NewPart) -> Job:
     """Return the job: the default one with mills of the library, run as the material asks."""
-    job = Job(Part(), stock=Stock(thickness=part.z), post=part.post)
+    known = part.material in {each.word for each in stock_materials()}
+    job = Job(Part(), stock=Stock(thickness=part.z, material=part.material if known else ""), post=part.post)
     library = load_libraries()[0].get(_LIBRARY)
     mills = {tool.diameter: tool for tool in library.tools if tool.kind is ToolKind.FLAT} if library else {}
     tools = tuple(

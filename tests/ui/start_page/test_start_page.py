@@ -117,6 +117,7 @@ def test_every_material_has_feeds_for_the_first_tools(material):
     job = new_job(NewPart(80, 50, 10, material, "linuxcnc"))
     assert job.part == Part() and [tool.diameter for tool in job.tools] == [6.0, 3.0]
     assert all(any(row.material == material for row in tool.feeds) for tool in job.tools)
+    assert job.stock.material == ("aluminium" if material == "aluminium" else ""), "others are several materials"
 
 
 @pytest.mark.parametrize("name", ["fig2.dxf", "plate.draw", "torus.toml"])
