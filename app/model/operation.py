@@ -550,7 +550,7 @@ class AdaptiveOperation(Operation):
     """Clear the area inside with a cutter whose rim is nowhere engaged by more than an angle."""
 
     most_engaged_deg: float = parameter(
-        math.radians(60), *MOST_ENGAGED, low=math.radians(15), high=math.radians(90), option=True
+        math.radians(60), *MOST_ENGAGED, low=math.radians(15), high=math.radians(90), option=True, short="Most engaged"
     )
     lift: float = parameter(0.2, *LIFT, high=100.0, option=True)
 

@@ -40,7 +40,13 @@ class SlotOperation(Operation):
         option=True,
     )
     most_engaged_deg: float = parameter(
-        math.radians(60), *MOST_ENGAGED, low=math.radians(15), high=math.radians(90), option=True, needs=_IN_ARCS
+        math.radians(60),
+        *MOST_ENGAGED,
+        low=math.radians(15),
+        high=math.radians(90),
+        option=True,
+        short="Most engaged",
+        needs=_IN_ARCS,
     )
     lift: float = parameter(0.2, *LIFT, high=100.0, option=True, needs=_IN_ARCS)
     most_engaged: float = parameter(

@@ -14,6 +14,7 @@ from app.geometry.arcs.chord_kernels import chords
 from app.geometry.chaining import chain
 from app.geometry.chaining.chain import ChainingResult
 from app.geometry.distance import DistanceField
+from app.geometry.offset.grown_lines import grown_lines
 from app.geometry.outlines import Outlines
 from app.geometry.overlay import planar_graph as overlay_net
 from app.geometry.region import NestingResult
@@ -23,6 +24,7 @@ from app.model.job import Job
 from app.model.part import Contour, Entity, Part
 from app.operations import compute
 from app.toolpath import drawn_contours, machining_areas, witness
+from app.toolpath.witness import grown_findings
 from app.usecases.machining import MachiningOptions
 from app.usecases.make import MakeResult, make
 from app.usecases.options import MakeOptions
@@ -278,3 +280,11 @@ def test_chords_of_a_curve_end_on_it_and_are_near_it_but_no_finer_than_asked(fin
         assert count == 2 * 2**finest + 1 and off > 1e-3
     else:
         assert 200 < count < 2000 and off < 1.5e-4
+
+
+def test_a_slot_that_is_not_as_wide_as_its_line_is_grown_is_found() -> None:
+    lines = [Contour((Line((0.0, 0.0), (40.0, 0.0)),), False), Contour((Circle((20.0, 0.0), 9.0),))]
+    assert not grown_findings(lines, 2.0, grown_lines(lines, 2.0))
+    for wrong in (2.003, 1.997):
+        (found,) = grown_findings(lines, 2.0, grown_lines(lines, wrong))
+        assert found.kind is FindingKind.AREA and found.counts

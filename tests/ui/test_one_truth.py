@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import Qt
 
 from app.core.resources import resource
-from app.model.operation import ContourOperation, CutParameters
+from app.model.operation import ContourOperation, CutParameters, VcarveOperation
+from app.model.tool import Tool, ToolKind
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.figures import clock
 from app.ui.framework.view import View
@@ -127,6 +129,23 @@ def test_the_times_of_the_operations_and_what_is_waited_for_add_up(computed):
     assert sum(times) < data["time_s"]
     computed.document.run("circle 150,50 10")
     assert not panel.operations.waiting
+
+
+def test_the_time_of_a_flat_tool_is_that_of_the_carving_that_asks_for_it(qtbot, wiring):
+    tools = (Tool(1, 3.0), Tool(2, 12.0, ToolKind.V, tip_angle=math.radians(90)))
+    carving = VcarveOperation(CutParameters(2, depth=3.0, stepdown=3.0), 1)
+    wiring.document.run("rectangle 0,0 40,30")
+    wiring.document.change_job("Carve", replace(wiring.document.job, tools=tools, operations=(carving,)))
+    wiring.computation.start()
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
+    made = wiring.computation.made
+    assert made.clean and len(made.job.operations) == 2 and len(wiring.document.job.operations) == 1
+    times, told = wiring.computation.operation_times(), made.report.data["operations"]
+    assert list(times) == [0] and times[0] == pytest.approx(told[0]["time_s"] + told[1]["time_s"])
+    shown = wiring.window_.panel._times.whole()
+    beside = shown.beside
+    whole = sum(shown.of.values()) + beside.changing + beside.dwelling + beside.travelling
+    assert whole == round(made.report.data["time_s"])
 
 
 @pytest.mark.exhaustive

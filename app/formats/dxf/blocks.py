@@ -23,6 +23,9 @@ _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 DEEPEST = 64
 """Blocks nested deeper than this are refused."""
 
+MOST_POINTS = 100_000
+"""Points of a drawing; more of them come from blocks in blocks, and nobody drills them."""
+
 
 @dataclass(frozen=True)
 class HiddenInsert:
@@ -268,12 +271,25 @@ class DxfWalker:
             content.left_out[kind] += count * places
         if inner.any_height:
             content.see(z + insert.dxf.insert.z for z in inner.heights)
-        if inner.is_empty and not insert.attribs:
+        points = self._points(inner, places, content)
+        if inner.is_empty and not points and not insert.attribs:
             return
         copies = _places(insert)
+        content.points += [
+            LayeredPoint(place.point(at), insert.dxf.layer if layer == "0" else layer)
+            for place in copies
+            for at, layer in points
+        ]
         for place in copies:
             self._copy(inner, place, insert.dxf.layer, content)
         self._attributes(insert, copies, content)
+
+    def _points(self, inner: DxfContent, places: int, content: DxfContent) -> list[LayeredPoint]:
+        """Return the points of a block that are put in so many places; too many are counted as left out."""
+        if len(content.points) + len(inner.points) * places <= MOST_POINTS:
+            return inner.points
+        content.left_out["POINT"] += len(inner.points) * places
+        return []
 
     def _attributes(self, insert: Any, copies: list[Affine], content: DxfContent) -> None:
         """Add the attributes of a block, which lie where the block is inserted first, with every copy of it."""
@@ -303,9 +319,6 @@ class DxfWalker:
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.unread
         ]
-        content.points += [
-            LayeredPoint(place.point(each.at), outer if each.layer == "0" else each.layer) for each in inner.points
-        ]
         for each in inner.more():
             content.add(each.moved(place, outer))
         for curve, layer in inner.curves:
@@ -314,9 +327,7 @@ class DxfWalker:
                 content.without_length.append(place.point(curve.start))
             else:
                 content.curves.append(LayeredCurve(moved, outer if layer == "0" else layer))
-        self._bounded(
-            max(len(content.points), len(content.hidden), len(content.negative), len(content.unread), content.size)
-        )
+        self._bounded(max(len(content.hidden), len(content.negative), len(content.unread), content.size))
 
     def _block(self, name: str, insert: Any) -> DxfContent:
         key = name.casefold()

@@ -7,6 +7,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from ...core.errors import ParameterError
+from ...model.fields import parameters_of
 from ...model.job import Job
 from ...model.operation import CutParameters, Operation, Order, Side
 from ...model.tool import FeedRow, Tool
@@ -39,8 +40,10 @@ class Subject:
 
 
 def operation_name(operation: Operation) -> str:
-    """Return the trade's name of an operation, with the side of a contour that does not go inside."""
+    """Return the trade's name of an operation, with its side where it may have another and does not go inside."""
     name = operation.WORD.capitalize()
+    if "side" not in parameters_of(type(operation)):
+        return name
     return name + {Side.OUTSIDE: " outside", Side.ON: " on line"}.get(operation.wall_side or Side.INSIDE, "")
 
 

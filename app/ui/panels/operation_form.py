@@ -43,7 +43,8 @@ def _too_wide(stepover: float, diameter: float) -> str:
 
 def _has_rings(operation: Operation) -> bool:
     """Tell whether there is a distance between the paths of an operation."""
-    return "stepover" in parameters_of(type(operation))
+    placed = parameters_of(type(operation)).get("stepover")
+    return placed is not None and placed.has_effect(operation)
 
 
 def _has_strokes(operation: Operation) -> bool:
