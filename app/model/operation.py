@@ -613,7 +613,7 @@ class VcarveOperation(Operation):
         None,
         "flat_tool",
         "Flat tool",
-        "T number of the flat mill that clears the floor first, where the area is wider than the cone",
+        "the flat mill, by its T number, that clears the floor first, where the area is wider than the cone",
         Unit.COUNT,
         low=1,
         high=1e9,
