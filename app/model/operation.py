@@ -616,7 +616,7 @@ class VcarveOperation(Operation):
         "the flat mill, by its T number, that clears the floor first, where the area is wider than the cone",
         Unit.COUNT,
         low=1,
-        high=1e9,
+        high=9999,
         option=True,
         auto="none",
     )
