@@ -41,11 +41,6 @@ def announce(effort: Reckoning, progress: Progress) -> None:
         progress.remark(effort.sentence())
 
 
-def counted(count: int, one: str, many: str = "") -> str:
-    """Return a count with its word, such as "1 contour" or "1,600 contours"."""
-    return f"{count:,} {one if count == 1 else many or one + 's'}"
-
-
 def _spoken(seconds: float) -> str:
     """Return a time in words, with no more digits than a reckoning has."""
     if seconds < 1.5 * _MINUTE:

@@ -10,10 +10,11 @@ from typing import NamedTuple
 
 from ..core.errors import InputError
 from ..core.progress import NO_PROGRESS, Progress
+from ..core.wording import counted
 from ..model.job import Job
 from ..model.part import Part
 from ..model.reading import DrawingSource
-from .commands.command import DraftingSession, counted
+from .commands.command import DraftingSession
 from .commands.layers import with_layer_renamed
 from .expressions.errors import CommandError
 from .expressions.grammar import read_script

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ..core.wording import counted
 from ..fitting.corner_smoothing.published import PublishedPiece, PublishedSmoothing, average_angles, published_smoothing
 from ..fitting.corner_smoothing.smoothed_path import PieceKind
 from ..geometry.primitives import Rows
@@ -28,11 +29,6 @@ _TOOLS = 10.0
 """A long line is as long as so many tool diameters."""
 _LEAST = 8
 """Pixels of a line that is smoothed."""
-
-
-def counted(count: int, name: str, several: str = "") -> str:
-    """Return a number and its noun."""
-    return f"{count} {name if count == 1 else several or f'{name}s'}"
 
 
 def long_line(job: Job, paths: OperationPaths | None) -> float:

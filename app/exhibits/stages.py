@@ -11,6 +11,7 @@ from typing import TypedDict
 
 import numpy as np
 
+from ..core.wording import counted
 from ..fitting.corner_smoothing.smoothed_path import PieceKind
 from ..geometry.primitives import Rows
 from ..model.job import Job
@@ -24,7 +25,7 @@ from ..raster.trace import PixelChain, chain_rows
 from ..raster.walls import Mask
 from ..usecases.bitmap_part import BitmapPart
 from ..usecases.bitmap_way import OperationPaths, PixelPath
-from .published_stages import counted, long_line, published_angles, published_stages
+from .published_stages import long_line, published_angles, published_stages
 
 _CODES = {
     PieceKind.CIRCLE: PixelCode.CIRCLE,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..core.effort import Reckoning, counted
+from ..core.effort import Reckoning
+from ..core.wording import counted
 from ..model.job import Job
 from ..model.part import Region
 from .effort import CONTOUR_S, ISLAND_S, workload_of
@@ -23,7 +24,7 @@ def job_effort(job: Job, regions: Sequence[Region]) -> Reckoning:
             seconds += own
             if own > most:
                 worst, most = f"{operation.WORD} with {tool.diameter:g} mm", own
-    contours = counted(extent.regions + extent.islands, "contour")
+    contours = counted(extent.regions + extent.islands, "contour", thousands=",")
     about = f"{extent.area:,.0f} mm2 within {contours} of {extent.pieces:,} lines and arcs"
     about += f", {worst} for the most part" if most > seconds / 2 else ""
     remedy = "use a larger tool, leave out layers, or check the units" if most > seconds / 2 else "leave out layers"

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.durations import minutes_words
+from ..core.wording import counted
 from ..gcode.interpreter.program import Severity
 from ..gcode.timing.duration import TIME_METHOD
 from ..model.finding import Finding, FindingKind, worst_first
@@ -412,10 +413,10 @@ def _summary(data: Json) -> Iterator[str]:
         )
     path = ", ".join(
         (
-            _counted(len(data["rapids_in_material"]), "rapid") + " in material",
+            counted(len(data["rapids_in_material"]), "rapid") + " in material",
             *_touching(data),
-            _counted(data["strokes"], "stroke"),
-            _counted(data["retracts"], "retract"),
+            counted(data["strokes"], "stroke"),
+            counted(data["retracts"], "retract"),
         )
     )
     yield (
@@ -429,7 +430,7 @@ def _summary(data: Json) -> Iterator[str]:
         )
     if (apart := data["apart_from_cpu"]) is not None:
         yield (
-            f"  {data['engine'].partition(';')[0]}; {_counted(apart['cells'], 'cell')} more than "
+            f"  {data['engine'].partition(';')[0]}; {counted(apart['cells'], 'cell')} more than "
             f"{apart['beyond_mm']:g} mm from the cpu's, {apart['rim_cells']} beyond the stated error, on walls"
         )
     if not data["removed_mm3"]:
@@ -447,7 +448,7 @@ def _summary(data: Json) -> Iterator[str]:
 def _touching(data: Json) -> Iterator[str]:
     """Yield how many contacts of shanks and holders there are, if some are known to be looked for."""
     if data["holder_contacts"]:
-        yield _counted(len(data["holder_contacts"]), "contact") + " of shank or holder"
+        yield counted(len(data["holder_contacts"]), "contact") + " of shank or holder"
 
 
 def _held(tool: Json) -> str:
@@ -460,7 +461,3 @@ def _held(tool: Json) -> str:
 def _words(box: Json) -> str:
     sides = zip("XYZ", box["low"], box["high"], strict=True)
     return ", ".join(f"{axis} {low:.3f} to {high:.3f}" for axis, low, high in sides if low is not None) + " mm"
-
-
-def _counted(count: int, what: str) -> str:
-    return f"{count} {what}{'' if count == 1 else 's'}"

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.effort import Reckoning, counted
+from ..core.effort import Reckoning
+from ..core.wording import counted
 from ..gcode.interpreter.program import NcProgram
 from ..model.motion_path import lengths
 from ..model.tool import Tool
@@ -86,10 +87,9 @@ def bitmap_effort(part: BitmapPart, chains_mm: Sequence[float]) -> Reckoning:
     pitch, contours = part.frame.pitch, sum(len(region.contours) for region in part.regions)
     along = sum(chains_mm) / pitch
     seconds = part.free.size * len(chains_mm) * _PIXEL_S + along * _CHAIN_S + contours * _ON_PIXELS_S
-    many = contours * _ON_PIXELS_S > seconds / 2
+    many, outlines = contours * _ON_PIXELS_S > seconds / 2, counted(contours, "contour", thousands=",")
     return Reckoning(
         seconds,
-        f"{along:,.0f} pixels of paths in {counted(contours, 'contour')} on {part.frame.cols:,} x {part.frame.rows:,} "
-        "pixels",
+        f"{along:,.0f} pixels of paths in {outlines} on {part.frame.cols:,} x {part.frame.rows:,} pixels",
         "leave out layers" if many else "use a smaller bitmap, a larger pitch, or a larger tool",
     )

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core import tolerances
 from ..core.durations import minutes_words
+from ..core.wording import counted
 from ..gcode.timing.duration import TIME_METHOD
 from ..gcode.timing.extent import Extent
 from ..gcode.writer.write import blend_mm, writing_tolerance
@@ -116,11 +117,11 @@ class MakeReport:
         data = self.data
         beyond = out_of_reach(data["left"])
         length = sum(data["length_mm"].values())
+        rapids, strokes = counted(len(data["rapids_in_material"]), "rapid"), counted(data["strokes"], "pocket stroke")
         return (
             f"{output}: {data['gouge']['max_mm']:.4f} mm gouge, {data['left']['reachable_mm2']:.3f} mm2 left within "
-            f"reach, {beyond}{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
-            f"{data['retracts']} retracts, {length:.0f} mm, {minutes_words(data['time_s'])} min; read back within "
-            f"{data['check']['largest_distance_mm']:.4f} mm"
+            f"reach, {beyond}{rapids} in material; {strokes}, {counted(data['retracts'], 'retract')}, {length:.0f} mm, "
+            f"{minutes_words(data['time_s'])} min; read back within {data['check']['largest_distance_mm']:.4f} mm"
         )
 
 

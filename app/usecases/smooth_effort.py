@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..core.effort import Reckoning, counted
+from ..core.effort import Reckoning
+from ..core.wording import counted
 from ..fitting.point_curves.effective_method import EffectiveMethod
 from ..gcode.rework.stretches import FeedStretch
 from .smooth_result import OutputForm
@@ -21,6 +22,6 @@ def smooth_effort(stretches: Sequence[FeedStretch], form: OutputForm, effective:
     points = sum(stretch.stop - stretch.first for stretch in stretches)
     return Reckoning(
         points * _POINT_S[form] * (1.0 if effective is None else 2.0),
-        f"{points:,} moves in {counted(len(stretches), 'stretch', 'stretches')}",
+        f"{points:,} moves in {counted(len(stretches), 'stretch', 'stretches', ',')}",
         "smooth it in parts" if form is OutputForm.LINES else "smooth it as lines (--as lines), or in parts",
     )

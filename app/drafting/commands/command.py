@@ -8,6 +8,7 @@ from itertools import count
 from typing import NamedTuple
 
 from ...core.errors import InputError
+from ...core.wording import counted
 from ...geometry.transform import Similarity, transformed, transformed_note
 from ...model.curves import Curve, Point
 from ...model.part import Entity, Layer, Part
@@ -302,11 +303,6 @@ class Redo:
 
 Edit = Clear | Draw | Delete | Transform | ReplaceCurves | SetLayer | SetLettering | SetLayerStyle
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
-
-
-def counted(count: int, one: str, many: str = "") -> str:
-    """Return a number with the word for what it counts."""
-    return f"{count} {one if count == 1 else many or one + 's'}"
 
 
 def check_ids(part: Part, ids: frozenset[int]) -> None:

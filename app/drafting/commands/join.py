@@ -11,11 +11,12 @@ from typing import NamedTuple
 
 from ...core.errors import InputError
 from ...core.tolerances import CURVE, JOIN, WELD
+from ...core.wording import counted
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point
 from ..curves.chains import CurveChain, chained
 from ..curves.intersections import intersection_points
 from ..expressions.arguments import Arguments
-from .command import DraftingSession, ReplaceCurves, counted
+from .command import DraftingSession, ReplaceCurves
 from .command_curves import chosen_curves
 from .defects import End, meetings, point_of
 from .properties import properties_of, with_property

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ...core.errors import InputError
+from ...core.wording import counted
 from ...model.curve_selectors import OnLayer
 from ...model.job import Job
 from ...model.part import Layer, Part
 from ..expressions.arguments import Arguments
-from .command import DraftingSession, counted
+from .command import DraftingSession
 
 
 @dataclass(frozen=True, slots=True)

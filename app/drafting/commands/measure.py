@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...core.wording import counted
 from ...geometry.sample import Box, bounds, spline_points, union
 from ...model.curves import Arc, Circle, Curve, Ellipse, Point, Primitive, Spline
 from ...model.part import Contour
@@ -15,7 +16,7 @@ from ..curves.area import enclosed_area
 from ..curves.chains import CurveChain, chained
 from ..curves.shapes import curve_length
 from ..expressions.arguments import Arguments
-from .command import DraftingSession, counted
+from .command import DraftingSession
 from .command_curves import chosen_curves
 from .explode import simple
 

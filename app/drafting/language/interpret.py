@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 from ...core.errors import InputError
 from ...core.progress import NO_PROGRESS, Progress
-from ..commands.command import DraftingSession, Draw, Redo, Undo, counted
+from ...core.wording import counted
+from ..commands.command import DraftingSession, Draw, Redo, Undo
 from ..commands.select import SelectEntities
 from ..expressions import syntax as s
 from ..expressions.effort import Effort

@@ -7,8 +7,9 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from ...core.errors import InputError
+from ...core.wording import counted
 from ...model.curves import Arc, Circle, Curve, Line, Point
-from ..commands.command import AddedCurve, DraftingSession, ReplaceCurves, check_ids, counted
+from ..commands.command import AddedCurve, DraftingSession, ReplaceCurves, check_ids
 from ..commands.corners import Side, chamfer, fillet, is_smooth, sharp
 from ..curves.chains import chained
 from ..curves.intersections import nearest_point

@@ -6,8 +6,9 @@ import itertools
 import math
 
 from ...core.errors import InputError
+from ...core.wording import counted
 from ...model.curves import Arc, Curve, Line, Point, Spline, reversed_curve
-from ..commands.command import DraftingSession, Draw, counted
+from ..commands.command import DraftingSession, Draw
 from ..curves.shapes import (
     arc_about,
     arc_along,

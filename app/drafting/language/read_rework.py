@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from ...core.errors import InputError
 from ...core.tolerances import WELD
+from ...core.wording import counted
 from ...model.curves import Arc, Circle, Curve, Line, Point
 from ...model.notes import Guide, Note
 from ...model.part import Entity
-from ..commands.command import AddedCurve, DraftingSession, ReplaceCurves, check_ids, counted
+from ..commands.command import AddedCurve, DraftingSession, ReplaceCurves, check_ids
 from ..commands.command_curves import chosen_curves
 from ..commands.drafting import broken, extended, parallel, trimmed
 from ..commands.offset_chain import chain_parallel

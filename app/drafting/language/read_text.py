@@ -8,10 +8,11 @@ from enum import Enum
 
 from ...core.errors import InputError
 from ...core.tolerances import WELD
+from ...core.wording import counted
 from ...geometry.stroke_font import StrokeFont, engraving, placed
 from ...geometry.transform import transformed
 from ...model.curves import Curve, Point, reversed_curve
-from ..commands.command import DraftingSession, Draw, counted
+from ..commands.command import DraftingSession, Draw
 from ..commands.explode import exploded
 from ..curves.baseline import Baseline, CurvedBaseline, StraightBaseline
 from ..curves.chains import CurveChain, chained

@@ -14,6 +14,7 @@ import numpy as np
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
+from ...core.wording import counted
 from ...model.finding import Finding, FindingKind
 from ...model.hole_operations import ThreadOperation
 from ...model.moves import Purpose
@@ -154,7 +155,11 @@ def _unready(holes: list[CircleHole], operation: ThreadOperation) -> Finding:
 def _turns_finding(operation: ThreadOperation, tool: Tool, way: ThreadWay) -> Finding:
     """Return how the thread is cut, and what the cut shows of it."""
     passes = len(way.starts)
-    how = f"{way.turns} turns with one tooth" if teeth_of(tool, way.pitch) == 1 else f"{passes} x 1 turn with all teeth"
+    how = (
+        f"{counted(way.turns, 'turn')} with one tooth"
+        if teeth_of(tool, way.pitch) == 1
+        else f"{passes} x 1 turn with all teeth"
+    )
     short = correction(operation.thread, tool.radius, operation.external)
     moved = f", {short:.4f} mm farther from the wall for the form of the flanks"
     hand = ", left-handed," if operation.left_hand else ""
