@@ -1,0 +1,13 @@
+"""Numbers with their nouns."""
+
+from __future__ import annotations
+
+
+def counted(count: int, one: str, many: str = "", thousands: str = "") -> str:
+    """Return a count with its noun, such as "1 curve" or "1600 curves".
+
+    Args:
+        one, many: the noun for one and for any other count; the plural is made by an s where it is not given.
+        thousands: what stands between groups of three digits.
+    """
+    return f"{count:,}".replace(",", thousands) + f" {one if count == 1 else many or one + 's'}"
