@@ -92,7 +92,7 @@ def commands() -> dict[str, Command]:
         "better": Command(
             ("better", "IN", "-o", "OUT/o.ngc", "--quiet"),
             "p.ngc",
-            raster_program.text(raster_program.rows(wide=6.0, deep=3.0)).encode(),
+            raster_program.text(raster_program.rows(wide=8.0, deep=4.0)).encode(),
         ),
         "check": Command(("check", "IN", "--report=OUT/r.json", "--quiet"), "p.ngc", PROGRAM, small),
         "surface": Command(("surface", "IN", "-o", "OUT/o.ngc", "--quiet"), "s.toml", SCENE),
