@@ -109,6 +109,11 @@ class MakeResult:
         """The NC text, of several files the first one; an empty one when no move was made."""
         return self.files[0].nc if self.files else NO_TEXT
 
+    def proposed(self) -> list[str]:
+        """Return what was proposed for the drawing, and why: operations, rules for layers, speeds and feeds."""
+        operations = [] if self.proposal is None else self.proposal.lines()
+        return [*operations, *self.ruled, *(() if self.feeds is None else self.feeds.lines())]
+
     def frame(self) -> str:
         """Return the NC text that goes round the cuts at clearance height with the first tool, spindle off.
 

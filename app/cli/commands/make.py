@@ -35,11 +35,8 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     programs = {file.named(arguments.output): file.nc.text.encode("ascii") for file in made.files}
     others = by_path(outputs, other_files(made, outputs, drawing))
     _ensure_apart(outputs["output"], [*programs], [*others])
-    proposed = made.proposal.lines() if made.proposal is not None else []
-    proposed += made.ruled
-    proposed += made.feeds.lines() if made.feeds is not None else []
-    lines = [made.report.summary(", ".join(map(str, programs))), *proposed, *finding_lines(made.findings)]
-    lines += times.lines() if times else []
+    summary = made.report.summary(", ".join(map(str, programs)))
+    lines = [summary, *made.proposed(), *finding_lines(made.findings), *(times.lines() if times else [])]
     return CommandOutcome(others | programs, lines, not made.clean).delivered(arguments, progress)
 
 
