@@ -66,7 +66,6 @@ class BesideWork(Generic[Result]):
             self._future = Future()
             self._future.set_result(self._work(self._progress))
         whole = replace(self._progress, start=0.0, stop=1.0)
-        whole.step(*self._last)  # whether it was waited for or not, this stage was there
         while not wait_for([self._future], _LOOK_S).done:
             whole.step(*self._last)
         return self._future.result()
