@@ -20,6 +20,7 @@ import sys
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 import hitofude.ui.shell.start as start
+from hitofude.core.resources import resource
 began = start.begin
 def begin(wiring, path):
     began(wiring, path)
@@ -28,11 +29,13 @@ def begin(wiring, path):
             print("moves", len(wiring.computation.made.program.moves), start.__file__)
             wiring.document.load(wiring.document.job)
             wiring.window_.close()
+        elif wiring.document.part.entities and wiring.computation.state.name == "NONE":
+            wiring.compute()
     timer = QTimer(wiring.window_, interval=50)
     timer.timeout.connect(look)
     timer.start()
 start.begin = begin
-sys.exit(start.start())
+sys.exit(start.start(resource("samples", "fig2.dxf")))
 """
 
 
