@@ -44,7 +44,12 @@ NO_CONE = (
     "tip_angle."
 )
 OTHER_TOOL = "T1 {} is a {}; a {} operation needs a {}: choose another tool, or give it another kind."
-NO_LEVEL = "T1 {} leaves no level floor; take a flat or a bull-nose mill to face with."
+NOT_EXACTLY = {
+    "face": "T1 {} leaves no level floor; take a flat or a bull-nose mill to face with.",
+    "slot": "T1 {} makes no slot with straight walls and a level floor; take a flat mill, or follow the lines with a "
+    "contour on the line.",
+}
+"""What the shape of a mill's end has no part in on pixels."""
 
 
 def refused(word: str, tool: Tool) -> str:
@@ -67,8 +72,9 @@ def test_it_is_computed_or_refused(qtbot, word, tool, way):
     computation.start()
     qtbot.waitUntil(lambda: computation.state is not ComputationState.RUNNING, timeout=20_000)
     worker.finish()
-    cannot_face = way == "exact" and word == "face" and not tool.kind.level and not tool.kind.drills
-    assert computation.error == (NO_LEVEL.format(tool.label) if cannot_face else refused(word, tool))
+    ends_well = {"face": tool.kind.level, "slot": tool.kind.square}.get(word, True)
+    shape = NOT_EXACTLY[word].format(tool.label) if way == "exact" and not ends_well else ""
+    assert computation.error == (refused(word, tool) or shape)
     assert computation.state is (ComputationState.FAILED if computation.error else ComputationState.CURRENT)
 
 
