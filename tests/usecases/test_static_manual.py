@@ -34,9 +34,14 @@ class Page(HTMLParser):
         self.words.append(data)
 
 
+def contents(folder: Path) -> dict[str, bytes]:
+    """The files of a folder and of those in it, by their path from there."""
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
 @pytest.fixture(scope="module")
 def site() -> dict[str, bytes]:
-    return static_manual({path.name: path.read_bytes() for path in DOCS.iterdir()})
+    return static_manual(contents(DOCS))
 
 
 @pytest.fixture(scope="module")
@@ -136,6 +141,6 @@ def test_the_search_finds_sections_by_their_words(site: dict[str, bytes]) -> Non
 
 def test_the_command_writes_it(tmp_path: Path, site: dict[str, bytes], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["manual", "-o", str(tmp_path / "site")]) == 0
-    assert {path.name: path.read_bytes() for path in (tmp_path / "site").iterdir()} == site
+    assert contents(tmp_path / "site") == site
     assert main(["manual", "-o", str(tmp_path / "no" / "site")]) == 2
     assert "there is no folder" in capsys.readouterr().err

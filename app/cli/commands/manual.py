@@ -33,11 +33,11 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     if not out.absolute().parent.is_dir():
         raise InputError(f"--output {out}: there is no folder {out.parent}; make it first")
     progress = shown_progress(arguments.quiet, stopped)
-    files = {path.name: path.read_bytes() for path in sorted(resource("docs").iterdir()) if path.is_file()}
-    site = static_manual(files)
-    outcome = CommandOutcome(
-        {out / name: data for name, data in site.items()}, [str(out / "index.html")], folders=[out]
-    )
+    docs = resource("docs")
+    files = {path.relative_to(docs).as_posix(): path.read_bytes() for path in sorted(docs.rglob("*")) if path.is_file()}
+    site = {out / name: data for name, data in static_manual(files).items()}
+    folders = sorted({out, *(path.parent for path in site)})
+    outcome = CommandOutcome(site, [str(out / "index.html")], folders=folders)
     return outcome.delivered(arguments, progress)
 
 
