@@ -117,7 +117,7 @@ def wear_proofs(
 
 
 @dataclass(frozen=True, eq=False)
-class _Ways:
+class _FeedsAsRead:
     """Feeds of an operation below the stock's top, as read, n of them, part coordinates.
 
     Attributes:
@@ -206,7 +206,7 @@ class _Worn:
         }
         return read_program(text, ReadOptions(self.written.post.dialect, table))
 
-    def _ways(self, read: NcProgram, file: NcFile, index: int) -> _Ways:
+    def _ways(self, read: NcProgram, file: NcFile, index: int) -> _FeedsAsRead:
         """Return the feeds of an operation in a file as it was read."""
         motions, moves = anchored(read.motions), self.program.moves
         move = np.minimum(np.searchsorted(file.nc.lines, motions.line), len(file.nc.lines) - 1) + file.first
@@ -224,10 +224,10 @@ class _Worn:
         rows[arc, R] = np.hypot(rows[arc, X0] - rows[arc, CX], rows[arc, Y0] - rows[arc, CY])
         rows[arc, TURN] = np.where(motions.kind[own[arc]] == MotionKind.ARC_CCW, 1.0, -1.0)
         along = level[own] & np.isin(moves.purpose[move[own]], (Purpose.CONTOUR, Purpose.TAB))
-        return _Ways(rows, motions.line[own], along)
+        return _FeedsAsRead(rows, motions.line[own], along)
 
 
-def _worse(made: WearProof, nominal: _Ways, worn: _Ways, walls: _WornWalls, wear: float) -> WearProof:
+def _worse(made: WearProof, nominal: _FeedsAsRead, worn: _FeedsAsRead, walls: _WornWalls, wear: float) -> WearProof:
     """Return a proof with what one wear adds to it.
 
     Args:
