@@ -20,7 +20,7 @@ CONTOUR_S, ISLAND_S = 0.007, 0.02
 all of its walls.
 """
 
-TILE_S = 8e-5
+TILE_S = 5e-5
 """A piece of floor as long as the tool is wide and as wide as a step: whether it is covered is proven for each."""
 
 PIECE_S = 1.4e-4

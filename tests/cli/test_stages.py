@@ -216,7 +216,7 @@ def test_make_takes_a_picture(tmp_path: Path, picture: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ("", "the drawing and the folder to write to"),
+        ("", "-o/--output is missing; name the folder to write to"),
         ("{fig2}", "-o/--output is missing"),
         ("{fig2} -o {tmp}/no/such", "there is no folder"),
         ("{fig2} -o {fig2}", "is no folder"),

@@ -37,6 +37,8 @@ def warn_of_bytes(control: Control, file: bytes) -> None:
 
 
 def _odd(file: bytes, dialect: Dialect) -> Iterator[tuple[int, str]]:
+    if file in (*_UTF16, codecs.BOM_UTF8):  # a mark and no line that it could be told of
+        return
     if file.startswith(_UTF16):
         yield 0, "the file is written in UTF-16, two bytes a letter, which controls do not read"
         return

@@ -1,11 +1,14 @@
 """Bytes that LinuxCNC refuses or obeys otherwise than a text is read: no program that has one is without a problem."""
 
+import codecs
+
 import pytest
 
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import ProgramProblem
 from app.gcode.interpreter.reader import read_program
+from tests.gcode.interpreter.judged import judged
 from tests.gcode.interpreter.programs import told
 from tests.gcode.interpreter.rs274_motions import assert_same, rs274
 
@@ -71,3 +74,8 @@ def test_what_stands_where_a_word_should_is_told_with_what_to_write() -> None:
     assert "expected a decimal point" in told("G1 X8,5 F100\n")
     assert "found '\u2212'; write minus as -." in told("G1 X\u22128 F100\n")
     assert "are not followed: write them as moves" in told("G1 X8. ,C2. F100.\n", Dialect.FANUC)
+
+
+@pytest.mark.parametrize("mark", [codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE, codecs.BOM_UTF8])
+def test_a_mark_without_a_line_behind_it_is_told_without_a_line_that_is_not_there(mark: bytes) -> None:
+    judged(mark)
