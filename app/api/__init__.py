@@ -9,25 +9,18 @@ from ..core.errors import Cancelled, HitofudeError
 from ..core.progress import Progress
 from ..gcode.interpreter.dialect import Dialect
 from ..model.chamfer_operation import ChamferOperation
+from ..model.contour_operation import ContourOperation
 from ..model.curve_selectors import read_selectors
 from ..model.face_operation import FaceOperation
 from ..model.finding import Finding, FindingKind
 from ..model.hole_operations import BoreOperation, CountersinkOperation, ReamOperation, TapOperation, ThreadOperation
 from ..model.job import Job, Stock
-from ..model.operation import (
-    AdaptiveOperation,
-    ContourOperation,
-    CutParameters,
-    DrillOperation,
-    PocketOperation,
-    RestOperation,
-    Side,
-    VcarveOperation,
-)
+from ..model.operation import AdaptiveOperation, CutParameters, DrillOperation, PocketOperation, RestOperation, Side
 from ..model.part import Units
 from ..model.slot_operation import SlotOperation
 from ..model.tool import Tool
 from ..model.tool_kind import ToolKind
+from ..model.vcarve_operation import VcarveOperation
 from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
 from ..usecases.cut import CutOptions
 from ..usecases.examine import ExamineOptions

@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 from ..core.errors import ParameterError
+from .contour_operation import ContourOperation
 from .fields import Unit, parameter
 from .fields import part as whole
-from .operation import LEAST_LENGTH, ContourOperation, CutParameters, Operation, Order, PocketOperation, RestOperation
+from .operation import LEAST_LENGTH, CutParameters, Operation, Order, PocketOperation, RestOperation
 from .part import Part, Units
 from .tool import Tool
 from .tool_kind import ToolKind

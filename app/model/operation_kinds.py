@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .chamfer_operation import ChamferOperation
+from .contour_operation import ContourOperation
 from .face_operation import FaceOperation
 from .fields import ParameterPlace, declared_of, parameters_of
 from .hole_operations import (
@@ -12,16 +13,9 @@ from .hole_operations import (
     TapOperation,
     ThreadOperation,
 )
-from .operation import (
-    AdaptiveOperation,
-    ContourOperation,
-    DrillOperation,
-    Operation,
-    PocketOperation,
-    RestOperation,
-    VcarveOperation,
-)
+from .operation import AdaptiveOperation, DrillOperation, Operation, PocketOperation, RestOperation
 from .slot_operation import SlotOperation
+from .vcarve_operation import VcarveOperation
 
 OPERATION_KINDS: dict[str, type[Operation]] = {}
 """By the words of job files, reports and NC headers; `register` adds to it."""

@@ -28,10 +28,10 @@ from ..model.chamfer_operation import ChamferOperation
 from ..model.curve_selectors import OnLayer
 from ..model.finding import Finding, FindingKind
 from ..model.job import Copies, Job, OriginXY, OriginZ
-from ..model.operation import CutParameters, PocketOperation, Side, VcarveOperation
+from ..model.operation import CutParameters, Operation, PocketOperation, Side
 from ..model.part import Contour, Entity, Part
 from ..model.stock_box import extent
-from ..operations.vcarve.paths import RIDGE
+from ..operations.vcarve.paths import RIDGE, flat_tool_of
 from ..toolpath.drawn_contours import drawn_contours
 from ..toolpath.selected import selected
 from .cut import CutOptions, CutProgram, cut
@@ -166,7 +166,8 @@ def inlay_jobs(job: Job, wished: InlayOptions) -> InlayJobs:
         ParameterError: it is no single V-carving with a flat tool, or what is wished does not go with it.
     """
     operation = _carving(job)
-    tool, flat = job.cutter(operation), job.tool(operation.flat_tool or 0)
+    tool, flat = job.cutter(operation), flat_tool_of(job, operation)
+    assert flat is not None  # it was asked for
     rate, face = math.tan(tool.tip_angle / 2), operation.cut.depth - wished.glue
     if not 0 <= wished.glue < operation.cut.depth:
         raise ParameterError(
@@ -222,10 +223,10 @@ def inlay_jobs(job: Job, wished: InlayOptions) -> InlayJobs:
     return InlayJobs(pocket, plug, face, rate)
 
 
-def _carving(job: Job) -> VcarveOperation:
+def _carving(job: Job) -> Operation:
     enabled = [each for each in job.operations if each.cut.enabled]
     operation = enabled[0] if len(enabled) == 1 else None
-    if not isinstance(operation, VcarveOperation) or operation.flat_tool is None:
+    if operation is None or flat_tool_of(job, operation) is None:
         raise ParameterError(
             "An inlay is made of a job with one operation, a vcarve with its flat_tool; it makes the plug of that by "
             "itself."

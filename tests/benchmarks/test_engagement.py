@@ -6,8 +6,9 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from app.formats.readers import read_drawing
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.tool import Tool
 from app.operations.compute import compute
 from app.toolpath.engagement.feed import followed

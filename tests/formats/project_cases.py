@@ -10,21 +10,13 @@ from app.drafting.expressions.values import Curves
 from app.drafting.history import HistoryState
 from app.formats.project.extras import ProjectExtras
 from app.formats.project.project import Project, SavedView
+from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, Selector, on_layers
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.notes import Dimension, DimensionKind, Guide, Mark, Note
-from app.model.operation import (
-    ContourOperation,
-    CutParameters,
-    Direction,
-    DrillOperation,
-    Order,
-    PocketOperation,
-    RestOperation,
-    Side,
-)
+from app.model.operation import CutParameters, Direction, DrillOperation, Order, PocketOperation, RestOperation, Side
 from app.model.part import Entity, Layer, Part, Units
 from app.model.read_options import DrawingOptions
 from app.model.reading import DrawingSource, ReadingOptions

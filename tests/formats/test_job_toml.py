@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from app.core.errors import InputError
 from app.formats.job.toml import TOOL_KEYS, parse_origin, read_job
 from app.model.chamfer_operation import ChamferOperation
+from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.face_operation import FaceOperation
@@ -22,7 +23,6 @@ from app.model.hole_operations import BoreOperation, ThreadOperation
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.operation import (
     AdaptiveOperation,
-    ContourOperation,
     CutParameters,
     Direction,
     DrillOperation,
@@ -31,12 +31,12 @@ from app.model.operation import (
     PocketOperation,
     RestOperation,
     Side,
-    VcarveOperation,
 )
 from app.model.operation_kinds import declared
 from app.model.part import Part, Units
 from app.model.slot_operation import SlotOperation
 from app.model.tool import Tool, ToolKind
+from app.model.vcarve_operation import VcarveOperation
 from tests.examples import examples
 
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Line
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, CutParameters, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour, Part, Region
 from app.model.tool import Tool
 

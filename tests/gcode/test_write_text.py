@@ -14,8 +14,9 @@ from app.gcode.posts.post import Coolant
 from app.gcode.posts.posts import load_post
 from app.gcode.writer.header import tool_words
 from app.gcode.writer.write import NcText, blend_mm, writing_tolerance
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Part, Units
 from app.model.tool import Tool, ToolKind
 from tests.gcode.one_file import write_program

@@ -26,9 +26,10 @@ from app.gcode.posts.posts import load_post
 from app.gcode.writer.header import operation_words
 from app.gcode.writer.write import write_files
 from app.model import operation_kinds as operations
+from app.model.contour_operation import ContourOperation
 from app.model.fields import Unit, built, check_ranges, declared_of, parameter, parameters_of, with_values
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, DrillOperation, Operation, Side
+from app.model.operation import CutParameters, DrillOperation, Operation, Side
 from app.model.operation_kinds import register
 from app.model.part import Part
 from app.model.tool import FeedRow, Tool, ToolKind, ToolMaterial

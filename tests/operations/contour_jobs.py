@@ -10,10 +10,11 @@ import numpy as np
 import shapely
 
 from app.geometry.primitives import Rows, contour_rows, sample
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Primitive
 from app.model.job import Job, Stock
 from app.model.moves import Moves, Program, Purpose
-from app.model.operation import ContourOperation, CutParameters, Side
+from app.model.operation import CutParameters, Side
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.toolpath.coverage.flat import move_rows

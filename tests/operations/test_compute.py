@@ -9,11 +9,12 @@ import pytest
 
 from app.core.errors import ParameterError
 from app.geometry.region import polygon_contour
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Line
 from app.model.finding import FindingKind
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, CutParameters, Direction, DrillOperation, Order, PocketOperation, Side
+from app.model.operation import CutParameters, Direction, DrillOperation, Order, PocketOperation, Side
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute

@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 from app.core.tolerances import NOMINAL
+from app.model.contour_operation import ContourOperation
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.finding import FindingKind
 from app.model.job import Copies, Job, Stock
 from app.model.moves import Program, Purpose
-from app.model.operation import ContourOperation, CutParameters, Side
+from app.model.operation import CutParameters, Side
 from app.model.part import Contour, Part
 from app.model.tool import Tool
 from app.operations.compute import compute

@@ -10,9 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.geometry.region import polygon_contour
+from app.model.contour_operation import ContourOperation
 from app.model.finding import FindingKind
 from app.model.moves import Program, Purpose
-from app.model.operation import ContourOperation, CutParameters
+from app.model.operation import CutParameters
 from app.model.part import Contour
 from app.operations.compute import compute
 from tests import plain_distance

@@ -11,12 +11,13 @@ import pytest
 from app.core.errors import ParameterError
 from app.gcode.posts.posts import load_post
 from app.geometry.region import polygon_contour
+from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.curves import Arc
 from app.model.finding import Finding, FindingKind
 from app.model.job import Copies, Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, CutParameters, DrillOperation, PocketOperation, Side
+from app.model.operation import CutParameters, DrillOperation, PocketOperation, Side
 from app.model.part import Contour
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute

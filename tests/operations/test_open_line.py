@@ -11,11 +11,12 @@ from hypothesis import strategies as st
 
 from app.core.progress import NO_PROGRESS
 from app.geometry.primitives import contour_rows, lengths, points_at, sample, signed_area
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Arc, Line
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.moves import Purpose
-from app.model.operation import ContourOperation, CutParameters, Direction, Side
+from app.model.operation import CutParameters, Direction, Side
 from app.operations.compute import compute
 from app.operations.engrave.open_line import clear_parts, line_paths
 from app.toolpath.leads.contour_path import ContourPath

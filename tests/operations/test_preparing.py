@@ -10,10 +10,11 @@ import pytest
 
 from app.core.errors import Cancelled
 from app.core.progress import NO_PROGRESS, Progress
+from app.model.contour_operation import ContourOperation
 from app.model.entry import Tabs
 from app.model.job import Job
 from app.model.moves import Program
-from app.model.operation import ContourOperation, CutParameters, PocketOperation, RestOperation, Side
+from app.model.operation import CutParameters, PocketOperation, RestOperation, Side
 from app.model.part import Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute

@@ -17,9 +17,10 @@ from app.core import tolerances
 from app.core.errors import ParameterError
 from app.geometry.primitives import lengths, points_at
 from app.geometry.region import nest, polygon_contour
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, CutParameters, Direction, Operation, PocketOperation, RestOperation
+from app.model.operation import CutParameters, Direction, Operation, PocketOperation, RestOperation
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute

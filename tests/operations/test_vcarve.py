@@ -15,8 +15,9 @@ from app.geometry.region import nested, polygon_contour
 from app.model.finding import FindingKind
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program
-from app.model.operation import CutParameters, PocketOperation, VcarveOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.tool import Tool, ToolKind
+from app.model.vcarve_operation import VcarveOperation
 from app.operations.compute import compute
 from app.operations.vcarve.branches import AxisBranch
 from app.operations.vcarve.graph import graph_of, prune, trails

@@ -11,9 +11,10 @@ import numpy as np
 
 from app.core.progress import NO_PROGRESS
 from app.geometry.primitives import Rows, contour_rows
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Purpose
-from app.model.operation import ContourOperation, CutParameters, Operation, PocketOperation
+from app.model.operation import CutParameters, Operation, PocketOperation
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.toolpath.build import Stroke

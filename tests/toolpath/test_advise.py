@@ -22,8 +22,9 @@ from app.geometry.distance import DistanceField
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import pack
 from app.geometry.region import nest, polygon_contour
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute, regions_of

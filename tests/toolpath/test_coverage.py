@@ -14,10 +14,11 @@ import shapely
 
 from app.core.errors import Cancelled
 from app.core.progress import Progress
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Circle
 from app.model.finding import FindingKind
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour, Part, Region
 from app.model.tool import Tool
 from app.toolpath.coverage.coverage import _between_reversals, _solid, _widened, coverage_findings, measure

@@ -18,9 +18,10 @@ from app.core.errors import Cancelled
 from app.core.progress import Progress
 from app.formats.readers import read_drawing
 from app.geometry.primitives import lengths, points_at
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program
-from app.model.operation import ContourOperation, CutParameters, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Region
 from app.model.stock_box import stock_box
 from app.model.tool import Tool, ToolKind

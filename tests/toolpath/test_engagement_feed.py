@@ -14,9 +14,10 @@ from hypothesis import strategies as st
 from app.core.errors import Cancelled
 from app.core.progress import Progress
 from app.formats.readers import read_drawing
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program
-from app.model.operation import ContourOperation, CutParameters, DrillOperation, PocketOperation
+from app.model.operation import CutParameters, DrillOperation, PocketOperation
 from app.model.tool import Tool
 from app.operations.compute import compute
 from app.toolpath.coverage.flat import move_rows

@@ -5,10 +5,11 @@ from dataclasses import replace
 import pytest
 
 from app.geometry.stroke_font import engraving
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Arc, Circle
 from app.model.finding import FindingKind
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, Operation, PocketOperation, Side
+from app.model.operation import CutParameters, Operation, PocketOperation, Side
 from app.model.part import Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute, drawing_findings, followed_lines, machined_regions

@@ -12,11 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.drafting.document import Document
+from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import read_selectors
 from app.model.finding import FindingKind
 from app.model.job import Copies, Job
 from app.model.moves import Program
-from app.model.operation import ContourOperation, CutParameters, DrillOperation, Operation, PocketOperation, Side
+from app.model.operation import CutParameters, DrillOperation, Operation, PocketOperation, Side
 from app.model.part import Contour
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute

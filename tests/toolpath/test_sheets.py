@@ -10,17 +10,10 @@ import shapely
 
 from app.geometry.overlay.overlay import without_outlines
 from app.geometry.region import nest, polygon_contour
+from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.job import Copies, Job
-from app.model.operation import (
-    ContourOperation,
-    CutParameters,
-    DrillOperation,
-    Operation,
-    PocketOperation,
-    RestOperation,
-    Side,
-)
+from app.model.operation import CutParameters, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from app.model.part import Contour, Region
 from app.model.tool import Tool
 from app.toolpath.coverage.flat import region_shapes

@@ -11,8 +11,9 @@ import shapely
 
 from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import contour_rows, points_at, sample, signed_area
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, Direction, Side
+from app.model.operation import CutParameters, Direction, Side
 from app.model.part import Contour
 from app.toolpath.leads.contour_path import ContourPath, headings_at, left_of
 from app.toolpath.side import ranks, wall_paths

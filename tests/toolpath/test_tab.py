@@ -11,11 +11,12 @@ from hypothesis import strategies as st
 
 from app.geometry.primitives import lengths
 from app.geometry.region import polygon_contour
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Line, Primitive
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job
 from app.model.moves import Program, Purpose
-from app.model.operation import ContourOperation, CutParameters, Side
+from app.model.operation import CutParameters, Side
 from app.model.part import Contour
 from app.operations.compute import compute
 from tests import plain_distance

@@ -9,11 +9,12 @@ import pytest
 from PySide6.QtGui import QColor
 
 from app.drafting.document import Document
+from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.curves import Line
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, CutParameters, PocketOperation, Side
+from app.model.operation import CutParameters, PocketOperation, Side
 from app.model.part import Contour
 from app.model.tool import Tool
 from app.operations.compute import compute

@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from app.model.operation import ContourOperation, CutParameters, PocketOperation
+from app.model.contour_operation import ContourOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
 from app.ui.panels.changes import with_tool

@@ -10,16 +10,10 @@ from PySide6.QtWidgets import QApplication
 
 from app.drafting.document import Document
 from app.gcode.posts.posts import post_titles
+from app.model.contour_operation import ContourOperation
 from app.model.entry import Lead, LeadKind, Tabs
 from app.model.job import Job, OriginXY
-from app.model.operation import (
-    ContourOperation,
-    CutParameters,
-    DrillOperation,
-    Order,
-    PocketOperation,
-    Side,
-)
+from app.model.operation import CutParameters, DrillOperation, Order, PocketOperation, Side
 from app.model.operation_kinds import OPERATION_KINDS
 from app.model.part import Part
 from app.model.tool import Tool

@@ -6,10 +6,10 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 
 from app.drafting.document import Document
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Line
 from app.model.entry import Tabs
 from app.model.job import Copies, Job
-from app.model.operation import ContourOperation
 from app.model.part import Entity, Part
 from app.ui.framework.theme import LIGHT
 from app.ui.panels.changes import Subject, SubjectKind

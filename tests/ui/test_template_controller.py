@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from app.core.resources import resource
-from app.model.operation import ContourOperation, PocketOperation
+from app.model.contour_operation import ContourOperation
+from app.model.operation import PocketOperation
 
 WAIT_MS = 20_000
 TEMPLATE = resource("samples", "layers.toml")

@@ -9,9 +9,10 @@ import pytest
 from app.core.errors import ParameterError
 from app.formats.readers import read_drawing
 from app.geometry.primitives import points_at
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job
 from app.model.moves import MoveKind
-from app.model.operation import ContourOperation, CutParameters, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.toolpath.coverage.flat import move_rows

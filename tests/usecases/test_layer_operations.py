@@ -13,8 +13,9 @@ from app.cli.main import main
 from app.core.errors import InputError, ParameterError
 from app.core.resources import resource
 from app.formats.job.toml import JobFile, read_job
+from app.model.contour_operation import ContourOperation
 from app.model.layer_rules import LayerRule, depth_in
-from app.model.operation import ContourOperation, CutParameters, DrillOperation, PocketOperation, Side
+from app.model.operation import CutParameters, DrillOperation, PocketOperation, Side
 from app.model.part import Layer
 from app.usecases.make import MakeResult, make
 from app.usecases.options import MakeOptions

@@ -13,18 +13,11 @@ import pytest
 
 from app.core.errors import Cancelled, HitofudeError, InputError, ParameterError
 from app.core.progress import Progress
+from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.entry import EntryKind, LeadKind
 from app.model.job import Copies, Job
-from app.model.operation import (
-    ContourOperation,
-    CutParameters,
-    DrillOperation,
-    Order,
-    PocketOperation,
-    RestOperation,
-    Side,
-)
+from app.model.operation import CutParameters, DrillOperation, Order, PocketOperation, RestOperation, Side
 from app.model.operation_kinds import parameters
 from app.model.part import Layer, Part
 from app.model.tool import Tool, ToolKind

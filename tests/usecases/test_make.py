@@ -15,10 +15,11 @@ from app.core.errors import Cancelled, GeometryError, InputError, ParameterError
 from app.core.progress import Progress
 from app.formats.machine_toml import DEFAULT_MACHINE, load_machine
 from app.gcode.posts.posts import load_post
+from app.model.contour_operation import ContourOperation
 from app.model.finding import FindingKind
 from app.model.job import Job, OriginXY, OriginZ
 from app.model.moves import MoveKind
-from app.model.operation import ContourOperation, CutParameters, PocketOperation, RestOperation
+from app.model.operation import CutParameters, PocketOperation, RestOperation
 from app.model.part import Part, Units
 from app.model.stock_box import stock_box, work_origin
 from app.model.tool import ToolKind

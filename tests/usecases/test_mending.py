@@ -7,9 +7,10 @@ from dataclasses import replace
 
 import pytest
 
+from app.model.contour_operation import ContourOperation
 from app.model.finding import FindingKind
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, DrillOperation, PocketOperation, RestOperation
+from app.model.operation import CutParameters, DrillOperation, PocketOperation, RestOperation
 from app.model.tool import Tool, ToolKind
 from app.usecases.make import MakeResult, export
 from app.usecases.mending import Fault, mends

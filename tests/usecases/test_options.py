@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from app.core.errors import ParameterError
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job, Stock
-from app.model.operation import ContourOperation, CutParameters, Direction, PocketOperation
+from app.model.operation import CutParameters, Direction, PocketOperation
 from app.model.operation_kinds import parameters
 from app.model.part import Part
 from app.model.tool import Tool

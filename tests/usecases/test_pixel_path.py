@@ -12,10 +12,11 @@ from app.core.errors import GeometryError, ParameterError
 from app.fitting.corner_smoothing.smooth import CornerSmoothingOptions
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import points_at
+from app.model.contour_operation import ContourOperation
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.moves import Moves, Purpose
-from app.model.operation import ContourOperation, CutParameters, Direction, Order, PocketOperation
+from app.model.operation import CutParameters, Direction, Order, PocketOperation
 from app.model.part import Contour, Part
 from app.raster.border import borders_of
 from app.raster.frame import BitmapFrame

@@ -15,10 +15,11 @@ from app.drafting.document import Document
 from app.formats.job.toml import read_job
 from app.formats.job.write import job_lines
 from app.formats.readers import read_drawing
+from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber
 from app.model.hole_operations import BoreOperation
 from app.model.job import Copies, Job
-from app.model.operation import ContourOperation, DrillOperation, PocketOperation, RestOperation, Side
+from app.model.operation import DrillOperation, PocketOperation, RestOperation, Side
 from app.model.tool import Tool, ToolKind
 from app.toolpath.coverage.flat import region_shapes
 from app.usecases.machining import MachiningOptions

@@ -8,9 +8,10 @@ import random
 import pytest
 
 from app.core.errors import HitofudeError
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Arc, Circle, Curve, Line
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, Direction, PocketOperation
+from app.model.operation import CutParameters, Direction, PocketOperation
 from app.model.part import Entity, Part
 from app.model.tool import Tool
 from app.usecases.make import export

@@ -10,9 +10,10 @@ import pytest
 from app.core.errors import InputError
 from app.formats.job.toml import read_job
 from app.gcode.interpreter.dialect import Dialect
+from app.model.contour_operation import ContourOperation
 from app.model.finding import FindingKind
 from app.model.job import OriginXY, OriginZ
-from app.model.operation import ContourOperation, PocketOperation, RestOperation
+from app.model.operation import PocketOperation, RestOperation
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.workpiece import BoxStock

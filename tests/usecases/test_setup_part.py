@@ -12,11 +12,12 @@ from ezdxf.document import Drawing
 from app.formats.readers import read_drawing
 from app.gcode.posts.posts import load_post
 from app.gcode.writer.write import write_files
+from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.entry import Lead, LeadKind
 from app.model.job import Copies, Job
 from app.model.moves import Area, DogBone, Program, Tab
-from app.model.operation import ContourOperation, CutParameters, DrillOperation, Operation, PocketOperation, Side
+from app.model.operation import CutParameters, DrillOperation, Operation, PocketOperation, Side
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import followed_lines, machined_regions
 from app.toolpath.coverage.flat import region_shapes

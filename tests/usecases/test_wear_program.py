@@ -19,10 +19,11 @@ from app.formats.job.toml import read_job
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.reader import read_program
 from app.gcode.rework.restart import RestartOptions, restart
+from app.model.contour_operation import ContourOperation
 from app.model.entry import Lead, LeadKind
 from app.model.finding import FindingKind
 from app.model.motion import MotionKind
-from app.model.operation import ContourOperation, CutParameters, CutterCompensation, Side
+from app.model.operation import CutParameters, CutterCompensation, Side
 from app.usecases.make import MakeResult, make
 from app.usecases.options import MakeOptions
 from tests.gcode.rs274_oracle import RS274, needs_rs274, own_home

@@ -9,11 +9,12 @@ from dataclasses import replace
 import pytest
 
 from app.geometry.region import polygon_contour
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Circle, Line
 from app.model.finding import FindingKind
 from app.model.job import Job, Stock
 from app.model.moves import Area, DogBone, Program, Tab
-from app.model.operation import ContourOperation, CutParameters, DrillOperation, PocketOperation, RestOperation, Side
+from app.model.operation import CutParameters, DrillOperation, PocketOperation, RestOperation, Side
 from app.model.part import Contour, Entity, Part, Region
 from app.model.tool import Tool, ToolKind
 from app.toolpath.coverage.coverage import measure

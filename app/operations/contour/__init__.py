@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...core.progress import NO_PROGRESS
+from ...model.contour_operation import ContourOperation
 from ...model.finding import Finding
-from ...model.operation import ContourOperation, Operation, Side
+from ...model.operation import Operation, Side
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..engrave.open_line import line_paths
 from ..registry import OperationMethod, register

@@ -13,10 +13,11 @@ from ...core.progress import Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ...geometry.primitives import TURN, lengths, reversed_rows
+from ...model.contour_operation import ContourOperation
 from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind
 from ...model.moves import Purpose
-from ...model.operation import ContourOperation, Direction, Side
+from ...model.operation import Direction, Side
 from ...model.stock_box import stock_box
 from ...model.tool import Tool
 from ...toolpath.bitmap_check import check_on_bitmap

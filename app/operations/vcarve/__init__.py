@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...model.operation import VcarveOperation
+from ...model.vcarve_operation import VcarveOperation
 from ..registry import OperationMethod, register
 from .paths import vcarve
 

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from ...geometry.distance import DistanceField
 from ...geometry.primitives import points_at
+from ...model.contour_operation import ContourOperation
 from ...model.curves import Point
 from ...model.entry import Tabs
 from ...model.finding import Finding, FindingKind
 from ...model.moves import Tab
-from ...model.operation import LEAST_LENGTH, ContourOperation
+from ...model.operation import LEAST_LENGTH
 from ...model.stock_box import StockBox
 from ...model.tool import Tool
 from .contour_path import ContourPath, Floats, fractions_at

@@ -9,18 +9,16 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
-
 from ...core.progress import Progress
 from ...model.curve_selectors import Selector
 from ...model.job import Job
 from ...model.operation import Order
 from ..framework.commands import Commands, on_trigger
 from ..framework.figures import counted
-from ..framework.worker import JobOutcome, Worker
 from ..framework.workspace import Workspace
 from ..panels.changes import Subject, SubjectKind, operation_name, with_cut
 from ..panels.side_panel import SidePanel
+from .operations_controller import OperationsController
 
 if TYPE_CHECKING:
     from ...usecases.proposal.chosen_curves import ChosenOperations
@@ -70,24 +68,12 @@ def chosen_for(job: Job, numbers: frozenset[int], way: str, progress: Progress) 
     return with_chosen(job, numbers, CurvePurpose[way.upper()], progress)
 
 
-class ProposalController(QObject):
-    """Asks for proposals and takes them, as one step each.
-
-    Signals:
-        failed(sentence): what went wrong. said(sentence): what was done.
-    """
-
-    failed = Signal(str)
-    said = Signal(str)
+class ProposalController(OperationsController):
+    """Asks for proposals and takes them, as one step each."""
 
     def __init__(self, panel: SidePanel, workspace: Workspace, commands: Commands) -> None:
-        super().__init__(panel)
-        self._panel, self._workspace, self._commands = panel, workspace, commands
-        self._document = workspace.document
-        self.worker = Worker(self)
-        workspace.activity.follow(self.worker, "Looking at the drawing…")
-        self.worker.done.connect(self._on_done)
-        self.worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
+        super().__init__(panel, workspace, "Looking at the drawing…")
+        self._commands = commands
         on_trigger(commands, "propose", lambda: self.propose(nesting=True))
         on_trigger(commands, "propose_1986", lambda: self.propose(nesting=False))
         for way in WAYS:
@@ -126,18 +112,16 @@ class ProposalController(QObject):
             self._workspace.notice.dismiss()
             self.worker.start(lambda progress: find(job, numbers, progress), self._document.revision)
 
-    def _on_done(self, answer: JobOutcome) -> None:
+    def _take_over(self, made: object) -> None:
         from ...usecases.proposal.chosen_curves import ChosenOperations
         from ...usecases.proposal.propose import Proposal
 
-        if answer.revision != self._document.revision:
-            self.said.emit("The drawing was changed meanwhile; ask for the operations again.")
-        elif isinstance(answer.value, ChosenOperations):
-            self._add(answer.value)
-        elif isinstance(answer.value, OwnSelection):
-            self._give(answer.value)
-        elif isinstance(answer.value, Proposal):
-            self._take(answer.value)
+        if isinstance(made, ChosenOperations):
+            self._add(made)
+        elif isinstance(made, OwnSelection):
+            self._give(made)
+        elif isinstance(made, Proposal):
+            self._take(made)
 
     def _add(self, chosen: ChosenOperations) -> None:
         """Take over operations that were added, and offer to switch off what machines all curves besides."""

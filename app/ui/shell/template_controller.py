@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ...core.errors import InputError
@@ -15,10 +14,10 @@ from ...model.finding import Finding
 from ...model.job import Job
 from ..framework.commands import Commands, on_trigger
 from ..framework.figures import counted
-from ..framework.worker import JobOutcome, Worker
 from ..framework.workspace import Workspace
 from ..panels.changes import Subject, SubjectKind
 from ..panels.side_panel import SidePanel
+from .operations_controller import OperationsController
 from .proposal_controller import NOTHING_DRAWN
 
 TEMPLATES = "Templates and job files (*.toml);;All files (*)"
@@ -72,23 +71,12 @@ def applied(path: Path, job: Job, progress: Progress) -> AppliedTemplate:
     return AppliedTemplate(path.name, with_feeds(made, options).job, ruled.lines, ruled.findings)
 
 
-class TemplateController(QObject):
-    """Asks for a template and applies it.
-
-    Signals:
-        failed(sentence): what went wrong. said(sentence): what was done.
-    """
-
-    failed = Signal(str)
-    said = Signal(str)
+class TemplateController(OperationsController):
+    """Asks for a template and applies it."""
 
     def __init__(self, panel: SidePanel, workspace: Workspace, commands: Commands) -> None:
-        super().__init__(panel)
-        self._panel, self._workspace, self._commands = panel, workspace, commands
-        self.worker = Worker(self)
-        workspace.activity.follow(self.worker, "Applying the template…")
-        self.worker.done.connect(self._on_done)
-        self.worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
+        super().__init__(panel, workspace, "Applying the template…")
+        self._commands = commands
         on_trigger(commands, "apply_template", self.choose_file)
 
     def choose_file(self) -> None:
@@ -100,22 +88,17 @@ class TemplateController(QObject):
 
     def apply(self, path: Path) -> None:
         """Have the rules of a file made into operations."""
-        document = self._workspace.document
-        if not document.job.part.entities:
+        job = self._document.job
+        if not job.part.entities:
             self.said.emit(NOTHING_DRAWN)
             return
         self._workspace.notice.dismiss()
-        job = document.job
-        self.worker.start(lambda progress: applied(path, job, progress), document.revision)
+        self.worker.start(lambda progress: applied(path, job, progress), self._document.revision)
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        document, made = self._workspace.document, answer.value
+    def _take_over(self, made: object) -> None:
         assert isinstance(made, AppliedTemplate)
-        if answer.revision != document.revision:
-            self.said.emit("The drawing was changed meanwhile; ask for the operations again.")
-            return
         self._panel.subject = Subject(SubjectKind.OPERATION, 0)
-        document.change_job("Apply template", made.job)
+        self._document.change_job("Apply template", made.job)
         self._workspace.log.note(f"template {made.name}", "\n".join(line.strip() for line in made.lines))
         for finding in made.findings:
             self._workspace.log.note(f"template {made.name}", finding.text, error=finding.counts)

@@ -188,18 +188,11 @@ class WindowController(QObject):
         window, views = self.window_, self.window_.views
         self._on("export_drawing", self.drawing_export.start)
         self._on("sheet", self.sheet_export.start)
-        for exporting in (self.drawing_export, self.sheet_export):
-            exporting.failed.connect(self._say_error)
-        for part in (
-            self.drawing_export,
-            self.sheet_export,
-            self.tools,
-            self.proposal_controller,
-            self.template_controller,
-        ):
+        telling = (self.drawing_export, self.sheet_export, self.proposal_controller, self.template_controller)
+        for part in telling:
+            part.failed.connect(self._say_error)
             part.said.connect(self._say)
-        self.proposal_controller.failed.connect(self._say_error)
-        self.template_controller.failed.connect(self._say_error)
+        self.tools.said.connect(self._say)
         self.underlay_controller.refused.connect(lambda text: window.status.show_message(text, error=True))
         window.panel.advice.place_requested.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
         self.drawing_page_controller.front_requested.connect(partial(self._show_side_page, DRAWING_PAGE))

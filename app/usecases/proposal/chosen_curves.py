@@ -12,11 +12,12 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.as_circle import as_circle
 from ...geometry.primitives import contour_rows, lengths
 from ...model.chamfer_operation import ChamferOperation
+from ...model.contour_operation import ContourOperation
 from ...model.curve_selectors import CurveNumber, Selector
 from ...model.entry import Tabs
 from ...model.hole_operations import BoreOperation, CountersinkOperation
 from ...model.job import Copies, Job
-from ...model.operation import ContourOperation, CutParameters, Operation, Order, Side
+from ...model.operation import CutParameters, Operation, Order, Side
 from ...model.part import Contour
 from ...model.slot_operation import SlotOperation
 from ...model.tool import Tool

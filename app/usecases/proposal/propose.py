@@ -19,20 +19,13 @@ from ...formats.tools.library import read_library
 from ...geometry.overlay.overlay import without_crossings
 from ...geometry.primitives import contour_rows, lengths, signed_area
 from ...geometry.region import nest, polygon_contour
+from ...model.contour_operation import ContourOperation
 from ...model.curve_selectors import Selector
 from ...model.entry import Tabs
 from ...model.finding import Finding
 from ...model.hole_operations import BoreOperation
 from ...model.job import Copies, Job, Stock
-from ...model.operation import (
-    ContourOperation,
-    CutParameters,
-    DrillOperation,
-    Operation,
-    PocketOperation,
-    RestOperation,
-    Side,
-)
+from ...model.operation import CutParameters, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from ...model.part import Contour, Region
 from ...model.stock_box import extent
 from ...model.tool import Tool

@@ -9,8 +9,8 @@ from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post, post_names
 from app.gcode.writer.write import write_files
+from app.model.contour_operation import ContourOperation
 from app.model.moves import MoveKind
-from app.model.operation import ContourOperation
 from tests.gcode.programs import job, two_tools
 
 HEAD = b"G21 G90\nG0 X0 Y0 Z5\nG1 Z-1 F100\n"

@@ -12,13 +12,13 @@ from app.gcode.interpreter.program import HeaderNote, OperationNote, ToolNote
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post, post_names
 from app.gcode.writer.write import write_files
+from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers, read_selector
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.fields import parameters_of
 from app.model.job import Copies, Job, OriginXY, OriginZ
 from app.model.moves import DogBone, Tab
 from app.model.operation import (
-    ContourOperation,
     CutParameters,
     Direction,
     DrillOperation,

@@ -78,4 +78,5 @@ def test_what_stands_where_a_word_should_is_told_with_what_to_write() -> None:
 
 @pytest.mark.parametrize("mark", [codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE, codecs.BOM_UTF8])
 def test_a_mark_without_a_line_behind_it_is_told_without_a_line_that_is_not_there(mark: bytes) -> None:
-    judged(mark)
+    program = judged(mark)  # which looks at the place of every problem
+    assert program.line_count == 0 and not any("UTF-16" in problem.text for problem in program.problems)

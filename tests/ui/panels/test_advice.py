@@ -7,7 +7,8 @@ from PySide6.QtCore import Qt
 
 from app.core.resources import resource
 from app.formats.readers import read_drawing
-from app.model.operation import ContourOperation, PocketOperation, RestOperation
+from app.model.contour_operation import ContourOperation
+from app.model.operation import PocketOperation, RestOperation
 from app.ui.panels.side_panel import SidePanel
 from app.ui.shell.advice_controller import AdviceController
 from tests.ui.conftest import WAIT_MS

@@ -7,9 +7,10 @@ import pytest
 from app.drafting.document import Document
 from app.model import operation_kinds as operations
 from app.model.chamfer_operation import ChamferOperation
+from app.model.contour_operation import ContourOperation
 from app.model.fields import parameters_of
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, Side
+from app.model.operation import CutParameters, Side
 from app.model.operation_kinds import OPERATION_KINDS, register
 from app.model.part import Part
 from app.ui.framework.fields import ChoiceField, ListField, NumberField

@@ -5,8 +5,9 @@ from dataclasses import replace
 import pytest
 
 from app.core.errors import InputError
+from app.model.contour_operation import ContourOperation
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool, ToolKind
 from app.ui.views.session1986.answers import EnteredOffsets, amount, job_of, offered

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 
-from app.model.operation import ContourOperation, PocketOperation
+from app.model.contour_operation import ContourOperation
+from app.model.operation import PocketOperation
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
 from app.ui.views.session1986.questions import SessionQuestion

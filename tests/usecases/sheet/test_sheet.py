@@ -21,9 +21,10 @@ from app.formats.sheet.content import SetupPicture, SetupSheet, SheetColumn, She
 from app.formats.sheet.layout import HEIGHT, MARGIN, WIDTH
 from app.formats.sheet.write import sheet_bytes
 from app.geometry.transform import Similarity
+from app.model.contour_operation import ContourOperation
 from app.model.finding import Finding, FindingKind
 from app.model.job import Job, OriginXY, OriginZ, Stock
-from app.model.operation import ContourOperation, CutParameters, PocketOperation, Side
+from app.model.operation import CutParameters, PocketOperation, Side
 from app.model.tool import Tool
 from app.usecases.make import MakeResult, export
 from app.usecases.sheet.made import made_sheet

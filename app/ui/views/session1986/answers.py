@@ -9,8 +9,9 @@ from dataclasses import dataclass, replace
 from ....core.errors import InputError
 from ....drafting.expressions.errors import CommandError
 from ....drafting.expressions.numbers import length
+from ....model.contour_operation import ContourOperation
 from ....model.job import Job
-from ....model.operation import ContourOperation, CutParameters, Operation, PocketOperation
+from ....model.operation import CutParameters, Operation, PocketOperation
 from ....model.tool import Tool, ToolKind
 
 
