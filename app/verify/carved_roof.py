@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
@@ -96,11 +97,12 @@ def prove_roof(path: ConePath, walls: Primitives, reported: float, progress: Pro
     discs = _discs(elements, DistanceField.of(walls.rows), most, progress.part(0.0, 0.5))
     blunt = discs.radius < path.tip
     left = np.zeros(len(blunt))
+    carving = _Carving.of(path)
     chosen = np.flatnonzero(~blunt)
     for first in range(0, len(chosen), _PORTION):
         progress.step(0.5 + 0.5 * first / len(chosen), "Prove what is carved")
         some = chosen[first : first + _PORTION]
-        left[some] = _uncarved(path, discs.centres[some], discs.radius[some])
+        left[some] = _uncarved(carving, discs.centres[some], discs.radius[some])
     height = left / path.rate
     worst = int(np.argmax(height))
     x, y = discs.centres[worst].tolist()
@@ -228,21 +230,43 @@ def _largest(field: DistanceField, feet: Floats, normals: Floats, most: float, p
     return low
 
 
-def _uncarved(path: ConePath, centres: Floats, radius: Floats) -> Floats:
+@dataclass(frozen=True, eq=False)
+class _Carving:
+    """Motions of a cone, found by where they are.
+
+    Attributes:
+        low, high: (n, 2) corners of their boxes. wide: (n,) radius of the cone at the surface, where it is deepest, mm.
+        tree: of the boxes.
+    """
+
+    path: ConePath
+    low: Floats
+    high: Floats
+    wide: Floats
+    tree: shapely.STRtree
+
+    @staticmethod
+    def of(path: ConePath) -> _Carving:
+        low, high = (pick(path.start[:, :2], path.end[:, :2]) for pick in (np.minimum, np.maximum))
+        wide = path.tip - np.minimum(path.start[:, 2], path.end[:, 2]) * path.rate
+        return _Carving(path, low, high, wide, shapely.STRtree(shapely.box(*low.T, *high.T)))
+
+    def near(self, centres: Floats, radius: Floats) -> NDArray[np.int64]:
+        """Return the motions near to some discs that may carve one of them."""
+        first, last = centres.min(axis=0), centres.max(axis=0)
+        around = shapely.box(*(first - _NEAR), *(last + _NEAR))
+        found: NDArray[np.int64] = np.sort(self.tree.query(around))
+        beside = np.hypot(*np.maximum(np.maximum(first - self.high[found], self.low[found] - last), 0).T)
+        return found[(radius.min() - self.wide[found] + beside <= _NEAR) & (beside <= _NEAR)]
+
+
+def _uncarved(carving: _Carving, centres: Floats, radius: Floats) -> Floats:
     """Return by how much cones are too narrow or too far from discs, mm, each by the motion that is best for it."""
-    wide = path.tip - np.minimum(path.start[:, 2], path.end[:, 2]) * path.rate
-    (x0, y0), (x1, y1) = centres.min(axis=0), centres.max(axis=0)
-    xs = np.sort(np.stack([path.start[:, 0], path.end[:, 0]]), axis=0)
-    ys = np.sort(np.stack([path.start[:, 1], path.end[:, 1]]), axis=0)
-    beside = np.hypot(
-        np.maximum(np.maximum(x0 - xs[1], xs[0] - x1), 0), np.maximum(np.maximum(y0 - ys[1], ys[0] - y1), 0)
-    )
-    useful = radius.min() - wide + beside <= _NEAR
-    near, rest = np.flatnonzero(useful & (beside <= _NEAR)), np.arange(len(wide))
-    found = _by_motions(path, near, centres, radius)
+    found = _by_motions(carving.path, carving.near(centres, radius), centres, radius)
     again = np.flatnonzero(found > _NEAR)
     if len(again):
-        found[again] = _by_motions(path, rest, centres[again], radius[again])
+        every = np.arange(len(carving.wide))
+        found[again] = _by_motions(carving.path, every, centres[again], radius[again])
     return found
 
 
