@@ -93,13 +93,12 @@ class ProgramFigures:
     """What a program takes.
 
     Attributes:
-        blocks: feed moves. length_mm: of them; air_mm: of rapids. time_s: on a usual machine.
+        blocks: feed moves. length_mm: of them. time_s: on a usual machine.
         bend: largest change of direction within a pass, radians.
     """
 
     blocks: int
     length_mm: float
-    air_mm: float
     time_s: float
     bend: float
 
@@ -321,7 +320,6 @@ def _figures(examined: ExaminedProgram, program: NcProgram, bend: float) -> Prog
     return ProgramFigures(
         int(fed.sum()),
         float(known[fed].sum()),
-        float(known[~fed].sum()),
         examined.time.total,
         bend if math.isfinite(bend) else 0.0,
     )
