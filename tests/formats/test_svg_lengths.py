@@ -6,7 +6,7 @@ import time
 import pytest
 
 from app.formats.readers import read_drawing
-from app.formats.svg.lengths import LengthBasis, letter_height, length, size_of_font
+from app.formats.svg.lengths import LengthBasis, length, letter_height, size_of_font
 from app.formats.svg.numbers import UnreadableError
 from app.model.curves import Circle
 

@@ -195,7 +195,7 @@ _NEIGHBOURS = {"smaller": 1 / 1.2, "larger": 1.2}
 
 
 def letter_height(text: str, outer: float, rem: float) -> float:
-    """Return the height of letters, user units, of a font-size; one that cannot be read is that of the element round it.
+    """Return the height of letters, user units, of a font-size; one that cannot be read is the outer one.
 
     Args:
         text: as written, "" = not said. outer: of the element round it. rem: of the root.
