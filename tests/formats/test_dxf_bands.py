@@ -19,7 +19,7 @@ def said(document: Any, layers: tuple[str, ...] = ()) -> list[Finding]:
 
 @pytest.mark.parametrize("version", ["R12", "R2010"])
 def test_a_width_of_all_of_a_polyline(version: str) -> None:
-    document = ezdxf.new(version)
+    document = ezdxf.new(version, units=4)
     document.modelspace().add_polyline2d(
         [(1, 2), (9, 2)], dxfattribs={"default_start_width": 0.5, "default_end_width": 0.5, "layer": "A"}
     )
