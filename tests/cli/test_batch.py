@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 
+from app.cli.batch_store import BatchStore
 from app.cli.main import main
 from tests.generated_drawings import write_drawings
 
@@ -204,6 +205,25 @@ def test_what_cannot_be_begun_is_one_line(
     shown = capsys.readouterr().err
     assert told in shown and shown.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+def test_two_batches_on_one_folder_are_kept_apart(
+    parts: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """The second is told who works there; a lock whose process died holds nobody."""
+    out = tmp_path / "out"
+    command = ["batch", str(parts), "-o", str(out), "--check", "--jobs", "1", "--quiet"]
+    (parts.parent / "program.ngc").write_text("M30\n")
+    command[1] = str(parts.parent / "list.toml")
+    (parts.parent / "list.toml").write_text('[[part]]\nfile = "program.ngc"\n')
+    first = BatchStore(out)
+    assert main(command) == 2
+    told = capfd.readouterr().err
+    assert f"another batch (process {os.getpid()} of " in told and told.count("\n") == 1
+    first.close()
+    (out / ".hitofude" / "lock").write_text("1 elsewhere\n")  # its process is gone, and its lock with it
+    assert main(command) == 0
+    assert not (out / ".hitofude" / "lock").exists()
 
 
 def killing(process: subprocess.Popen[str], out: Path, kills: int, pause: float) -> None:
