@@ -27,7 +27,7 @@ def nearest_points(points, order, nodes, places, away, which):
             k = stack[top]
             if known == count:
                 far = box_distance(nodes, k, x, y)
-                # what is as far as the last one may have a lower number; of points on one another there may be very many
+                # what is as far as the last one may have a lower number; of points at one place there may be very many
                 if far > away[p, count - 1] or away[p, count - 1] == 0.0:
                     continue
             if k < leaves - 1:

@@ -1,6 +1,6 @@
 """Which points lie near which, and what hangs together through that.
 
-Trees where there are many points: own ones or shapely's, as importing scipy's takes longer than a whole small job. A few
+Trees where there are many points: own ones or shapely's, as importing scipy's takes longer than a whole small job. Few
 points are compared with one another.
 """
 
