@@ -1,7 +1,7 @@
 """Which points lie near which, and what hangs together through that.
 
-Trees where there are many points. Importing scipy's takes longer than a whole small job, so a few points are compared
-with one another, and pairs of many are shapely's to find.
+Trees where there are many points: own ones or shapely's, as importing scipy's takes longer than a whole small job. Few
+points are compared with one another.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 FEW = 100_000
-"""Distances that are sooner worked out than a tree is imported."""
+"""Distances that are sooner worked out than a tree is built."""
 
 
 def pairs_within(points: Floats, reach: float) -> Indices:
@@ -64,21 +64,24 @@ def _near(points: Floats, places: Floats, reach: float) -> Indices:
 
 
 def nearest(points: Floats, places: Floats, count: int) -> tuple[Floats, Indices]:
-    """Return (distance, index), each (k, count), of the points nearest to places, the nearest first.
+    """Return (distance, index), each (k, count), of the points nearest to places, the nearest first; of points as far
+    the one of the lower index.
 
     Args:
-        points: (n, d).
-        places: (k, d).
+        points: (n, 2).
+        places: (k, 2).
         count: 1 to n.
     """
     if len(points) * len(places) <= FEW:
         distance = _distances(places, points)
         order = np.argsort(distance, axis=1, kind="stable")[:, :count]
         return np.take_along_axis(distance, order, 1), order.astype(np.int64)
-    from scipy.spatial import cKDTree
+    from . import kernels, near_kernels
 
-    far, which = cKDTree(points).query(places, np.arange(1, count + 1))
-    return far, which.astype(np.int64)
+    points, places = np.ascontiguousarray(points), np.ascontiguousarray(places)
+    away, which = np.empty((len(places), count)), np.empty((len(places), count), np.int64)
+    near_kernels.nearest_points(points, *kernels.build_tree(np.hstack([points, points])), places, away, which)
+    return away, which
 
 
 def groups(count: int, pairs: Indices) -> Indices:

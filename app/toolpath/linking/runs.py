@@ -236,8 +236,8 @@ class _Space:
         return np.split(found, np.searchsorted(of, np.arange(1, len(hulls))))
 
     def _uncut(self, gaps: _Gaps) -> tuple[Indices, Floats]:
-        """Return (number of the group (n,), points (n, 2)) of the corners of squares that hold all that is uncut beyond
-        gaps.
+        """Return (number of the group (n,), points (n, 2)) of the outermost corners of squares that hold all that is
+        uncut beyond gaps.
         """
         if self._next is None or self._inner is None:
             return np.zeros(0, np.int64), np.zeros((0, 2))
@@ -258,11 +258,9 @@ class _Space:
             np.array([self._half.distance, self._radius / _FINEST]),
             self._squares(_along(gaps.outlines, self._radius / 4)[1], self._next.distance - self._half.distance),
         )
-        corners = found[:count, None, :2] + found[:count, 2, None, None] * np.array(
-            [[-1, -1], [-1, 1], [1, -1], [1, 1]]
-        )
         group = gaps.group[gaps.outlines.owner[found[:count, 3].astype(np.int64)]]
-        return np.repeat(group, 4), corners.reshape(-1, 2)
+        corners, owner = runs_kernels.outermost(found[:count], group, int(gaps.group.max()) + 1)
+        return owner, corners
 
     def _squares(self, points: Floats, reach: float) -> Floats:
         """Return squares (n, 3) of half a radius that hold all within `reach`, at most a radius, of ways along points
