@@ -21,7 +21,7 @@ from app.ui.views.canvas.modes import CanvasTool, PathColourBy
 from app.ui.views.canvas.view_transform import ViewTransform as CanvasView
 from app.ui.views.cut.cell_colours import CutColourBy
 from app.ui.views.nc.motion_shapes import ViewSide
-from app.usecases.smooth import SmoothOptions
+from app.usecases.smoothing.result import SmoothOptions
 from tests.ui.traces import fixed_values, left_in, traces
 
 SIZE = (1280, 800)

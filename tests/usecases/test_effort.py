@@ -27,9 +27,9 @@ from app.usecases.bitmap_way import compute_on_bitmap
 from app.usecases.cut import CutOptions, CutSetup, cut
 from app.usecases.effort import cut_effort
 from app.usecases.make import finish
-from app.usecases.smooth import smooth
-from app.usecases.smooth_effort import smooth_effort
-from app.usecases.smooth_result import OutputForm, SmoothOptions
+from app.usecases.smoothing.effort import smooth_effort
+from app.usecases.smoothing.result import OutputForm, SmoothOptions
+from app.usecases.smoothing.smooth import smooth
 from app.usecases.surface import compute
 from tests.conftest import ROOT
 from tests.operations.test_reckoning import holes, job_of, square, wavy
