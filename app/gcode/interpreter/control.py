@@ -329,14 +329,15 @@ class Control:
         if not self.set_parameters.set(key, value):
             return False
         self.warn(
-            f"#{key} is set in the machine's own units, which are taken for mm, and counts from the next {counts_from(key)} on."
+            f"#{key} is set in the machine's own units, which are taken for mm, and counts from the next "
+            f"{counts_from(key)} on."
         )
         return True
 
     def own_parameter(self, key: Key) -> float | None:
         """Return a parameter that the control itself sets, None if it is another; those of tables are in mm."""
         if key in self.set_parameters.values:
-            return self.set_parameters.values[key]  # type: ignore[index]  # which are numbers alone
+            return self.set_parameters.values[key]
         axis = _PLACES.get(key)
         if (axis is not None and self.known[axis] < 0) or (
             axis is None and isinstance(key, int) and key not in _OF_THE_PROGRAM
