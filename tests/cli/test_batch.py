@@ -15,6 +15,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+from distributed import LocalCluster
 
 from app.cli.batch_store import BatchStore
 from app.cli.main import main
@@ -136,6 +137,25 @@ def test_what_is_done_is_not_done_again(parts: Path, tmp_path: Path, capfd: pyte
     assert stamps[out / "part-000.ngc"] == (out / "part-000.ngc").stat().st_mtime_ns
     command[-1:] = ["1", "--stepover", "1.5"]
     assert len(done_anew()) == 4
+
+
+@pytest.mark.exhaustive
+def test_a_cluster_writes_the_same_bytes_although_a_worker_is_killed(done: Path, parts: Path, tmp_path: Path) -> None:
+    """The command with a scheduler's address; a worker of the local cluster is killed once a part is done."""
+    out = tmp_path / "out"
+
+    def kill() -> None:
+        while not any(out.glob(".hitofude/*.json")):
+            time.sleep(0.02)
+        next(iter(cluster.workers.values())).process.process.kill()
+        killed.set()
+
+    killed, killer = threading.Event(), threading.Thread(target=kill, daemon=True)
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        killer.start()
+        command = ["batch", str(parts), "-o", str(out), "--depth", "1", "--reports", "--quiet"]
+        assert main([*command, "--scheduler", cluster.scheduler_address]) == 1
+    assert killed.is_set() and written(out) == written(done)
 
 
 def test_a_program_of_a_drawing_that_is_broken_now_is_taken_away(tmp_path: Path) -> None:
