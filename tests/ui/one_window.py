@@ -179,6 +179,7 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.status.show_message("Not computed")
     _empty_what_is_hidden(wiring)
     _settle()
+    window.canvas.mouse = None
     window.canvas.set_view(view)
     _forget_habits(wiring)
 
