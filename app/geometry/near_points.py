@@ -84,6 +84,28 @@ def nearest(points: Floats, places: Floats, count: int) -> tuple[Floats, Indices
     return away, which
 
 
+def pairs_meeting(boxes: Floats, owner: Indices) -> Indices:
+    """Return the pairs (m, 2) of owners, the lower one first, in order, each once, of boxes that meet or touch.
+
+    Args:
+        boxes: (n, 4) x0, y0, x1, y1.
+        owner: (n,) whose each one is, >= 0.
+    """
+    if len(boxes) ** 2 <= FEW:
+        apart = (boxes[:, None, :2] > boxes[None, :, 2:]).any(axis=2)
+        pairs = owner[np.argwhere(~(apart | apart.T))]
+        pairs = pairs[pairs[:, 0] < pairs[:, 1]]
+    else:
+        from . import kernels, near_kernels
+
+        boxes, owner = np.ascontiguousarray(boxes), np.ascontiguousarray(owner)
+        found, count = near_kernels.meeting_boxes(*kernels.build_tree(boxes), boxes, owner)
+        pairs = found[:count]
+    span = int(owner.max(initial=0)) + 1
+    codes = np.sort(pairs[:, 0] * span + pairs[:, 1])
+    return np.column_stack(np.divmod(codes[np.diff(codes, prepend=-1) > 0], span))
+
+
 def groups(count: int, pairs: Indices) -> Indices:
     """Return (count,) the number of the group of each of `count` things, numbered by the first of each.
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from app.geometry import near_points, triangulation
-from app.geometry.near_points import all_within, groups, groups_within, nearest, pairs_within
+from app.geometry.near_points import all_within, groups, groups_within, nearest, pairs_meeting, pairs_within
 from app.geometry.triangulation import neighbours
 from tests.examples import examples
 
@@ -65,6 +65,25 @@ def test_nearest(points, shift: float, count: int) -> None:
     clear = few[0][:, -1] > 0  # else so many points lie there that any of them will do
     assert few[1][clear].tolist() == many[1][clear].tolist()
     assert all(len(set(row)) == count for row in many[1].tolist())
+
+
+@SOME
+@given(
+    corners=arrays(np.float64, st.tuples(st.integers(0, 30), st.just(4)), elements=st.integers(-5, 5)),
+    owners=st.lists(st.integers(0, 9), min_size=30, max_size=30),
+)
+def test_pairs_of_boxes_that_meet(corners, owners: list[int]) -> None:
+    boxes = np.hstack([np.minimum(corners[:, :2], corners[:, 2:]), np.maximum(corners[:, :2], corners[:, 2:])])
+    owner = np.array(owners[: len(boxes)], np.int64)
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        few, many = both(monkeypatch, lambda: pairs_meeting(boxes, owner))
+    assert few.tolist() == many.tolist()
+    meeting = {
+        tuple(sorted((int(owner[j]), int(owner[k]))))
+        for j, k in combinations(range(len(boxes)), 2)
+        if (boxes[j, :2] <= boxes[k, 2:]).all() and (boxes[k, :2] <= boxes[j, 2:]).all() and owner[j] != owner[k]
+    }
+    assert few.tolist() == [list(pair) for pair in sorted(meeting)]
 
 
 def test_the_nearest_of_many_points_on_one_another_are_soon_found() -> None:
