@@ -58,10 +58,12 @@ class FileController(QObject):
     """Everything between the window and files.
 
     Signals:
-        begun(): an empty drawing; what it is to be may be asked.
+        begun(): an empty drawing; what it is to be may be asked. without_job(name): a drawing was opened that says
+            nothing about machining.
     """
 
     begun = Signal()
+    without_job = Signal(str)
 
     def __init__(self, window: MainWindow, showing: DisplayController, log: Log, open_others: Openers) -> None:
         super().__init__(window)
@@ -249,11 +251,7 @@ class FileController(QObject):
         elif opened.drawing.question is not None:
             self._ask_after(opened)
         elif opened.job.part.entities:
-            window.notice.ask(
-                f"{opened.path.name} says nothing about machining; the operations are those that were there before.",
-                [("Propose operations", window.actions_["propose"].trigger)],
-                of_job=True,
-            )
+            self.without_job.emit(opened.path.name)
         self._see_all()
 
     def _see_all(self) -> None:
