@@ -245,7 +245,7 @@ class FileController(QObject):
             self._computation.start()
             self._showing.show_view(View.PATHS)
             tour = [] if window.preferences.settings.tour else [("Show me round", window.actions_["tour"].trigger)]
-            window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)])
+            window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)], of_job=True)
         elif opening_files.is_sample(opened.path):
             window.actions_["propose"].trigger()
         elif opened.drawing.question is not None:

@@ -158,9 +158,14 @@ class ProposalController(OperationsController):
         )
 
     def before(self, act: Callable[[], None]) -> None:
-        """Do something with the job, such as computing it, after operations were proposed where that is due."""
+        """Do something with the job, such as computing it, after operations were proposed where that is due; of what is
+        asked for meanwhile the last is done.
+        """
         if not self.due:
             act()
+            return
+        if self._then is not None and self.worker.busy:
+            self._then = act
             return
         job, self._then = self._document.job, act
         self.worker.start(lambda progress: first_proposal(job, progress), self._document.revision)
