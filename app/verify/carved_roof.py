@@ -40,7 +40,10 @@ _SHRINKS, _HALVINGS = 12, 44
 _EMPTY = 1e-9
 _PORTION = 96
 _NEAR = 0.25
-"""mm; motions farther than this from a portion's discs are left aside, and asked only where the others leave more."""
+"""mm; motions farther than this from a portion's discs are left aside, and asked where the others leave too much."""
+
+_TOO_MUCH = 4e-3
+"""mm; less than counts as left."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -267,22 +270,32 @@ class _Carving:
         wide = path.tip - np.minimum(path.start[:, 2], path.end[:, 2]) * path.rate
         return _Carving(path, low, high, wide, shapely.STRtree(shapely.box(*low.T, *high.T)))
 
-    def near(self, centres: Floats, radius: Floats) -> NDArray[np.int64]:
-        """Return the motions near to some discs that may carve one of them."""
+    def near(self, centres: Floats, radius: Floats, left: float, far: float) -> NDArray[np.int64]:
+        """Return the motions within a distance of some discs, mm, that may leave less of one of them than so much, mm.
+
+        A cone leaves at least the distance of its axis and the disc's radius, less its own at the surface.
+        """
         first, last = centres.min(axis=0), centres.max(axis=0)
-        around = shapely.box(*(first - _NEAR), *(last + _NEAR))
+        around = shapely.box(*(first - far), *(last + far))
         found: NDArray[np.int64] = np.sort(self.tree.query(around))
         beside = np.hypot(*np.maximum(np.maximum(first - self.high[found], self.low[found] - last), 0).T)
-        return found[(radius.min() - self.wide[found] + beside <= _NEAR) & (beside <= _NEAR)]
+        near: NDArray[np.int64] = found[(radius.min() - self.wide[found] + beside <= left) & (beside <= far)]
+        return near
 
 
 def _uncarved(carving: _Carving, centres: Floats, radius: Floats) -> Floats:
     """Return by how much cones are too narrow or too far from discs, mm, each by the motion that is best for it."""
-    found = _by_motions(carving.path, carving.near(centres, radius), centres, radius)
-    again = np.flatnonzero(found > _NEAR)
+    found = _by_motions(carving.path, carving.near(centres, radius, _NEAR, _NEAR), centres, radius)
+    again = np.flatnonzero(found > _TOO_MUCH)
     if len(again):
-        every = np.arange(len(carving.wide))
-        found[again] = _by_motions(carving.path, every, centres[again], radius[again])
+        near, small = centres[again], radius[again]
+        left = min(float(found[again].max()), float(small.max() + np.abs(carving.wide).max()))
+        far = max(_NEAR, float(carving.wide.max() - small.min()) + left)
+        more = _by_motions(carving.path, carving.near(near, small, left, far), near, small)
+        found[again] = np.minimum(found[again], more)
+    lost = np.flatnonzero(np.isinf(found))
+    if len(lost):
+        found[lost] = _by_motions(carving.path, np.arange(len(carving.wide)), centres[lost], radius[lost])
     return found
 
 

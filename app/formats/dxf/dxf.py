@@ -48,6 +48,7 @@ from .depths import DepthReading, depths_of
 from .drawn_curves import all_drawn
 from .findings import (
     about_unread,
+    band_findings,
     comma_findings,
     hatch_findings,
     hidden_insert_findings,
@@ -147,6 +148,7 @@ def read_dxf(
         *hidden_insert_findings(content, unit.size),
         *text_findings([each for each in content.letterings if machined(each.layer)], unit.size),
         *hatch_findings(drawn),
+        *band_findings([each for each in content.bands if machined(each.layer)], unit.size),
         *switched_off(part, layers),
         *all_left_out(+left_out),
     ]
