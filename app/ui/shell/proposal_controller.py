@@ -107,7 +107,7 @@ class ProposalController(OperationsController):
         self._commands = commands
         self._begun_with: tuple[Operation, ...] | None = Job(Part()).operations
         self._then: Callable[[], None] | None = None
-        self._unsubscribe = workspace.document.subscribe(self._on_change)
+        workspace.document.subscribe(self._on_change)
         self.worker.failed.connect(lambda _: self._forget())
         self.worker.cancelled.connect(lambda _: self._forget())
         on_trigger(commands, "propose", lambda: self.propose(nesting=True))
