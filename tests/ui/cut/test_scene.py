@@ -37,13 +37,6 @@ N = 64
 GROUND = np.round(np.array(CANVAS) * 255).astype(np.uint8)
 
 
-@pytest.fixture(scope="module")
-def context():
-    made = pictures.without_a_screen()
-    yield made
-    made.release()
-
-
 def cells(n=N):
     """X and Y of the cells' centres on a square of 10 mm."""
     at = (np.arange(n) + 0.5) * 10.0 / n
