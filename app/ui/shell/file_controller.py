@@ -91,9 +91,7 @@ class FileController(QObject):
         self.open_controller.asked.connect(self._ask_how)
         self.export_controller.written.connect(self._on_written)
         self.export_controller.post_chosen.connect(self._choose_post)
-        self._unsubscribe = window.document.subscribe(
-            lambda change: window.card.hide() if change & DocumentChange.LOADED else None
-        )
+        window.document.subscribe(lambda change: window.card.hide() if change & DocumentChange.LOADED else None)
 
     @property
     def _would_lose(self) -> bool:

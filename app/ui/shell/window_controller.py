@@ -118,7 +118,7 @@ class WindowController(QObject):
         self._connect_language()
         self._connect_helpers()
         self._connect_start()
-        self._unsubscribe = self.document.subscribe(self._on_change)
+        self.document.subscribe(self._on_change)
         self.display_controller.show_view(View.DRAW)
         self.display_controller.refresh(DocumentChange.ALL)
 
