@@ -151,7 +151,7 @@ def _in_pieces(
             else fit_spline(mine, tube, options.degree, far, options.observer)
         )
         if isinstance(piece, np.ndarray):
-            return piece + a
+            return np.asarray(piece + a)
         made.append(piece)
     return made
 
