@@ -17,7 +17,7 @@ from ..usecases.batch.task import BatchExtras, BatchKind, BatchRow, BatchTask, B
 from ..usecases.bitmap_options import is_picture
 from ..usecases.examine import ExamineOptions
 from ..usecases.options import MakeOptions
-from ..usecases.smooth_result import SmoothOptions
+from ..usecases.smoothing.result import SmoothOptions
 from .batch_list import ListedPart, listed_parts, named_outputs
 from .batch_options import kind_of
 from .batch_store import BatchStore
