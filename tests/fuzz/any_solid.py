@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import zipfile
+from itertools import pairwise
 
 import numpy as np
 import trimesh
@@ -50,7 +51,7 @@ class HillySolid:
         p = np.dstack([x, y, self.z])
         rims = [p[0], p[:, -1], p[-1, ::-1], p[::-1, 0]]
         for rim in rims:
-            for a, b in zip(rim, rim[1:], strict=False):
+            for a, b in pairwise(rim):
                 fa, fb = np.array([*a[:2], UNDER]), np.array([*b[:2], UNDER])
                 sides += [[fa, fb, b], [fa, b, a]]
         return np.concatenate([top, low, np.array(sides)])
