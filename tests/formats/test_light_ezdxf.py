@@ -1,4 +1,4 @@
-"""The library of DXF is read without the grammar of its queries and what reads typefaces, and does both all the same."""
+"""The library of DXF is read without the grammar of its queries and what reads typefaces, and does both when asked."""
 
 from __future__ import annotations
 
