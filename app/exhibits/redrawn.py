@@ -12,8 +12,9 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..core.resources import resource
 from ..formats.plot.page import PlotPage
 from ..formats.plot.page_png import page_png
-from ..usecases.better.improve import BetterOptions, better
+from ..usecases.better.improve import better
 from ..usecases.better.metal import metal_picture
+from ..usecases.better.result import BetterOptions
 from ..usecases.bitmap_options import BitmapOptions, BitmapSize
 from ..usecases.options import MakeOptions
 from .figure_eleven import FigureEleven, HeightMethod

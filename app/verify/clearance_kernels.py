@@ -55,13 +55,6 @@ def _on(row, x, y):
     return _on_arc(row, x, y) if row[7] != 0.0 else _on_line(row, x, y)
 
 
-@kernel(f"void({_ROWS}, {_ROWS}, {_ROWS})")
-def nearest_points(rows, points, found):
-    """Write the point (n, 2) of each row that is nearest to its point; of one that is not a number, the row's start."""
-    for k in range(len(rows)):
-        found[k, 0], found[k, 1] = _on(rows[k], points[k, 0], points[k, 1])
-
-
 @kernel(f"UniTuple(float64, 4)({_ROW}, float64, float64, float64)", counts=False)
 def _line_circle(row, cx, cy, radius):
     """Return the two places where the line that carries a row crosses a circle; NaN where it does not."""

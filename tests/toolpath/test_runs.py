@@ -20,7 +20,6 @@ from app.model.part import Contour
 from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke
 from app.toolpath.coverage.flat import region_shapes
-from app.toolpath.coverage.uncut import uncut
 from app.toolpath.coverage.uncut_kernels import widest
 from app.toolpath.linking import runs_kernels
 from app.toolpath.linking.bridge import RingField
@@ -29,6 +28,7 @@ from app.toolpath.linking.runs import NOTHING, GapFilling, between, fill, gaps_o
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square
+from tests.toolpath.uncut_squares import uncut
 
 
 def rings(

@@ -48,6 +48,16 @@ def enter(qtbot, field, text: str) -> None:
     qtbot.keyClick(field.edit, Qt.Key.Key_Return)
 
 
+def test_notes_for_the_sheet_are_written_and_undone(qtbot, document, panel):
+    panel.choose(Subject(SubjectKind.JOB))
+    enter(qtbot, panel.job_form.clamping, "  two vices ")
+    enter(qtbot, panel.job_form.zero, "3D taster")
+    assert (document.job.clamping_note, document.job.zero_note) == ("two vices", "3D taster")
+    document.undo()
+    assert document.job.zero_note == panel.job_form.zero.edit.text() == ""
+    assert document.job.clamping_note == panel.job_form.clamping.edit.text() == "two vices"
+
+
 def test_every_post_can_be_chosen_by_its_title(qtbot, document, panel):
     panel.choose(Subject(SubjectKind.JOB))
     box = panel.job_form.post.box

@@ -14,6 +14,8 @@ from importlib.machinery import ModuleSpec
 from types import FunctionType, ModuleType
 from typing import Any
 
+from .processors import plainer_processors
+
 
 class _ImportBlocker:
     """Hides libraries from the imports of one thread."""
@@ -72,12 +74,22 @@ def _compiler() -> None:
 
 
 @cache
-def version() -> str:
-    """Return a name for compiler and processor: machine code of one is of no use for another."""
+def versions() -> tuple[str, ...]:
+    """Return names for compiler and processor: first of this one, for which machine code is compiled, then of plainer
+    ones, whose machine code runs here as well; that of any other is of no use.
+    """
+    import llvmlite.binding as llvm
+
+    own = _numba().core.registry.cpu_target.target_context.codegen().magic_tuple()
+    levels = plainer_processors(own[0], llvm.get_host_cpu_features())
+    return tuple(dict.fromkeys(map(_version, (own, *((own[0], level, "") for level in levels)))))
+
+
+def _version(processor: tuple[str, str, str]) -> str:
+    """Return the name for this compiler and a processor: triple, name and features, as LLVM has them."""
     numba = _numba()
     import llvmlite
 
-    processor = numba.core.registry.cpu_target.target_context.codegen().magic_tuple()
     text = repr((sys.version_info[:3], numba.__version__, llvmlite.__version__, processor, numba.config.OPT))
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 

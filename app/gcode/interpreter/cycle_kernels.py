@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 
 from ...core.jit import kernel
-from .cycles import CHIP_CLEARANCE_MM
+from .cycles import CHIP_CLEARANCE_MM, SAME_HEIGHT
 from .lane_fields import (
     ABSOLUTE,
     COUNT,
@@ -201,10 +201,10 @@ def bore(ints, reals, code, words, given, columns, events):
     for _ in range(repeats):
         first = _moved(words[_X + u], given[_X + u], first, ints[ABSOLUTE])
         second = _moved(words[_X + v], given[_X + v], second, ints[ABSOLUTE])
-        height = clear if height <= r else height
+        height = clear if height <= r + SAME_HEIGHT else height
         if not _go(ints, reals, columns, _RAPID, first, second, height):
             return False
-        if height != r and not _go(ints, reals, columns, _RAPID, first, second, r):
+        if abs(height - r) > SAME_HEIGHT and not _go(ints, reals, columns, _RAPID, first, second, r):
             return False
         if not _bored(ints, reals, columns, events, (first, second, r, bottom, clear)):
             return False

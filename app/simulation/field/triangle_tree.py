@@ -77,6 +77,9 @@ class TriangleTree:
     def met(self, points: Floats) -> tuple[NDArray[np.int64], Floats, Floats]:
         """Return where upright lines through points (m, 2) meet triangles, each meeting of n: point, height in mm, 1 =
         up, -1 = down.
+
+        A line through an edge meets one of its two triangles, so that what is met going up is left again in a closed
+        solid, whatever edges and corners the line goes through; upright triangles are met by none.
         """
         from .ray_kernels import met
 

@@ -9,7 +9,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from ...model.job import Job
-from .fields import LABEL_WIDTH, ChoiceField, ListField, NumberField, NumberSpec
+from .fields import LABEL_WIDTH, ChoiceField, ListField, NumberField, NumberSpec, TextField
 from .icons import IconButton, icon
 from .labels import Elided, muted
 from .samples import Switch
@@ -160,7 +160,7 @@ class FormSection(PanelSection):
             self.add_choice(name, field, edit)
 
     def add_choice(
-        self, name: str, field: ChoiceField | ListField | SwitchField, edit: Callable[[Job, object], Job]
+        self, name: str, field: ChoiceField | ListField | SwitchField | TextField, edit: Callable[[Job, object], Job]
     ) -> None:
         """Add a choice; `edit(job, value)` gives the job with that value."""
         field.chosen.connect(

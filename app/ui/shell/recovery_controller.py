@@ -49,7 +49,7 @@ class RecoveryController(QObject):
         self._worker.done.connect(self._on_done)
         self._worker.failed.connect(self._on_failed)
         workspace.activity.ended.connect(self._close)
-        self._unsubscribe = self._document.subscribe(self._on_change)
+        self._document.subscribe(self._on_change)
         files.save_controller.beside.changed.connect(self._wait)
 
     def keep(self) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..examine import ExamineOptions
 from ..options import MakeOptions
-from ..smooth_result import SmoothOptions
+from ..smoothing.result import SmoothOptions
 
 Json = dict[str, Any]
 

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from distributed import Client, LocalCluster
 
 from app.core.errors import Cancelled
 from app.core.progress import NO_PROGRESS, Progress
@@ -114,8 +115,8 @@ def test_work_makes_a_verdict_of_every_failure() -> None:
 
 
 def test_a_local_cluster_does_the_same_although_a_worker_is_killed() -> None:
-    distributed = pytest.importorskip("distributed", reason="Dask, the extra `cluster`, is not installed here")
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1) as cluster, distributed.Client(cluster) as client:
+    local = LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    with local as cluster, Client(cluster) as client:
         executor = client.get_executor(pure=False)
         next(iter(cluster.workers.values())).process.process.kill()
         rows = run([f"part {k}" for k in range(8)], [ExecutorLane(executor), ExecutorLane(executor)])

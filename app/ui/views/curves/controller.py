@@ -10,31 +10,26 @@ from PySide6.QtWidgets import QFileDialog
 from ....core.atomic import write_atomically
 from ....core.errors import HitofudeError
 from ....core.progress import Progress
-from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
 from ..nc.controller import NcController
 from ..nc.motion_shapes import ViewSide
 from ..nc.painting.motion_layer import MotionLayer
-from ..nc.program_reader import FILTER, ProgramReader, ShownProgram
+from ..nc.program_reader import FILTER, ShownProgram
 from .model import CurveLayers, CurvesModel, layers, smoothed
 from .panel import CurvesPanel
+from .program_controller import ProgramController
 from .view import CurvesView, picture_of
 
 
-class SmoothingController(Controller):
+class SmoothingController(ProgramController):
     """Follows the NC view: its program is the one that is smoothed."""
 
     def __init__(self, view: CurvesView, panel: CurvesPanel, nc: NcController, workspace: Workspace) -> None:
-        super().__init__(view)
-        self._view, self._panel, self._nc = view, panel, nc
-        self._preferences, self._log = workspace.preferences, workspace.log
+        super().__init__(view, panel, nc, workspace)
+        self._view, self._panel, self._preferences = view, panel, workspace.preferences
         self._followed: ShownProgram | None = None
         self._filled, self._seen = False, False
-        self.reading = ProgramReader(self)
-        self.reading.failed.connect(self._on_failed)
-        self.reading.worker.busy_changed.connect(panel.show_busy)
-        workspace.activity.follow(self.reading.worker)
         nc.changed.connect(self._follow)
         self._panel.smooth_requested.connect(self.smooth_or_cancel)
         self._panel.save_requested.connect(self.choose_place)
@@ -42,19 +37,11 @@ class SmoothingController(Controller):
         self._view.side_requested.connect(self._draw_side)
         self._view.spotted.connect(self.said)
 
-    @property
-    def shown_document(self) -> ShownDocument | None:
-        """The NC view's program, where it is not the job's."""
-        return self._nc.shown_document
-
     def smooth_or_cancel(self) -> None:
         """Smooth the program as the form says; while that is done, leave it."""
-        from ....usecases.smooth import SmoothOptions
+        from ....usecases.smoothing.result import SmoothOptions
 
-        if self.reading.worker.busy:
-            self.reading.worker.cancel()
-            return
-        shown = self._nc.shown
+        shown = self._program_unless_busy()
         if shown is None:
             return
         try:
@@ -110,7 +97,7 @@ class SmoothingController(Controller):
         """Fill the form, once; what it needs is not loaded before it is seen."""
         if not self._filled:
             from ....gcode.posts.posts import post_titles
-            from ....usecases.smooth import SmoothOptions
+            from ....usecases.smoothing.result import SmoothOptions
 
             self._filled = True
             self._panel.show_options(SmoothOptions(), post_titles())
@@ -135,10 +122,6 @@ class SmoothingController(Controller):
         self._view.show_curves(curves)
         self._log.note(f"smooth {curves.was.source.name}", self._panel.title.text())
         self.changed.emit()
-
-    def _on_failed(self, sentence: str) -> None:
-        self._panel.show_reason(sentence)
-        self.failed.emit(sentence)
 
     def _draw_side(self, side: ViewSide) -> None:
         """Have the side prepared that is missing; a job on its way ends first, and what it shows asks again."""

@@ -14,7 +14,8 @@ from .motion_shapes import ViewSide
 from .painting.motion_layer import MotionColourBy
 
 BAR_PX = 36
-_ROOM_PX = 320
+_ROOM_PX = 420
+_GAP_PX, _BUTTON_PX = 8, 44
 
 
 def bar(widget: QWidget, spacing: int = 8) -> QHBoxLayout:
@@ -55,6 +56,7 @@ class TextHead(QWidget):
         self.dialect.setFixedHeight(24)
         self.dialect.activated.connect(lambda at: self.dialect_chosen.emit(self.dialect.itemData(at)))
         self._offer("as it looks")
+        self._buttons = _BUTTON_PX * (2 if closable else 1)
         row = bar(self)
         row.addWidget(self.name, 1)
         row.addWidget(self.files, 1)
@@ -71,8 +73,20 @@ class TextHead(QWidget):
     def show_program(self, name: str, detail: str) -> None:
         """Name the program."""
         self.name.setText(name)
-        self.name.setToolTip(name)
+        self.name.setToolTip(f"{name}, {detail}" if detail else name)
         self.detail.setText(detail)
+        self._make_room()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave out how long it is where its name needs the room."""
+        super().resizeEvent(event)
+        self._make_room()
+
+    def _make_room(self) -> None:
+        shown = [each for each in (self.files, self.dialect) if not each.isHidden()]
+        beside = sum(each.sizeHint().width() + _GAP_PX for each in (self.detail, *shown))
+        name = self.name.sizeHint().width() if not self.name.isHidden() else 0
+        self.detail.setVisible(bool(self.detail.text()) and name + beside + self._buttons <= self.width())
 
     def show_files(self, names: list[str], current: int) -> None:
         """Offer the files of a program that has several; one alone is only named."""
@@ -93,6 +107,7 @@ class TextHead(QWidget):
         self._offer(DIALECT_RULES[guessed].title)
         self.dialect.setCurrentIndex(self.dialect.findData(chosen))
         self.dialect.setVisible(free)
+        self._make_room()
 
     def _offer(self, guessed: str) -> None:
         self.dialect.clear()
@@ -126,6 +141,17 @@ class Banner(QWidget):
         self.sentence.setText(sentence)
         self.button.setText(button)
         self.show()
+        self._make_room()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave the sentence out where there is room for the button alone, which says as much."""
+        super().resizeEvent(event)
+        self._make_room()
+
+    def _make_room(self) -> None:
+        needed = self.sentence.sizeHint().width() + self.button.sizeHint().width() + 3 * _GAP_PX
+        self.sentence.setVisible(needed <= self.width())
+        self.button.setToolTip(self.sentence.text())
 
 
 class PathHead(QWidget):
