@@ -163,8 +163,10 @@ class _Shapes:
         )
 
     def reach_within(self, work: _ClearingOperation, floor: Shape, other: _ClearingOperation) -> Shape:
-        """Return what the operation's tool can cut of the floor of another one; where their areas differ, it has to keep
-        to both, and one that follows walls goes along its own alone: the frame round these says nothing.
+        """Return what the operation's tool can cut of the floor of another one.
+
+        Where their areas differ it has to keep to both, and one that follows walls goes along its own alone: how far
+        the frame round these goes says nothing.
         """
         if work.area.regions is other.area.regions:
             return common(self.reach(work), floor)
