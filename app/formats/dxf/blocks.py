@@ -52,7 +52,7 @@ class NegativeRadius:
 
 
 @dataclass(frozen=True)
-class Band:
+class WidePolyline:
     """A polyline that is drawn as wide as told, whose middle line is read; lengths in drawing units.
 
     Attributes:
@@ -64,11 +64,11 @@ class Band:
     most: float
     layer: str
 
-    def moved(self, place: Affine, outer: str) -> Band:
+    def moved(self, place: Affine, outer: str) -> WidePolyline:
         """Return it under a map; what is on layer 0 goes to `outer`."""
         scale = sqrt(abs(place.xx * place.yy - place.xy * place.yx))
         layer = outer if self.layer == "0" else self.layer
-        return Band(place.point(self.at), self.least * scale, self.most * scale, layer)
+        return WidePolyline(place.point(self.at), self.least * scale, self.most * scale, layer)
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ class DxfContent:
     without_length: list[Point | None] = field(default_factory=list)
     hidden: list[HiddenInsert] = field(default_factory=list)
     negative: list[NegativeRadius] = field(default_factory=list)
-    bands: list[Band] = field(default_factory=list)
+    bands: list[WidePolyline] = field(default_factory=list)
     unread: list[UnreadText] = field(default_factory=list)
     heights: tuple[float, float] = (0.0, 0.0)
     any_height: bool = False
@@ -252,7 +252,7 @@ class DxfWalker:
         content.see(heights_of(entity))
         widths = widths_of(entity)
         if widths and curves:
-            content.bands.append(Band(curves[0].start, min(widths), max(widths), entity.dxf.layer))
+            content.bands.append(WidePolyline(curves[0].start, min(widths), max(widths), entity.dxf.layer))
         content.curves += [LayeredCurve(curve, entity.dxf.layer) for curve in curves]
         for each in made:
             content.add(each)

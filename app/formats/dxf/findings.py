@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
-from .blocks import Band, DxfContent, HiddenInsert
+from .blocks import DxfContent, HiddenInsert, WidePolyline
 from .drawn_curves import DrawnCurves
 from .letters import TextCurves
 from .numbers import DecimalCommas
@@ -56,7 +56,7 @@ def about_unread(content: DxfContent, size: float) -> Iterator[Finding]:
         yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(count), layer=alike[0].layer)
 
 
-def band_findings(bands: Sequence[Band], size: float) -> Iterator[Finding]:
+def band_findings(bands: Sequence[WidePolyline], size: float) -> Iterator[Finding]:
     """Say that the middle lines of polylines with a width are read, a sentence a layer.
 
     Args:
