@@ -115,7 +115,8 @@ def _clear(rng: random.Random, kind: str) -> Work:
     lines, shape = area(rng)
     diameter, depth = rng.choice([1.0, 2.0, 3.0, 3.175, 4.0]), rng.choice([1.0, 2.5])
     text = f'kind = "{kind}"\ndepth = {depth}\nstepdown = {rng.choice([1.0, 2.5])}\n'
-    text += _some(rng, 'direction = "conventional"', f'entry = "{rng.choice(["ramp", "plunge"])}"', "entry_angle = 8")
+    entry = rng.choice(['entry = "ramp"', 'entry = "plunge"', "entry_angle = 8"])
+    text += _some(rng, 'direction = "conventional"', entry)
     text += _some(rng, "finish_depth = 0.2")
     if kind == "pocket":
         text += _some(rng, "outside_in = true", f"stepover = {round(diameter * rng.uniform(0.2, 1), 3)}")
