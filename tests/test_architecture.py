@@ -17,9 +17,6 @@ QT = {"PySide6", "pyqtgraph", "shiboken6"}
 COMPILER = {"numba"}
 CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]["contracts"]
 FILES = sorted(APP.rglob("*.py"))
-TWICE = """
-"""
-"""Names that two classes or more still have; one that is freed goes from here, and none comes in."""
 
 
 CLASS = re.compile(r"^ *class (\w+)[(:\[]", re.MULTILINE)
@@ -75,9 +72,8 @@ def test_no_two_classes_have_one_name() -> None:
     for path in FILES:
         for name in CLASS.findall(path.read_text("utf-8")):
             places.setdefault(name, set()).add(path)
-    twice = {name for name, found in places.items() if len(found) > 1}
-    assert not {name: places[name] for name in twice - set(TWICE.split())}, "one word, one class: choose another name"
-    assert not set(TWICE.split()) - twice, "these are freed: take them out of TWICE"
+    twice = {name: found for name, found in places.items() if len(found) > 1}
+    assert not twice, "one word, one class: choose another name"
 
 
 def modules_after(statement: str) -> set[str]:
@@ -127,3 +123,36 @@ def test_kernel_modules_know_no_window() -> None:
         "importlib.import_module(name)"
     )
     assert not modules_after(code) & (QT | COMPILER)
+
+
+PAGE = (ROOT / "resources" / "docs" / "architecture.md").read_text("utf-8")
+
+
+def named_files(text: str) -> set[str]:
+    """The Python files that a text names in back quotes."""
+    return set(re.findall(r"`([\w/]+\.py)`", text))
+
+
+def door_is_there(door: str) -> bool:
+    """Whether `room.module.name` is a name that a module, or a package, has."""
+    parts = door.split(".")
+    for at in range(len(parts) - 1, 0, -1):
+        folder = APP.joinpath(*parts[:at])
+        for module in (folder.with_suffix(".py"), folder / "__init__.py"):
+            if module.exists():
+                name = rf"^(?:def |class )?{parts[at]}\b|^from .* import .*\b{parts[at]}\b"
+                return re.search(name, module.read_text("utf-8"), re.MULTILINE) is not None
+    return False
+
+
+def test_the_page_of_the_house_names_files_that_are_there() -> None:
+    there = [f"/{path.relative_to(ROOT)}" for path in (*FILES, *(ROOT / "tests").rglob("*.py"))]
+    assert not {name for name in named_files(PAGE) if not any(path.endswith(f"/{name}") for path in there)}
+    assert named_files("see `geometry/nowhere.py`") == {"geometry/nowhere.py"}
+
+
+def test_the_page_of_the_house_names_doors_that_are_there() -> None:
+    doors = set(re.findall(r"^    ([a-z]+(?:\.[A-Za-z_]+){2,})\(", PAGE, re.MULTILINE))
+    assert len(doors) > 50
+    assert not {door for door in doors if not door_is_there(door)}
+    assert not door_is_there("geometry.region.nowhere") and not door_is_there("geometry.nowhere.nested")

@@ -27,7 +27,7 @@ from app.ui.views.cut.cell_colours import CutColourBy
 from app.ui.views.nc.motion_shapes import ViewSide
 from app.ui.views.nc.painting.motion_layer import MotionColourBy
 from app.ui.views.nc.program_text import program_text
-from app.usecases.smooth import SmoothOptions
+from app.usecases.smoothing.result import SmoothOptions
 from tests.ui.traces import fixed_values, left_in, traces
 
 SIZE = (1280, 800)

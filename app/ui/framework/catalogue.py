@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from dataclasses import dataclass
 from functools import cache, lru_cache
 
 from ...core.resources import resource
@@ -15,6 +16,19 @@ _ANYTHING, _NUMBER = "(.+)", "([-+.,\u2009\\d]+)"
 _REMEMBERED = 4096
 _MNEMONIC = re.compile(r"&(\w)")
 _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
+_BETWEEN_SENTENCES = re.compile(r"(?<=[.?!]) (?=[A-Z])")
+_LETTER = re.compile(r"[A-Za-z]")
+
+
+@dataclass(frozen=True, slots=True)
+class _Pattern:
+    """An entry with holes: its longest piece, which is quickly looked for, what finds its texts, and the translation as
+    `str.format` fills it.
+    """
+
+    longest: str
+    form: re.Pattern[str]
+    other: str
 
 
 class Catalogue:
@@ -22,14 +36,17 @@ class Catalogue:
 
     An entry stands for the text in a menu (`&Open…`), in a tip (`Open (Ctrl+O)`) and on a button alike: the letter to
     press, dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything, `{n}` for a
-    number; what it stood for is looked up too. An entry that is written farther up goes first.
+    number; what it stood for is looked up too. In the translation they may be numbered, `{1} {0}`, to stand in another
+    order. Of several entries that would do, that with the most letters of its own is taken. What is none as a whole may
+    be several sentences, each of them one; only then comes what has no word of its own, such as `{}: {}`.
     """
 
     def __init__(self, entries: dict[str, str]) -> None:
         self._entries = {text: other for text, other in entries.items() if not _HOLE.search(text)}
-        self._patterns = [
-            (_pattern(text), _HOLE.sub("{}", other)) for text, other in entries.items() if _HOLE.search(text)
-        ]
+        holed = {text: other for text, other in entries.items() if _HOLE.search(text)}
+        most_said_first = sorted(holed, key=_letters, reverse=True)
+        self._patterns = [_pattern(text, holed[text]) for text in most_said_first if _letters(text)]
+        self._joints = [_pattern(text, holed[text]) for text in most_said_first if not _letters(text)]
         self.look_up = lru_cache(_REMEMBERED)(self._look_up)
 
     def _look_up(self, text: str) -> str | None:
@@ -55,19 +72,33 @@ class Catalogue:
         with_key = _KEY_TIP.fullmatch(words)
         if with_key and with_key.group(1) in self._entries:
             return f"{self._entries[with_key.group(1)]} {with_key.group(2)}"
-        for pattern, other in self._patterns:
-            match = pattern.fullmatch(words)
+        return self._matched(words, self._patterns) or self._sentences(words) or self._matched(words, self._joints)
+
+    def _matched(self, words: str, patterns: list[_Pattern]) -> str | None:
+        """Return what the first entry with holes makes of a text."""
+        for pattern in patterns:
+            match = pattern.form.fullmatch(words) if pattern.longest in words else None
             if match:
-                return other.format(*(self.look_up(part) or part for part in match.groups()))
+                return pattern.other.format(*(self.look_up(part) or part for part in match.groups()))
         return None
 
+    def _sentences(self, words: str) -> str | None:
+        """Return several sentences, one behind the other, if each of them is known."""
+        parts = _BETWEEN_SENTENCES.split(words)
+        found = [self.look_up(part) for part in parts] if len(parts) > 1 else [None]
+        return "".join(part for part in found if part is not None) if None not in found else None
 
-def _pattern(text: str) -> re.Pattern[str]:
+
+def _letters(text: str) -> int:
+    """Return how many letters of its own an entry has."""
+    return len(_LETTER.findall(_HOLE.sub("", text)))
+
+
+def _pattern(text: str, other: str) -> _Pattern:
     """Return what finds the texts that an entry with holes stands for."""
     words = _HOLE.split(text)
-    return re.compile(
-        "".join((_NUMBER if word else _ANYTHING) if at % 2 else re.escape(word) for at, word in enumerate(words)), re.S
-    )
+    form = "".join((_NUMBER if word else _ANYTHING) if at % 2 else re.escape(word) for at, word in enumerate(words))
+    return _Pattern(max(words[::2], key=len), re.compile(form, re.S), _HOLE.sub("{}", other))
 
 
 @cache

@@ -1,0 +1,103 @@
+"""The program that is smoothed, as its own control reads it and in the words of the control that it is written for.
+
+A program is read as what it looks to be, or as somebody says; never as the control that it is to be written for, whose
+words may mean something else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import InputError
+from ...core.progress import NO_PROGRESS, Progress
+from ...gcode.interpreter.dialect import Dialect
+from ...gcode.interpreter.dialect_guess import guess_dialect
+from ...gcode.interpreter.options import PATIENT, ReadOptions
+from ...gcode.interpreter.program import NcProgram
+from ...gcode.interpreter.reader import read_program
+from ...gcode.posts.post import Post
+from ...gcode.posts.posts import load_post
+from ...gcode.rework.stretches import FeedStretch
+from ...gcode.translate.program import translated
+from ...model.motion import Floats
+
+_POSTS = {
+    Dialect.LINUXCNC: "linuxcnc",
+    Dialect.FANUC: "fanuc",
+    Dialect.HAAS: "haas",
+    Dialect.GRBL: "grbl",
+    Dialect.MACH3: "mach3",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class SourceProgram:
+    """A program in the words that it is to be written in, before it is smoothed.
+
+    Attributes:
+        dialect: of its own control. source: as that reads it.
+        post: whose words the text has. data: the text. program: as the post's control reads it.
+        off: how far that may be from the source, mm.
+        rows: of each motion the one of the source that it is, -1 where it is a part of one.
+    """
+
+    dialect: Dialect
+    source: NcProgram
+    post: Post
+    data: bytes
+    program: NcProgram
+    off: float
+    rows: NDArray[np.int64]
+
+    def points(self, stretch: FeedStretch) -> Floats | None:
+        """Return the places of a stretch as the source has them; None where it has them not one by one."""
+        rows = self.rows[stretch.first : stretch.stop]
+        if np.any(rows < 0) or np.any(np.diff(rows) != 1):
+            return None
+        return np.vstack([self.source.motions.start[rows[:1]], self.source.motions.end[rows]])
+
+    def lines(self, stretch: FeedStretch) -> tuple[int, int]:
+        """Return first and last line of a stretch in the text that came in; in the new text where it is not there one
+        by one.
+        """
+        rows = self.rows[stretch.first : stretch.stop]
+        if np.any(rows < 0):
+            return stretch.first_line, stretch.last_line
+        return int(self.source.motions.line[rows[0]]), int(self.source.motions.line[rows[-1]])
+
+
+def usual_post(dialect: Dialect) -> str:
+    """Return the name of the post of a control's own language."""
+    return _POSTS.get(dialect, "linuxcnc")
+
+
+def read_source(
+    name: str,
+    data: bytes,
+    dialect: Dialect | None,
+    target: Post | None,
+    progress: Progress = NO_PROGRESS,
+) -> SourceProgram:
+    """Return a program in the words that it is to be written in.
+
+    Args:
+        name: of the file, for messages. data: its bytes.
+        dialect: of which control it is; None = as it looks.
+        target: in whose words it is to be written; None = that control's.
+
+    Raises:
+        InputError: it cannot be read to its end, or holds what the other control cannot be told.
+    """
+    dialect = dialect or guess_dialect(data)
+    post = target or load_post(usual_post(dialect))
+    read = ReadOptions(dialect, limits=PATIENT)
+    source = read_program(data, read, progress.part(0.0, 0.3))
+    if source.error is not None:
+        raise InputError(f"{source.error.message(name)} Mend it there; check tells more.")
+    if post.dialect is dialect:
+        return SourceProgram(dialect, source, post, data, source, 0.0, np.arange(len(source.motions)))
+    made = translated(name, data, read, post, progress.part(0.3, 1.0))
+    return SourceProgram(dialect, source, post, made.data, made.program, made.off, made.rows)
