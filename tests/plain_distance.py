@@ -106,13 +106,16 @@ def _blocks(points: np.ndarray) -> Iterator[np.ndarray]:
 
 
 def _length(vectors: np.ndarray) -> np.ndarray:
-    return np.hypot(vectors[..., 0], vectors[..., 1])
+    x, y = vectors[..., 0], vectors[..., 1]
+    return np.sqrt(x * x + y * y)
 
 
 def _to_lines(points: np.ndarray, curves: _Curves) -> np.ndarray:
-    way, away = curves.b - curves.a, points[:, None] - curves.a
-    t = np.clip((away * way).sum(axis=2) / (way * way).sum(axis=1), 0, 1)
-    return _length(away - t[:, :, None] * way)
+    wide, high = (curves.b - curves.a).T
+    x, y = points[:, :1] - curves.a[:, 0], points[:, 1:] - curves.a[:, 1]
+    t = np.clip((x * wide + y * high) / (wide * wide + high * high), 0, 1)
+    x, y = x - t * wide, y - t * high
+    return np.sqrt(x * x + y * y)
 
 
 def _to_arcs(points: np.ndarray, curves: _Curves) -> np.ndarray:
@@ -126,17 +129,21 @@ def _to_arcs(points: np.ndarray, curves: _Curves) -> np.ndarray:
 def inside(points: np.ndarray, contours: Iterable[Contour]) -> np.ndarray:
     """Even-odd inside by winding angle of finely sampled contours; wrong only within 0.01 mm of a curve."""
     order = np.argsort(points[:, 1], kind="stable")
-    x, y, odd = points[order, 0], points[order, 1], np.zeros(len(points), bool)
+    x, y = points[order, 0], points[order, 1]
+    crossed = np.zeros(len(points), np.int64)
     for contour in contours:
         polygon = np.concatenate([_sampled(curve) for curve in contour.primitives])
         a, b = polygon, np.roll(polygon, -1, axis=0)
         # of the points in order of Y those that are as high as an edge: not below its lower end, and below its upper
         first, last = np.searchsorted(y, [np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])])
-        for (ax, ay), (bx, by), i, j in zip(a, b, first.tolist(), last.tolist(), strict=True):
-            if i < j:
-                odd[i:j] ^= ax + (y[i:j] - ay) / (by - ay) * (bx - ax) < x[i:j]
+        counts = np.maximum(last - first, 0)
+        edge = np.repeat(np.arange(len(a)), counts)
+        point = np.arange(len(edge)) + np.repeat(first - np.cumsum(counts) + counts, counts)
+        (ax, ay), (wide, high) = a[edge].T, (b - a)[edge].T
+        left = ax + (y[point] - ay) / high * wide < x[point]
+        crossed += np.bincount(point[left], minlength=len(points))
     result = np.empty(len(points), bool)
-    result[order] = odd
+    result[order] = crossed % 2 == 1
     return result
 
 

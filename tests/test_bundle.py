@@ -28,7 +28,7 @@ def bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
         pytest.skip("folders are packed on Linux, with ldd")
     folder = tmp_path_factory.mktemp("bundle") / "hitofude"
     done = subprocess.run(
-        [sys.executable, str(ROOT / ".ci/bundle"), str(folder)], capture_output=True, text=True, timeout=1200
+        [sys.executable, str(ROOT / ".ci/bundle"), str(folder), "native"], capture_output=True, text=True, timeout=1200
     )
     assert done.returncode == 0, done.stderr
     return folder

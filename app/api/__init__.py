@@ -29,7 +29,7 @@ from ..usecases.options import MakeOptions, Stepover
 from ..usecases.proposal.propose import ProposalOptions
 from ..usecases.setup import SetupRequest
 from ..usecases.setup_stock import box_stock
-from ..usecases.smooth_result import OutputForm, SmoothOptions
+from ..usecases.smoothing.result import OutputForm, SmoothOptions
 from .calls import BatchPart, batch, check, cut, make, read, smooth, surface
 from .results import CheckedProgram, CutMetal, MadeProgram, MadeSurface, SmoothedText
 

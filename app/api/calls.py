@@ -28,8 +28,8 @@ from ..usecases.examine import ExamineOptions, examine
 from ..usecases.options import MakeOptions
 from ..usecases.setup import SetupRequest, setup_of
 from ..usecases.setup_tools import ToolSource
-from ..usecases.smooth import smooth as smooth_text
-from ..usecases.smooth_result import SmoothOptions
+from ..usecases.smoothing.result import SmoothOptions
+from ..usecases.smoothing.smooth import smooth as smooth_text
 from .results import CheckedProgram, CutMetal, MadeProgram, MadeSurface, SmoothedText
 
 FilePath = str | os.PathLike[str]

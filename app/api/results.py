@@ -23,7 +23,7 @@ from ..usecases.cut import CutProgram
 from ..usecases.cut_report import CutReport
 from ..usecases.examine import ExaminedProgram
 from ..usecases.make import MakeResult
-from ..usecases.smooth_result import SmoothedProgram
+from ..usecases.smoothing.result import SmoothedProgram
 from ..usecases.surface_nc import WrittenScene
 from ..usecases.surface_report import SurfaceReport
 
@@ -232,7 +232,7 @@ class SmoothedText:
     @property
     def findings(self) -> tuple[Finding, ...]:
         """Stretches that could not be proven and stayed as they were."""
-        from ..usecases.smooth_report import findings
+        from ..usecases.smoothing.report import findings
 
         return findings(self.result)
 
@@ -244,7 +244,7 @@ class SmoothedText:
     @property
     def report(self) -> Report:
         """The certificate and every stretch, by the keys of `smooth --report`."""
-        from ..usecases.smooth_report import report
+        from ..usecases.smoothing.report import report
 
         return report(self.result)
 
@@ -258,7 +258,7 @@ class SmoothedText:
         return (Path(path),)
 
     def __str__(self) -> str:
-        from ..usecases.smooth_report import certificate
+        from ..usecases.smoothing.report import certificate
 
         return "\n".join(certificate(self.result))
 

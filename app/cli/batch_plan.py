@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
@@ -17,7 +17,7 @@ from ..usecases.batch.task import BatchExtras, BatchKind, BatchRow, BatchTask, B
 from ..usecases.bitmap_options import is_picture
 from ..usecases.examine import ExamineOptions
 from ..usecases.options import MakeOptions
-from ..usecases.smooth_result import SmoothOptions
+from ..usecases.smoothing.result import SmoothOptions
 from .batch_list import ListedPart, listed_parts, named_outputs
 from .batch_options import kind_of
 from .batch_store import BatchStore
@@ -61,7 +61,7 @@ class PlannedBatch:
 
 
 def planned(arguments: argparse.Namespace) -> PlannedBatch:
-    """Return what is to be done; options are read, and the folder is there.
+    """Return what is to be done; options are read, and the folder is there and ours until its store is closed.
 
     Raises:
         HitofudeError: there is no part, or an option or the folder cannot be used.
@@ -74,20 +74,41 @@ def planned(arguments: argparse.Namespace) -> PlannedBatch:
     options = [_options_of(kind, (*passed, *part.options), is_picture(part.name)) for part in parts]
     image, sheet = (f".{suffix}" if suffix else "" for suffix in (arguments.images, arguments.sheets))
     extras = BatchExtras(arguments.reports, image, sheet)
-    store, rows, pending = BatchStore(arguments.output), [], []
-    for place, (part, output, own) in enumerate(zip(parts, outputs, options, strict=True)):
-        row = BatchRow(part.name, BatchVerdict.OPEN)
+    unread = [
+        BatchTask(part.name, b"", kind, own, output, extras)
+        for part, output, own in zip(parts, outputs, options, strict=True)
+    ]
+    store = BatchStore(arguments.output)
+    try:
+        rows, pending = _compared(store, [part.path for part in parts], unread, arguments.again)
+    except BaseException:
+        store.close()
+        raise
+    return PlannedBatch(f"{arguments.parts.resolve().name}: {kind.value}", store, rows, tuple(outputs), pending)
+
+
+def _compared(
+    store: BatchStore, paths: Sequence[Path], unread: Sequence[BatchTask], again: bool
+) -> tuple[list[BatchRow], tuple[PlannedPart, ...]]:
+    """Return a row for each part, and the parts that are not done yet.
+
+    Args:
+        paths: of the parts. unread: tasks without their files' bytes. again: do all, whatever is done.
+    """
+    rows, pending = [], []
+    for place, (path, each) in enumerate(zip(paths, unread, strict=True)):
+        row = BatchRow(each.name, BatchVerdict.OPEN)
         try:
-            task = BatchTask(part.name, read_input(part.path), kind, own, output, extras)
+            task = replace(each, data=read_input(path))
         except HitofudeError as error:
-            row = BatchRow(part.name, BatchVerdict.REFUSED, findings=(str(error),), counting=1)
+            row = BatchRow(each.name, BatchVerdict.REFUSED, findings=(str(error),), counting=1)
         else:
             key = content_digest(__version__, task, _own_posts())
-            known = None if arguments.again else store.known(output, key)
+            known = None if again else store.known(each.output, key)
             row = known or row
             pending += [] if known else [PlannedPart(place, key, task)]
         rows.append(row)
-    return PlannedBatch(f"{arguments.parts.resolve().name}: {kind.value}", store, rows, tuple(outputs), tuple(pending))
+    return rows, tuple(pending)
 
 
 @cache

@@ -12,6 +12,7 @@ from typing import Any
 from ..core.atomic import sweep, write_together
 from ..core.digest import sha256
 from ..core.errors import InputError
+from ..core.file_lock import FileLock
 from ..usecases.batch.table import results_csv, results_html
 from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
 
@@ -35,22 +36,33 @@ class StoredPart:
 
 
 class BatchStore:
-    """A batch's folder."""
+    """A batch's folder, which one batch works on at a time."""
 
     def __init__(self, folder: Path) -> None:
-        """Make the folder where there is none, and take away what killed runs have left in it.
+        """Make the folder where there is none, keep others out, and take away what killed runs have left in it.
 
         Raises:
-            InputError: it cannot be.
+            InputError: it cannot be, or another batch works on it.
         """
         self.folder, self._records = folder, folder / RECORDS
+        self._lock = FileLock(self._records / "lock")
         try:
             self._records.mkdir(parents=True, exist_ok=True)
+            free = self._lock.take()
         except OSError as error:
             raise InputError(
                 f"--output {folder}: it cannot be made: {error.strerror or error}; choose another"
             ) from error
+        if not free:
+            raise InputError(
+                f"--output {folder}: another batch ({self._lock.owner()}) works on it; wait for its end, or choose "
+                "another folder"
+            )
         sweep(self._records, *{path.parent for path in folder.rglob("*.part")})
+
+    def close(self) -> None:
+        """Let other batches in."""
+        self._lock.let_go()
 
     def known(self, output: str, key: str) -> BatchRow | None:
         """Return the row of a part that was done with this very input, if its files are still as they were written.

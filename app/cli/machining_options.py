@@ -47,6 +47,13 @@ def add_machining_options(group: argparse._ArgumentGroup, holding: argparse._Arg
         type=number("height", least=0.0),
         help="of the clamps above the stock (default 0)",
     )
+    add_note_options(holding)
+
+
+def add_note_options(group: argparse._ArgumentGroup | argparse.ArgumentParser) -> None:
+    """Add the options that write a line of one's own on the sheet."""
+    group.add_argument("--clamping", metavar="TEXT", help="how the stock is held, for the sheet")
+    group.add_argument("--zero", metavar="TEXT", help="how the zero is set, for the sheet")
 
 
 def machining(arguments: argparse.Namespace, on_pixels: bool) -> MachiningOptions:
@@ -65,8 +72,15 @@ def machining(arguments: argparse.Namespace, on_pixels: bool) -> MachiningOption
         arguments.copies,
         tuple(arguments.keep_out),
         arguments.keep_out_height,
+        arguments.clamping,
+        arguments.zero,
     )
-    on_bitmap = {"copies", *(option_of(key) for key, (placed, _) in parameters().items() if placed.parameter.on_pixels)}
+    on_bitmap = {
+        "copies",
+        "clamping",
+        "zero",
+        *(option_of(key) for key, (placed, _) in parameters().items() if placed.parameter.on_pixels),
+    }
     beyond = [option for option in requested.requested if on_pixels and option not in on_bitmap]
     if beyond:
         raise InputError(

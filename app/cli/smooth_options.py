@@ -12,7 +12,7 @@ from ..fitting.point_curves.region_profile import RegionProfile, profile_of_form
 from ..gcode.interpreter.dialect import Dialect
 from ..gcode.posts.post import Post
 from ..gcode.posts.posts import load_post
-from ..usecases.smooth import OutputForm, SmoothOptions
+from ..usecases.smoothing.result import OutputForm, SmoothOptions
 from .command import OptionParser
 from .effective_options import add_effective_options, effective_method
 from .values import number, typed

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from ..core.errors import InputError
 from ..formats.plot.surface_plot import VIEWS, PlotColouring
-from ..usecases.better.improve import BetterOptions
-from ..usecases.smooth_result import OutputForm
+from ..usecases.better.result import BetterOptions
+from ..usecases.smoothing.result import OutputForm
 from ..usecases.surface_plot import FORMATS, PlotScene, PlottedPart
 from ..usecases.surface_smooth import CurvesOverSurfaces
 from .command import OptionParser

@@ -63,7 +63,7 @@ class Settings:
     Attributes:
         theme: "system" follows the desktop.
         recent_files: absolute paths, the latest first, each once.
-        window_geometry, window_state: opaque text of the window tool-kit, or "".
+        window_geometry: opaque text of the window tool-kit, or "".
         last_folder: folder of the last file dialog, or "".
         phosphor: of the 1986 session's tube.
         units: of rulers and status bar.
@@ -80,7 +80,6 @@ class Settings:
     theme: ThemeChoice = ThemeChoice.SYSTEM
     recent_files: tuple[str, ...] = ()
     window_geometry: str = ""
-    window_state: str = ""
     last_folder: str = ""
     phosphor: Phosphor = Phosphor.GREEN
     units: ShownUnits = ShownUnits.MM

@@ -31,7 +31,7 @@ from ..simulation.sweeps.course import Course
 from ..simulation.sweeps.sweeps import WORKERS
 from ..simulation.sweeps.trim import trim
 from ..usecases.cut import GRAPHICS
-from .die_programs import PROGRAMS, SIZE, STOCK, DieProgram
+from .die_programs import PROGRAMS, SIZE, STOCK
 from .films.dexels import CutFilmInput
 
 if TYPE_CHECKING:
@@ -334,16 +334,6 @@ def _best(run: Run, repeat: int, progress: Progress) -> tuple[float, Heights]:
         best = min(best, time.perf_counter() - begun) if k else best
     assert heights is not None
     return float(best), heights
-
-
-def plain_heights(program: DieProgram, cells: int, progress: Progress = NO_PROGRESS) -> Heights:
-    """Return what a program over the die leaves, the plain way.
-
-    Raises:
-        Cancelled: the job was asked to stop.
-    """
-    [(_, chains)] = chains_of(program.course(), program.cutters, _CHORD)
-    return plain_cut(STOCK.over(Grid.over(STOCK.box, cells)), chains, program.radius, progress)
 
 
 def plain_cut(piece: Workpiece, chains: Chains, radius: float, progress: Progress = NO_PROGRESS) -> Heights:

@@ -12,8 +12,9 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..core.resources import resource
 from ..formats.plot.page import PlotPage
 from ..formats.plot.page_png import page_png
-from ..usecases.better.improve import BetterOptions, better
-from ..usecases.better.metal import metal_picture
+from ..usecases.better.improve import better
+from ..usecases.better.picture import stock_picture
+from ..usecases.better.result import BetterOptions
 from ..usecases.bitmap_options import BitmapOptions, BitmapSize
 from ..usecases.options import MakeOptions
 from .figure_eleven import FigureEleven, HeightMethod
@@ -112,7 +113,7 @@ def _metal() -> bytes:
     """Return the metal of the sample of `better`, before and after."""
     name = "raster.ngc"
     done = better(name, resource("samples", name).read_bytes(), BetterOptions(cells=_FINE))
-    return metal_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed)
+    return stock_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed)
 
 
 def _apparatus() -> PlotPage:

@@ -281,7 +281,7 @@ def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
 
 def _remedy(left_out: Counter[str]) -> str:
     """Return what to do about texts that are not read as they stand, or nothing."""
-    ways = [("in columns)", "set texts to no columns"), ("to fill a length)", "let letters run to the right")]
+    ways = [("to fill a length)", "let letters run to the right")]
     named = [way for kind, way in ways if any(each.endswith(kind) for each in left_out)]
     return f" To machine them, {' and '.join(named)}, or turn them into curves, where they were drawn." if named else ""
 

@@ -397,15 +397,6 @@ def _crossings(rows, j, x, y):
     return int(first < x) + int(second < x)
 
 
-@kernel("int64(float64[:, ::1], float64, float64)", counts=False)
-def crossings(rows, x, y):
-    """Return how often the rows cross the ray from a point towards -X, see `_crossings`."""
-    count = 0
-    for j in range(len(rows)):
-        count += _crossings(rows, j, x, y)
-    return count
-
-
 @kernel("Tuple((float64, int64))(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64)")
 def nearest(rows, order, nodes, x, y, limit):
     """Return (distance, row) of the row nearest to a point; (limit, -1) when none is nearer than `limit`."""

@@ -1,7 +1,7 @@
 """Which points lie near which, and what hangs together through that.
 
-Trees where there are many points. Importing scipy's takes longer than a whole small job, so a few points are compared
-with one another, and pairs of many are shapely's to find.
+Trees where there are many points: own ones or shapely's, as importing scipy's takes longer than a whole small job. Few
+points are compared with one another.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 FEW = 100_000
-"""Distances that are sooner worked out than a tree is imported."""
+"""Distances that are sooner worked out than a tree is built."""
 
 
 def pairs_within(points: Floats, reach: float) -> Indices:
@@ -64,21 +64,46 @@ def _near(points: Floats, places: Floats, reach: float) -> Indices:
 
 
 def nearest(points: Floats, places: Floats, count: int) -> tuple[Floats, Indices]:
-    """Return (distance, index), each (k, count), of the points nearest to places, the nearest first.
+    """Return (distance, index), each (k, count), of the points nearest to places, the nearest first; of points as far
+    the one of the lower index.
 
     Args:
-        points: (n, d).
-        places: (k, d).
+        points: (n, 2).
+        places: (k, 2).
         count: 1 to n.
     """
     if len(points) * len(places) <= FEW:
         distance = _distances(places, points)
         order = np.argsort(distance, axis=1, kind="stable")[:, :count]
         return np.take_along_axis(distance, order, 1), order.astype(np.int64)
-    from scipy.spatial import cKDTree
+    from . import kernels, near_kernels
 
-    far, which = cKDTree(points).query(places, np.arange(1, count + 1))
-    return far, which.astype(np.int64)
+    points, places = np.ascontiguousarray(points), np.ascontiguousarray(places)
+    away, which = np.empty((len(places), count)), np.empty((len(places), count), np.int64)
+    near_kernels.nearest_points(points, *kernels.build_tree(np.hstack([points, points])), places, away, which)
+    return away, which
+
+
+def pairs_meeting(boxes: Floats, owner: Indices) -> Indices:
+    """Return the pairs (m, 2) of owners, the lower one first, in order, each once, of boxes that meet or touch.
+
+    Args:
+        boxes: (n, 4) x0, y0, x1, y1.
+        owner: (n,) whose each one is, >= 0.
+    """
+    if len(boxes) ** 2 <= FEW:
+        apart = (boxes[:, None, :2] > boxes[None, :, 2:]).any(axis=2)
+        pairs = owner[np.argwhere(~(apart | apart.T))]
+        pairs = pairs[pairs[:, 0] < pairs[:, 1]]
+    else:
+        from . import kernels, near_kernels
+
+        boxes, owner = np.ascontiguousarray(boxes), np.ascontiguousarray(owner)
+        found, count = near_kernels.meeting_boxes(*kernels.build_tree(boxes), boxes, owner)
+        pairs = found[:count]
+    span = int(owner.max(initial=0)) + 1
+    codes = np.sort(pairs[:, 0] * span + pairs[:, 1])
+    return np.column_stack(np.divmod(codes[np.diff(codes, prepend=-1) > 0], span))
 
 
 def groups(count: int, pairs: Indices) -> Indices:

@@ -133,6 +133,8 @@ class Job:
         keep_out_layers: layers whose closed contours are clamps and the like: no tool comes over them below their
             height.
         keep_out_height: of these above the stock's top, mm, in [0, 1e5).
+        clamping_note, zero_note: what the sheet that goes to the machine says of how the stock is held, and of how the
+            zero is set, beside what is computed; "" = nothing.
         post: name of the post that writes the NC text.
         out_units: units of the NC text, MM or INCH.
     """
@@ -204,6 +206,18 @@ class Job:
         high=1e5,
         table="keep_out",
         word="height",
+    )
+    clamping_note: str = parameter(
+        "",
+        "clamping_note",
+        "Clamping",
+        "how the stock is held, for the sheet",
+        Unit.TEXT,
+        table="sheet",
+        word="clamping",
+    )
+    zero_note: str = parameter(
+        "", "zero_note", "Zero", "how the zero is set, for the sheet", Unit.TEXT, table="sheet", word="zero"
     )
 
     def __post_init__(self) -> None:

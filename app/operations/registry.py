@@ -14,6 +14,7 @@ from ..model.tool import Tool
 from ..toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..toolpath.operation_context import OperationContext, PreparedStrokes
 from .effort import Workload, along_walls
+from .proof import OperationProof, ProofInput
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,8 @@ class OperationMethod:
         effort: how long paths and their proof take, s, about, by what the contours come to.
         prepared: the strokes of an operation that asks nothing of what those before it have cut, so that they can be
             made beside these; None = where it has nothing to machine. No function: it asks.
+        proof: what is proven of an operation that is switched on, on its text as read back; None = where it has
+            nothing to machine. No function: nothing.
     """
 
     paths: Callable[[OperationContext, int, Progress], None]
@@ -35,6 +38,7 @@ class OperationMethod:
     )
     effort: Callable[[Workload, Operation, Tool], float] = along_walls
     prepared: Callable[[OperationContext, int, Progress], PreparedStrokes | None] | None = None
+    proof: Callable[[ProofInput], OperationProof | None] | None = None
 
 
 _WAYS: dict[type[Operation], OperationMethod] = {}

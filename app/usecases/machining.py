@@ -24,6 +24,7 @@ class MachiningOptions:
         drills: diameters of drills, each of which drills the circles as wide as it before anything is milled.
         copies: the part in a grid.
         keep_out, keep_out_height: layers of clamps, and how far these stand above the stock.
+        clamping, zero: what the sheet says of how the stock is held, and of how the zero is set.
     """
 
     values: Mapping[str, Any] = field(default_factory=dict)
@@ -31,6 +32,8 @@ class MachiningOptions:
     copies: Copies | None = None
     keep_out: tuple[str, ...] = ()
     keep_out_height: float | None = None
+    clamping: str | None = None
+    zero: str | None = None
 
     @staticmethod
     def of(**requested: Any) -> MachiningOptions:
@@ -49,6 +52,8 @@ class MachiningOptions:
             "copies": self.copies,
             "keep-out": self.keep_out,
             "keep-out-height": self.keep_out_height,
+            "clamping": self.clamping,
+            "zero": self.zero,
         }
         return (*map(option_of, self.values), *(option for option, value in others.items() if value not in (None, ())))
 
@@ -113,6 +118,8 @@ def with_machining(job: Job, machining: MachiningOptions) -> Job:
         copies=machining.copies or job.copies,
         keep_out_layers=keep_out,
         keep_out_height=height,
+        clamping_note=job.clamping_note if machining.clamping is None else machining.clamping,
+        zero_note=job.zero_note if machining.zero is None else machining.zero,
     )
 
 

@@ -41,21 +41,17 @@ from ..verify.verdict import (
     rapids_in_material,
 )
 from .bitmap_options import is_picture
-from .carving_proofs import carving_proofs
 from .cut import CutProgram
 from .cut_job import MeasuredMoves, cut_job, news
-from .engagement_proofs import engagement_proofs
-from .face_proofs import face_proofs
 from .feeds import JobWithFeeds
 from .layer_operations import with_layer_rules
 from .machining import check_order
 from .options import MakeOptions, job_with_options, with_feeds
 from .own_job import with_own_job
 from .plausible import read_for
+from .proofs.proofs import prove
 from .report import MakeReport, ReportData, make_report, rings_in_words
-from .thread_proofs import thread_proofs
-from .wear_proofs import wear_proofs
-from .written import WrittenMotions, write_and_check
+from .written import write_and_check
 
 if TYPE_CHECKING:
     from .proposal.propose import Proposal  # few jobs are proposed
@@ -320,12 +316,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
         lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
         program = replace(program, moves=replace(program.moves, line=lines))
         give_back()
-        motions = WrittenMotions.of(written, program, job)
-        proofs = engagement_proofs(job, motions, progress.part(0.2, 0.21))
-        carvings = carving_proofs(program, job, motions, progress.part(0.21, 0.22))
-        threads = thread_proofs(program, job, motions)
-        faced = face_proofs(program, job, motions)
-        worn = wear_proofs(program, job, written, motions, progress.part(0.219, 0.22))
+        proofs = prove(program, job, written, progress.part(0.2, 0.22))
         rapids = rapids_in_material(program, job, progress.part(0.22, 0.25))
         metal = cut_job(program, job, written, measuring.result, progress.part(0.25, 0.98)) if written.files else None
         depths, coverage = measuring.result()
@@ -335,11 +326,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     own = (
         *unsafe,
         *(news(metal, unsafe) if metal is not None else ()),
-        *(finding for proof in proofs.values() for finding in proof.findings()),
-        *(finding for carving in carvings.values() for finding in carving.findings()),
-        *(finding for thread in threads.values() for finding in thread.findings()),
-        *(finding for each in faced.values() for finding in each.findings()),
-        *(finding for each in worn.values() for finding in each.findings()),
+        *proofs.findings(),
         *_shape_findings(program, job),
         *written.coarseness(job.out_units),
         *(written.misfits() if context.machine else ()),
@@ -349,9 +336,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     )
     findings = worst_first((*own, *program.findings, *context.drawing_findings))
     progress.step(1.0, "Done")
-    measured = ReportData(
-        program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings, threads, faced, worn
-    )
+    measured = ReportData(program, job, written, deepest, rapids, coverage, findings, metal, proofs)
     report = make_report(measured)
     return MakeResult(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
 

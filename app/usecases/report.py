@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -24,13 +24,9 @@ from ..toolpath.coverage.coverage import STRIP, Coverage, UncutPlace
 from ..toolpath.coverage.floor_target import CHORD
 from ..verify.judgement import SpotKind
 from ..verify.verdict import Gouge, RapidInMaterial
-from .carving_proofs import CarvingProof
 from .cut import CutProgram
-from .engagement_proofs import OperationProof
-from .face_proofs import FaceProof
+from .proofs.proofs import ProgramProofs
 from .report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
-from .thread_proofs import ThreadProof
-from .wear_proofs import WearProof
 from .written import WrittenProgram
 
 ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
@@ -66,9 +62,7 @@ class ReportData:
         written: the files, read back.
         findings: all of them: of the drawing, the path, the verdict, the floor.
         cut: the files, cut out of the stock; None without files.
-        proofs: of the engaged angle, by index of the operation. carvings: of what V cutters leave, alike. threads: of
-            threads, alike. faced: of the stock's top, alike.
-        worn: of contours that the control offsets by wear, alike.
+        proofs: of single operations.
     """
 
     program: Program
@@ -79,11 +73,7 @@ class ReportData:
     coverage: Coverage
     findings: tuple[Finding, ...]
     cut: CutProgram | None
-    proofs: Mapping[int, OperationProof] = field(default_factory=dict)
-    carvings: Mapping[int, CarvingProof] = field(default_factory=dict)
-    threads: Mapping[int, ThreadProof] = field(default_factory=dict)
-    faced: Mapping[int, FaceProof] = field(default_factory=dict)
-    worn: Mapping[int, WearProof] = field(default_factory=dict)
+    proofs: ProgramProofs
 
 
 @dataclass(frozen=True)
@@ -184,7 +174,7 @@ def make_report(measured: ReportData) -> MakeReport:
             },
             "tools": [_tool(tool, measured) for tool in job.tools],
             "operations": [
-                operation_values(job, index, program, written, top) | _proven(measured, index)
+                operation_values(job, index, program, written, top) | measured.proofs.values(index)
                 for index in range(len(job.operations))
             ],
             **_setup(measured),
@@ -192,15 +182,6 @@ def make_report(measured: ReportData) -> MakeReport:
             "out_units": "in" if job.out_units.value == 25.4 else "mm",
         }
     )
-
-
-def _proven(measured: ReportData, index: int) -> Json:
-    engaged = {"engaged": measured.proofs[index].values()} if index in measured.proofs else {}
-    carved = {"carved": measured.carvings[index].values()} if index in measured.carvings else {}
-    threaded = {"cut_thread": measured.threads[index].values()} if index in measured.threads else {}
-    faced = {"faced": measured.faced[index].values()} if index in measured.faced else {}
-    worn = {"worn": measured.worn[index].values()} if index in measured.worn else {}
-    return engaged | carved | threaded | faced | worn
 
 
 def _of(measured: ReportData, *kinds: FindingKind) -> list[Finding]:

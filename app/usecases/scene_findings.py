@@ -17,7 +17,6 @@ from ..model.stock_box import StockBox
 from ..model.tool import Tool
 from ..operations.parallel.surface_moves import SurfaceMoves
 from ..simulation.field.solid import SolidStock
-from ..simulation.field.solid_rays import SolidRays
 from ..surfaces.meshes.holes import MeshHole, holes
 from ..surfaces.patches.build import BuiltSurface
 from ..surfaces.patches.facets import SurfaceFacets
@@ -138,7 +137,7 @@ def _holes(built: Sequence[BuiltSurface], facets: SurfaceFacets, tools: Sequence
     found = [(name, hole) for name, hole in found if tools and max(_dip(tool, hole.radius) for tool in tools) > DIP]
     if not found:
         return
-    tops = SolidRays(SolidStock(facets.triangles)).tops(np.array([(hole.x, hole.y) for _, hole in found]))
+    tops = SolidStock(facets.triangles).tree.tops(np.array([(hole.x, hole.y) for _, hole in found]))
     deep = [(name, hole) for (name, hole), top in zip(found, tops.tolist(), strict=True) if top < hole.z - DIP]
     for name, hole in sorted(deep, key=lambda each: -each[1].radius)[:NAMED]:
         yield Finding(FindingKind.HOLE, _hole_words(name, hole), hole.x, hole.y, amount=2 * hole.radius)

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from ..core.effort import announce
 from ..core.errors import GeometryError, ParameterError
 from ..core.progress import NO_PROGRESS, Progress
-from ..formats.scene.toml import read_scene
 from ..gcode.posts.posts import load_post
 from ..geometry.buffer import buffered
 from ..model.finding import Finding
@@ -98,19 +97,6 @@ class ComputedScene:
     def names(self) -> tuple[str, ...]:
         """Of the surfaces, by number; behind them that of the floor."""
         return (*(surface.name for surface in self.scene.surfaces), FLOOR)
-
-
-def read_and_compute(name: str, data: bytes, sources: SceneFiles, progress: Progress = NO_PROGRESS) -> ComputedScene:
-    """Compute a scene file.
-
-    Args:
-        name: of the file, for errors. data: its bytes. sources: reads the files that it names.
-
-    Raises:
-        HitofudeError: it cannot be read, a surface cannot be made, or passes cannot be computed.
-        Cancelled: the job was asked to stop.
-    """
-    return compute(read_scene(name, data), sources, progress)
 
 
 def compute(scene: Scene, sources: SceneFiles, progress: Progress = NO_PROGRESS) -> ComputedScene:

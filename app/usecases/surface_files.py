@@ -10,11 +10,11 @@ from ..core.errors import InputError
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.scene.toml import read_scene, sources_of
 from ..model.finding import Finding
-from .better.improve import BetterOptions, BetterProgram
 from .better.improve import better as improve
 from .better.report import findings as better_findings
 from .better.report import lines as better_lines
 from .better.report import report as better_report
+from .better.result import BetterOptions, BetterProgram
 from .surface import ComputedScene, compute
 from .surface_loop import closed_loop
 from .surface_nc import WrittenScene, write_scene_nc

@@ -15,8 +15,9 @@ from .cut_report import cut_report
 from .examine import ExamineOptions, examine
 from .scene_part import scene_part
 from .setup import setup_of
-from .smooth import SmoothOptions, smooth
-from .smooth_report import report as smooth_report
+from .smoothing.report import report as smooth_report
+from .smoothing.result import SmoothOptions
+from .smoothing.smooth import smooth
 from .surface_nc import WrittenScene
 
 CELLS = 400

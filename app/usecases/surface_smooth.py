@@ -24,9 +24,10 @@ from ..model.finding import Finding, FindingKind
 from ..model.scene import Passes, Scene
 from ..model.scene_shapes import StepShape
 from ..surfaces.passes.path import ALLOWED, Follower, FollowOptions
-from .smooth import OutputForm, SmoothedProgram, SmoothOptions, smooth
-from .smooth_report import findings as smooth_findings
-from .smooth_report import report as smooth_report
+from .smoothing.report import findings as smooth_findings
+from .smoothing.report import report as smooth_report
+from .smoothing.result import OutputForm, SmoothedProgram, SmoothOptions
+from .smoothing.smooth import smooth
 from .surface import ComputedScene
 from .surface_nc import WrittenScene
 from .tolerance_budget import BudgetShare, Evidence, ToleranceBudget

@@ -25,6 +25,7 @@ from ..model.machine import Machine
 from ..model.motion import MotionKind, Motions
 from ..model.motion_path import anchored, lengths
 from ..model.moves import Program
+from ..model.operation_motions import OperationMotions
 from ..model.part import Units
 from ..model.stock_box import stock_box, work_origin
 
@@ -125,28 +126,6 @@ class WrittenProgram:
 
 
 @dataclass(frozen=True, eq=False)
-class OperationMotions:
-    """Motions of one operation, as read back, n of them.
-
-    Attributes:
-        start, end, centre: (n, 3) mm, program coordinates; centres of arcs.
-        kind: (n,) MotionKind.
-        feed: (n,) mm/min.
-        line: (n,) of the NC text of its file.
-    """
-
-    start: Floats
-    end: Floats
-    centre: Floats
-    kind: NDArray[np.uint8]
-    feed: Floats
-    line: NDArray[np.int32]
-
-    def __len__(self) -> int:
-        return len(self.kind)
-
-
-@dataclass(frozen=True, eq=False)
 class WrittenMotions:
     """Motions of all files as read back, and the operation that each is done for: what all judges of single operations
     walk over.
@@ -171,7 +150,7 @@ class WrittenMotions:
         return WrittenMotions(tuple(each.motions for each in written.programs), operations, work_origin(job, box))
 
     def done_for(self, operation: int, cutting: bool = False) -> OperationMotions:
-        """Return the motions of one operation of the job; `cutting`: without its rapids."""
+        """Return the motions of one operation of the job, program coordinates; `cutting`: without its rapids."""
         rows = [which == operation for which in self.operations]
         if cutting:
             rows = [own & (each.kind != MotionKind.RAPID) for own, each in zip(rows, self.files, strict=True)]

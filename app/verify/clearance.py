@@ -45,10 +45,3 @@ def pair_distance(first: Floats, second: Floats, one: Indices, other: Indices) -
     pairs = (np.ascontiguousarray(each, np.int64) for each in (one, other))
     kernels.pair_distances(*rows, *pairs, distances, places)
     return distances, places
-
-
-def nearest_on(rows: Floats, points: Floats) -> Floats:
-    """Return the point (n, 2) of each row that is nearest to its point; NaN points give the row's start."""
-    found = np.empty((len(rows), 2))
-    kernels.nearest_points(np.ascontiguousarray(rows, np.float64), np.ascontiguousarray(points, np.float64), found)
-    return found

@@ -163,12 +163,10 @@ def judge(judging: JudgementInput, certificate: Certificate | None, progress: Pr
         left_spots = [_left(judging, place, kind) for kind, (places, _) in found.items() for place in places]
         counts = {kind: count for kind, (_, count) in found.items()}
     discs = (spot.disc_mm for spot in left_spots if spot.kind is SpotKind.UNREACHABLE)
-    line = int(judging.lines[gouge.move]) if gouge.move >= 0 else 0
     return Judgement(
         deviation,
         unreachable,
         gouge,
-        line,
         reachable_mm2,
         unreachable_mm2,
         max(discs, default=0.0),

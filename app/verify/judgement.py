@@ -82,7 +82,6 @@ class Judgement:
         unreachable: (rows, cols) metal left that no tool of the job reaches.
         gouge: the deepest one; where it is, in program coordinates; `move` is the row among the motions of all
             programs.
-        gouge_line: its NC line, 0 = none.
         reachable_mm2, unreachable_mm2: area of the metal left, seen from above.
         largest_disc_mm: diameter of the largest disc that fits where no tool reaches.
         skin_mm2: area of the skin that paths made from pixels leave along the walls; in none of the areas before.
@@ -97,7 +96,6 @@ class Judgement:
     deviation: NDArray[np.float32]
     unreachable: NDArray[np.bool_]
     gouge: Gouge
-    gouge_line: int
     reachable_mm2: float
     unreachable_mm2: float
     largest_disc_mm: float

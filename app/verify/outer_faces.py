@@ -33,7 +33,6 @@ from ..core.pool import pool
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.motion import Floats
 from ..simulation.field.solid import SolidStock
-from ..simulation.field.solid_rays import SolidRays
 from ..surfaces.meshes.edges import MeshEdges
 from ..surfaces.meshes.sew import ROUNDED
 
@@ -108,7 +107,7 @@ class _Faces:
     """The faces of a solid's bodies, and what is before them."""
 
     def __init__(self, solid: SolidStock) -> None:
-        self._triangles, self._rays = solid.triangles, SolidRays(solid)
+        self._triangles, self._tree = solid.triangles, solid.tree
         self._before = max(BEFORE, ROUNDED * float(np.abs(solid.triangles).max()))
         normal = np.cross(self._triangles[:, 1] - self._triangles[:, 0], self._triangles[:, 2] - self._triangles[:, 0])
         self._normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
@@ -117,7 +116,7 @@ class _Faces:
     def free(self, rows: Ints, places: Floats) -> NDArray[np.bool_]:
         """Return whether there is no metal before places (m, 3) on faces (m,), by the winding number there."""
         before = places + self._before * self._normal[rows]
-        point, heights, up = self._rays.met(before[:, :2])
+        point, heights, up = self._tree.met(before[:, :2])
         below = heights < before[point, 2]
         return np.asarray(np.bincount(point, np.where(below, -up, 0.0), len(before)) < 0.5)
 

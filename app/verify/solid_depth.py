@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.motion import Floats
 from ..simulation.field.solid import SolidStock
-from ..simulation.field.solid_rays import SolidRays
 from ..simulation.field.triangle_tree import TriangleTree
 from .outer_faces import outer_faces
 
@@ -60,7 +59,7 @@ class DepthInSolid:
         Raises:
             Cancelled: by progress.
         """
-        self._rays, self._leave = SolidRays(solid), leave
+        self._solid, self._leave = solid, leave
         self._tree = solid.tree if solid.shells == 1 else TriangleTree.of(outer_faces(solid, progress))
 
     def of(self, columns: CutColumns, known: float = 0.0, fine: float = FINE) -> Floats:
@@ -83,7 +82,7 @@ class DepthInSolid:
 
     def _in_solid(self, columns: CutColumns) -> _ColumnParts:
         """Return what of columns lies in the solid, by the winding number."""
-        point, heights, up = self._rays.met(columns.places + np.array([ASIDE, ASIDE * 0.7]))
+        point, heights, up = self._solid.tree.met(columns.places + np.array([ASIDE, ASIDE * 0.7]))
         order = np.lexsort((heights, point))
         point, heights, up = point[order], heights[order], up[order]
         winds = np.cumsum(-up)  # a face that looks down begins a solid, one that looks up ends it

@@ -247,11 +247,6 @@ def _clipped(rows: Floats, stock: StockBox) -> Floats:
     return rows
 
 
-def gouge(program: Program, job: Job) -> Gouge:
-    """Return the deepest gouge of a program; see `gouge_depths`."""
-    return deepest_of(gouge_depths(program, job))
-
-
 def deepest_of(depths: MoveDepths) -> Gouge:
     """Return the deepest gouge; moves that reach more than LEVEL into the part are counted."""
     worst = int(np.argmax(depths.depth)) if len(depths.depth) else 0

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..model.finding import Finding, FindingKind
 from ..model.motion import Floats
 from ..simulation.field.solid import SolidStock
-from ..simulation.field.solid_rays import SolidRays
+from ..simulation.field.triangle_tree import TriangleTree
 from ..simulation.field.workpiece import Workpiece
 from ..simulation.sweeps.probe import LowestReach
 from .parts import SolidPart
@@ -83,7 +83,7 @@ class WallProbe:
                 below the top over it.
         """
         part, start = self.part, self.part.tolerance - self.part.leave
-        asking = _WallPoints(*wall_points(part.solid, self.before.grid.pitch), self, SolidRays(part.solid))
+        asking = _WallPoints(*wall_points(part.solid, self.before.grid.pitch), self, part.solid.tree)
         asking = asking.only(asking.gouged(np.full(len(asking.points), start)))
         known = np.maximum(deep(asking.points) - part.leave + FINER * part.tolerance, start)
         some = asking.gouged(known, np.maximum(known, start))
@@ -123,11 +123,11 @@ class _WallPoints:
     points: Floats
     inwards: Floats
     probe: WallProbe
-    rays: SolidRays
+    tree: TriangleTree
 
     def only(self, chosen: NDArray[np.bool_] | NDArray[np.int64]) -> _WallPoints:
         """Return some of the points."""
-        return _WallPoints(self.points[chosen], self.inwards[chosen], self.probe, self.rays)
+        return _WallPoints(self.points[chosen], self.inwards[chosen], self.probe, self.tree)
 
     def gouged(self, depth: Floats, over: Floats | float = 0.0) -> NDArray[np.bool_]:
         """Return whether the solid was cut at depths (m,) in it, < 0 beside it, deeper than its tolerance, and `over`
@@ -137,12 +137,12 @@ class _WallPoints:
             return np.zeros(0, np.bool_)
         places, part = self.points + self.inwards * depth[:, None], self.probe.part
         heights, motion = self.probe.lowest(places)
-        target = self.rays.tops(self.points + self.inwards * np.maximum(depth, ASIDE)[:, None])
-        stock = np.minimum(target, metal_at(self.probe.before, places))
+        target = self.tree.tops(self.points + self.inwards * np.maximum(depth, ASIDE)[:, None])
+        stock = np.minimum(target, stock_at(self.probe.before, places))
         return np.asarray((motion >= 0) & (heights < stock - part.tolerance) & (heights < target - over))
 
 
-def metal_at(workpiece: Workpiece, places: Floats) -> Floats:
+def stock_at(workpiece: Workpiece, places: Floats) -> Floats:
     """Return how high metal is at places (m, 2), mm; -infinite beside its grid."""
     grid, heights = workpiece.grid, workpiece.heights
     cols, rows = (

@@ -14,7 +14,8 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from app.fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from app.geometry.arcs.arcs import lines_and_arcs
 from app.model.curves import Spline
-from app.usecases.smooth import SmoothOptions, smooth
+from app.usecases.smoothing.result import SmoothOptions
+from app.usecases.smoothing.smooth import smooth
 from tests.benchmarks.conftest import OURS, record
 from tests.conftest import ROOT
 

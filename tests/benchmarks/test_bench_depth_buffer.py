@@ -13,13 +13,13 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from app.exhibits.die_programs import PROGRAMS, block
-from app.exhibits.figure_eleven import plain_heights
 from app.simulation.engines import published_error
 from app.simulation.gpu.depth_buffer import DepthBuffer
 from app.simulation.gpu.graphics import standalone_context
 from app.simulation.gpu.quads import quad_heights
 from app.simulation.sweeps.trim import trim
 from tests.benchmarks.conftest import OURS, record
+from tests.exhibits.plain import plain_heights
 
 pytestmark = pytest.mark.benchmark
 CELLS = 1024

@@ -7,7 +7,6 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from app.exhibits.die_programs import PROGRAMS, SIZE, STOCK, block
-from app.exhibits.figure_eleven import plain_heights
 from app.formats.tools.holders import outline_of
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.workpiece import Grid, Heights
@@ -15,6 +14,7 @@ from app.simulation.sweeps.course import TrimOptions
 from app.simulation.sweeps.trim import trim
 from app.verify.holder_contacts import holder_contacts
 from tests.benchmarks.conftest import OURS, record
+from tests.exhibits.plain import plain_heights
 
 pytestmark = pytest.mark.benchmark
 

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 
+from app.cli.batch_store import BatchStore
 from app.cli.main import main
 from tests.generated_drawings import write_drawings
 
@@ -137,6 +138,26 @@ def test_what_is_done_is_not_done_again(parts: Path, tmp_path: Path, capfd: pyte
     assert len(done_anew()) == 4
 
 
+@pytest.mark.exhaustive
+def test_a_cluster_writes_the_same_bytes_although_a_worker_is_killed(done: Path, parts: Path, tmp_path: Path) -> None:
+    """The command with a scheduler's address; a worker of the local cluster is killed once a part is done."""
+    distributed = pytest.importorskip("distributed", reason="Dask is not installed here; the extra `test` brings it")
+    out = tmp_path / "out"
+
+    def kill() -> None:
+        while not any(out.glob(".hitofude/*.json")):
+            time.sleep(0.02)
+        os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
+        killed.set()
+
+    killed, killer = threading.Event(), threading.Thread(target=kill, daemon=True)
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        killer.start()
+        command = ["batch", str(parts), "-o", str(out), "--depth", "1", "--reports", "--quiet"]
+        assert main([*command, "--scheduler", cluster.scheduler_address]) == 1
+    assert killed.is_set() and written(out) == written(done)
+
+
 def test_a_program_of_a_drawing_that_is_broken_now_is_taken_away(tmp_path: Path) -> None:
     parts, out = tmp_path / "parts", tmp_path / "out"
     (part,) = write_drawings(parts, 1)
@@ -204,6 +225,25 @@ def test_what_cannot_be_begun_is_one_line(
     shown = capsys.readouterr().err
     assert told in shown and shown.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+def test_two_batches_on_one_folder_are_kept_apart(
+    parts: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """The second is told who works there; a lock whose process died holds nobody."""
+    out = tmp_path / "out"
+    command = ["batch", str(parts), "-o", str(out), "--check", "--jobs", "1", "--quiet"]
+    (parts.parent / "program.ngc").write_text("M30\n")
+    command[1] = str(parts.parent / "list.toml")
+    (parts.parent / "list.toml").write_text('[[part]]\nfile = "program.ngc"\n')
+    first = BatchStore(out)
+    assert main(command) == 2
+    told = capfd.readouterr().err
+    assert f"another batch (process {os.getpid()} of " in told and told.count("\n") == 1
+    first.close()
+    (out / ".hitofude" / "lock").write_text("1 elsewhere\n")  # its process is gone, and its lock with it
+    assert main(command) == 0
+    assert not (out / ".hitofude" / "lock").exists()
 
 
 def killing(process: subprocess.Popen[str], out: Path, kills: int, pause: float) -> None:

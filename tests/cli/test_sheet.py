@@ -43,6 +43,28 @@ def test_its_program_read_back_says_the_same(drawing: Path) -> None:
     assert "30 x 20 x 10 mm" in text and "Proven: no gouge" in text and "Program, tool by tool" in text
 
 
+def test_it_says_how_the_stock_is_held_as_somebody_has_written_it(drawing: Path) -> None:
+    folder, notes = drawing.parent, ["--clamping", "Two vices", "--zero", "3D taster"]
+    job = folder / "job.toml"
+    made = [
+        "make",
+        str(drawing),
+        "-o",
+        str(folder / "a.ngc"),
+        "--write-job",
+        str(job),
+        "--sheet",
+        str(folder / "a.pdf"),
+    ]
+    assert main([*made, *notes, "--quiet"]) == 0
+    command = ["sheet", str(folder / "a.ngc"), "--grid", "64", "--quiet"]
+    assert main([*command, *notes, "-o", str(folder / "b.pdf")]) == 0
+    assert main([*command, "--job", str(job), "-o", str(folder / "c.pdf")]) == 0
+    for name in "abc":
+        text = said(folder / f"{name}.pdf")
+        assert "Two vices." in text and "Setting the zero 3D taster." in text
+
+
 def test_any_other_program_says_what_nobody_knows(tmp_path: Path) -> None:
     program = tmp_path / "other.nc"
     program.write_text(OTHER)

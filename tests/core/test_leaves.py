@@ -23,7 +23,7 @@ from tests.conftest import ROOT
 
 
 def test_settings_come_back() -> None:
-    settings = Settings(ThemeChoice.DARK, ("/a/刃.dxf", "/a/\udcff.dxf"), "AdnQ", "AAAA", "/a")
+    settings = Settings(ThemeChoice.DARK, ("/a/刃.dxf", "/a/\udcff.dxf"), "AdnQ", "/a")
     save_settings(settings)
     assert load_settings() == settings
 
@@ -33,7 +33,7 @@ def test_first_start_has_defaults() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["", "{", "[1]", '{"theme": "pink", "recent_files": 7, "window_state": null, "unknown": 1}', "\x00\xff"]
+    "text", ["", "{", "[1]", '{"theme": "pink", "recent_files": 7, "window_geometry": null, "unknown": 1}', "\x00\xff"]
 )
 def test_damaged_settings_become_defaults(text: str) -> None:
     config_folder().joinpath("settings.json").write_text(text, "utf-8")

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
+import platform
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+import llvmlite.binding as llvm
 import pytest
 
+from app.core.jit.processors import LEVELS, plainer_processors
 from app.core.jit.store import UNUSED_DAYS, Store, open_store
 from tests.core.test_compiling import SHORT, entries, program, run
 
@@ -54,13 +57,13 @@ def test_an_entry_under_another_name_is_none(tmp_path: Path) -> None:
 def test_what_came_with_the_program_is_read_where_it_is_and_left_as_it_is(tmp_path: Path) -> None:
     shipped = store_at(tmp_path / "shipped")
     assert shipped.write(NAME, CONTENT) and shipped.folder is not None
-    store = Store(tmp_path / "own", shipped=shipped.folder)
+    store = Store(tmp_path / "own", shipped=(shipped.folder,))
     assert store.has(NAME) and store.read(NAME) == CONTENT
     store.drop(NAME)  # of no use to this machine
     assert not store.has(NAME) and store.read(NAME) is None
     assert shipped.read(NAME) == CONTENT
     (tmp_path / "own").mkdir()
-    store = Store(tmp_path / "own", shipped=shipped.folder)
+    store = Store(tmp_path / "own", shipped=(shipped.folder,))
     damaged = (shipped.folder / NAME).read_bytes()[:-1]
     (shipped.folder / NAME).write_bytes(damaged)
     assert store.read(NAME) is None
@@ -72,9 +75,9 @@ def test_what_others_may_write_beside_the_program_is_not_read(tmp_path: Path) ->
     shipped = store_at(tmp_path / "shipped")
     assert shipped.write(NAME, CONTENT) and shipped.folder is not None
     (shipped.folder / NAME).chmod(0o646)
-    assert Store(tmp_path / "own", shipped=shipped.folder).read(NAME) is None
+    assert Store(tmp_path / "own", shipped=(shipped.folder,)).read(NAME) is None
     (shipped.folder / NAME).chmod(0o644)
-    assert Store(tmp_path / "own", shipped=shipped.folder).read(NAME) == CONTENT
+    assert Store(tmp_path / "own", shipped=(shipped.folder,)).read(NAME) == CONTENT
 
 
 def test_what_is_whole_but_of_no_use_is_compiled_anew(program: Path) -> None:
@@ -163,7 +166,7 @@ def test_the_own_cache_folder_is_closed_to_others(tmp_path: Path, monkeypatch: p
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     (tmp_path / "hitofude").mkdir(mode=0o775)
     (tmp_path / "hitofude").chmod(0o777)
-    assert open_store("version").folder == tmp_path / "hitofude" / "kernels" / "version"
+    assert open_store(("version",)).folder == tmp_path / "hitofude" / "kernels" / "version"
     assert not (tmp_path / "hitofude").stat().st_mode & 0o022
 
 
@@ -205,3 +208,26 @@ def test_a_closed_stderr_is_no_reason_to_fail(program: Path) -> None:
         env=os.environ | {"PYTHONPATH": str(program), "XDG_CACHE_HOME": "/dev/null/a", "TMPDIR": "/dev/null/b"},
     )
     assert done.stdout.split() == ["4.0"]
+
+
+def test_machine_code_for_plainer_processors_is_read_on_any_that_runs_it(program: Path) -> None:
+    """A program that was packed elsewhere brings what every processor of a level runs: nothing is compiled here."""
+    levels = plainer_processors("x86_64-unknown-linux-gnu", llvm.get_host_cpu_features())
+    if not levels or platform.machine() not in ("x86_64", "AMD64"):
+        pytest.skip("this processor is of no level of x86-64 that machine code is shipped for")
+    run(program, SHORT, NUMBA_CPU_NAME=levels[0], NUMBA_CPU_FEATURES="")
+    made = entries(program)
+    assert set(made) == {"outer", "inner", "_twice"}
+    shipped = program / "app" / "kernels" / made["outer"].parent.name
+    shipped.parent.mkdir()
+    made["outer"].parent.rename(shipped)
+    assert run(program, SHORT).stdout.split() == ["4.0"]
+    assert entries(program) == {}
+
+
+def test_a_processor_runs_the_code_of_its_level_and_of_all_below() -> None:
+    linux, all_of = "x86_64-unknown-linux-gnu", {name: dict.fromkeys(needed, True) for name, needed in LEVELS.items()}
+    assert plainer_processors(linux, all_of["x86-64-v3"]) == ("x86-64-v3", "x86-64-v2")
+    assert plainer_processors(linux, all_of["x86-64-v3"] | {"avx2": False}) == ("x86-64-v2",)
+    assert plainer_processors(linux, all_of["x86-64-v2"] | {"avx2": True}) == ("x86-64-v2",)
+    assert plainer_processors(linux, {}) == plainer_processors("aarch64-unknown-linux-gnu", all_of["x86-64-v3"]) == ()

@@ -9,9 +9,10 @@ import pytest
 from app.core.errors import Cancelled, HitofudeError
 from app.core.progress import Progress
 from app.exhibits.die_programs import PROGRAMS, block, die, finishing
-from app.exhibits.figure_eleven import FigureOptions, HeightMethod, figure_eleven, plain_heights
+from app.exhibits.figure_eleven import FigureOptions, HeightMethod, figure_eleven
 from app.simulation.engines import Graphics
 from app.simulation.sweeps.trim import trim
+from tests.exhibits.plain import plain_heights
 
 SMALL = FigureOptions(("A",), 64, 1)
 

@@ -27,7 +27,8 @@ from app.exhibits.films.proven import ChordAxis, intervals_in_cylinder, proven_f
 from app.exhibits.films.step import TEXTS, FilmStep, PublishedText, TextFilm
 from app.fitting.point_curves.effective_points import EffectiveOptions, effective_points
 from app.fitting.point_curves.region_profile import profile_of_formula
-from app.fitting.point_curves.space_curve import SpaceCurve, raised
+from app.fitting.point_curves.space_curve import SpaceCurve
+from app.geometry.arcs.bezier import elevated
 from app.simulation.field.workpiece import Grid
 from app.surfaces.patches.patch import BsplineSurface
 
@@ -153,7 +154,7 @@ def test_a_film_of_another_program_and_of_one_that_has_nothing_to_show() -> None
 
 
 def bezier(*pieces: list[list[float]]) -> SpaceCurve:
-    control = np.concatenate([raised(np.array([piece], float)) for piece in pieces])
+    control = np.concatenate([elevated(np.array([piece], float), 5) for piece in pieces])
     return SpaceCurve(control, np.zeros(len(control), np.int64))
 
 

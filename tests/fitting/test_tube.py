@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from app.core.errors import GeometryError, ParameterError
-from app.fitting.point_curves.space_curve import SpaceCurve, curve_of_motions, curve_of_nurbs, curve_of_points, raised
+from app.fitting.point_curves.space_curve import SpaceCurve, curve_of_motions, curve_of_nurbs, curve_of_points
 from app.fitting.point_curves.spheroid import RevolvedOutline, lies_within
 from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, TubeJudgement, judge
+from app.geometry.arcs.bezier import elevated
 from app.model.motion import MotionKind, Motions, Nurbs, Plane
 from tests.examples import examples
 
@@ -23,7 +24,7 @@ TOLERANCE = 0.05
 
 
 def bezier(*pieces: list[list[float]]) -> SpaceCurve:
-    control = np.concatenate([raised(np.array([piece], float)) for piece in pieces])
+    control = np.concatenate([elevated(np.array([piece], float), 5) for piece in pieces])
     return SpaceCurve(control, np.zeros(len(control), np.int64))
 
 

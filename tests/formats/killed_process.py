@@ -1,8 +1,7 @@
-"""Draws, saves and keeps without end, as a window does; `python -m tests.formats.killed_process FILE` is there to be
-killed.
-"""
+"""Draws, saves and keeps without end, as a window does; the process that it runs in is there to be killed."""
 
-import sys
+import os
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 from app.drafting.document import Document
@@ -11,8 +10,9 @@ from app.formats.project.project import Project
 from app.formats.project.recovery import EditedFile, RecoveryFile
 
 
-def main() -> None:
-    path = Path(sys.argv[1])
+def draw_without_end(path: Path, config: str, told: Connection) -> None:
+    """Tell (word, how many are drawn) after each time that the work was kept or saved."""
+    os.environ["HITOFUDE_CONFIG"] = config
     document, stamp = Document(), None
     if path.exists():
         project, stamp = load_project(path)
@@ -22,11 +22,7 @@ def main() -> None:
         document.run(f"circle {len(document.part.entities)},0 1.5")
         drawn = len(document.part.entities)
         recovery.keep(Project(document.state), EditedFile(path, stamp))
-        print("kept", drawn, flush=True)
+        told.send(("kept", drawn))
         if drawn % 2 == 0:
             stamp = save_project(path, Project(document.state), stamp)
-            print("saved", drawn, flush=True)
-
-
-if __name__ == "__main__":
-    main()
+            told.send(("saved", drawn))

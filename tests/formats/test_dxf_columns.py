@@ -142,6 +142,39 @@ def test_a_fraction_of_a_line_that_runs_down_stays_whole(fonts: Path) -> None:
     assert near([(over[0], over[1] - under[1])], [(under[0], 6.3)]) and below[1] == pytest.approx(-7 - DOWN)
 
 
+def said_of(document: Any) -> list[str]:
+    return [each.text for each in read(document).findings if "runs downwards in columns" in each.text]
+
+
+def test_lines_that_run_down_stand_in_columns_beside_one_another(fonts: Path) -> None:
+    """From the left edge of the column; where the text says that a new one begins."""
+    document = columned("static", ["H", "HH\\PH", "H"], 50, 5, 100, flow_direction=3, insert=(3, 4))
+    found = corners(document)
+    assert near(found, [(3, -3), (58, -3), (58, -3 - DOWN), (58 + LINE, -3), (113, -3)])
+    (said,) = said_of(document)
+    assert "The text at (3.000, 4.000) on layer 0 runs downwards" in said
+
+
+def test_lines_that_run_down_end_with_their_column_and_columns_with_their_width(fonts: Path) -> None:
+    document = columned("dynamic_auto_height", "HHHHHHH", 20, 2, 7 + DOWN, 2, flow_direction=3)
+    expected = [(22 * (k // 4) + LINE * (k % 4 // 2), -7 - DOWN * (k % 2)) for k in range(7)]
+    assert near(corners(document), expected)
+
+
+def test_the_last_column_of_lines_that_run_down_has_no_end(fonts: Path) -> None:
+    document = columned("dynamic_manual_height", "HHHHHH", 5, 2, [7 + DOWN, 7], flow_direction=3)
+    last = [(7, -7 - DOWN * k) for k in range(4)]
+    assert near(corners(document), [(0, -7), (0, -7 - DOWN), *last])
+
+
+@pytest.mark.parametrize("point", range(1, 10))
+def test_columns_of_lines_that_run_down_about_the_insertion_point(fonts: Path, point: int) -> None:
+    across, down = (point - 1) % 3, (point - 1) // 3
+    document = columned("static", ["H", "H"], 50, 5, 100, flow_direction=3, attachment_point=point)
+    left, top = -105 * across / 2, 100 * down / 2
+    assert near(corners(document), [(left, top - 7), (left + 55, top - 7)])
+
+
 @pytest.mark.parametrize(
     ("document", "called", "remedy"),
     [
@@ -149,11 +182,6 @@ def test_a_fraction_of_a_line_that_runs_down_stays_whole(fonts: Path) -> None:
             vertical("HH", halign=3, align_point=(0, 9)),
             "TEXT (vertical, to fill a length)",
             "let letters run to the right",
-        ),
-        (
-            columned("static", ["H", "H"], 50, 5, 100, flow_direction=3),
-            "MTEXT (vertical, in columns)",
-            "set texts to no columns",
         ),
     ],
 )

@@ -2,12 +2,13 @@
 work.
 """
 
+import contextlib
+import multiprocessing
 import os
 import random
 import signal
-import subprocess
-import sys
 import time
+from multiprocessing.context import ForkServerContext
 from pathlib import Path
 
 import pytest
@@ -19,34 +20,45 @@ from app.formats.project.recovery import recoveries
 from app.model.curves import Circle
 from app.model.job import Job
 from app.model.part import Part
-from tests.conftest import ROOT
+from tests.formats.killed_process import draw_without_end
 
 
 def drawn_in(path: Path) -> int:
     return len(read_project(path.name, path.read_bytes()).state.job.part.entities)
 
 
-def killed_after(path: Path, wait_s: float) -> dict[str, int]:
+@pytest.fixture(scope="module")
+def processes() -> ForkServerContext:
+    """Makes processes that have imported what they need: each is forked from a server that has."""
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload([draw_without_end.__module__])
+    return context
+
+
+def killed_after(processes: ForkServerContext, path: Path, wait_s: float) -> dict[str, int]:
     """Run the process, kill it some time after its first word, and return the last numbers that it told."""
-    command = [sys.executable, "-m", "tests.formats.killed_process", str(path)]
-    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
-        first = process.stdout.readline()
-        time.sleep(wait_s)
-        os.kill(process.pid, signal.SIGKILL)
-        rest = process.stdout.read()
-    assert process.returncode == -signal.SIGKILL
-    words = [line.split() for line in (first + rest).splitlines() if line.count(" ") == 1]
-    return {word: int(count) for word, count in words[:-1] or words}
+    ours, its = processes.Pipe(duplex=False)
+    process = processes.Process(target=draw_without_end, args=(path, os.environ["HITOFUDE_CONFIG"], its))
+    process.start()
+    its.close()
+    told = [ours.recv()]
+    time.sleep(wait_s)
+    process.kill()
+    process.join()
+    with ours, contextlib.suppress(EOFError, OSError):  # the last word may be cut
+        while True:
+            told.append(ours.recv())
+    assert process.exitcode == -signal.SIGKILL
+    return dict(told)
 
 
-def check(path: Path, times: int, seed: int) -> None:
+def check(processes: ForkServerContext, path: Path, times: int, seed: int) -> None:
     rng = random.Random(seed)
     state = HistoryState(Job(Part().with_curves([Circle((float(k), 0.0), 1.0) for k in range(500)], "0")))
     path.write_bytes(write_project(Project(state)))
     before = 500
     for _ in range(times):
-        told = killed_after(path, rng.uniform(0.0, 0.12))
+        told = killed_after(processes, path, rng.uniform(0.0, 0.12))
         saved, now = told.get("saved", before), drawn_in(path)
         assert saved <= now, "the file is older than what was told to be saved"
         assert now in (before, *range(saved, told["kept"] + 4))
@@ -64,10 +76,10 @@ def check(path: Path, times: int, seed: int) -> None:
 
 
 @pytest.mark.exhaustive
-def test_twenty_kills(tmp_path: Path) -> None:
-    check(tmp_path / "plate.hito", 20, 1)
+def test_twenty_kills(processes: ForkServerContext, tmp_path: Path) -> None:
+    check(processes, tmp_path / "plate.hito", 20, 1)
 
 
 @pytest.mark.exhaustive
-def test_two_hundred_kills(tmp_path: Path) -> None:
-    check(tmp_path / "plate.hito", 200, 2)
+def test_two_hundred_kills(processes: ForkServerContext, tmp_path: Path) -> None:
+    check(processes, tmp_path / "plate.hito", 200, 2)

@@ -347,7 +347,7 @@ def test_what_is_left_out_is_counted() -> None:
         "circle (invisible)": 2,
         "circle (without stroke and fill)": 1,
         "use of what is not in the file": 2,
-        "circle (damaged)": 1,
+        "shape of unreadable length": 1,
         "curve beyond 1 km or without a place": 1,
     }
     assert "2 text" in drawing.findings[-1].text and not drawing.findings[-1].counts

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from app.core.errors import HitofudeError, InputError
-from app.formats.svg.numbers import UnreadableError, length, numbers, transform
+from app.formats.svg.lengths import length
+from app.formats.svg.numbers import UnreadableError, numbers, transform
 from app.formats.svg.svg import read_svg
 from app.geometry.chaining.chain import chain
 
@@ -31,7 +32,7 @@ NS = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xli
         (b'<svg viewBox="0 0 0 5"/>', "'0 0 0 5', cannot be read"),
         (b'<svg viewBox="a"/>', "'a', cannot be read"),
         (b'<svg width="-5mm"/>', "'-5mm', cannot be read"),
-        (b'<svg width="5em"/>', "'5em', cannot be read"),
+        (b'<svg width="5vw"/>', "'5vw', cannot be read"),
         (b'<svg>\n\n<g transform="spin(3)"/></svg>', "x.svg:3: the transform 'spin(3)' cannot be read"),
         (
             b'<svg>\n<circle r="1" style="transform-origin: 50% 50%; transform: rotate(3deg)"/></svg>',

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from app.geometry.primitives import boxes, contour_rows
 from app.geometry.region import polygon_contour, reversed_contour
 from app.model.curves import Arc, Circle, Line, Point, Primitive
 from app.model.part import Contour
@@ -18,6 +19,9 @@ Shapes = list[Contour]
 
 OFFSETS = (0.0, *(sign * size * 10.0**-power for power in range(3, 14) for size in (1.0, 3.3) for sign in (1, -1)))
 """mm; by how much things that should touch overlap or miss."""
+
+STEP = 64.0
+"""mm between cases that stand side by side, at least."""
 
 
 def disc(x: float, y: float, radius: float) -> Contour:
@@ -200,6 +204,18 @@ def any_case(rng: np.random.Generator) -> Shapes:
     """Return shapes of some kind at some offset in some pose."""
     kind = str(rng.choice(list(KINDS)))
     return posed(KINDS[kind](float(rng.choice(OFFSETS))), rng)
+
+
+def side_by_side(cases: list[Shapes]) -> list[Shapes]:
+    """Return cases moved along x, by multiples of STEP, until each has a strip of its own."""
+    placed, end = [], 0.0
+    for shapes in cases:
+        around = boxes(np.concatenate([contour_rows(shape) for shape in shapes]))
+        left, right = float(around[:, 0].min()), float(around[:, 2].max())
+        shift = STEP * math.ceil((end - left) / STEP)
+        placed.append([Pose(0.0, shift).of(shape) for shape in shapes])
+        end = right + shift + STEP
+    return placed
 
 
 def lattice(rng: np.random.Generator) -> Shapes:

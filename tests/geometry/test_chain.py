@@ -6,8 +6,9 @@ from itertools import pairwise
 
 import pytest
 
+from app.geometry.arcs.arcs import equally_far
 from app.geometry.chaining.chain import ChainingResult, chain
-from app.geometry.chaining.pieces import equally_far, within_reach
+from app.geometry.chaining.pieces import within_reach
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline, reversed_curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity

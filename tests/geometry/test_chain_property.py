@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.geometry.arcs.arcs import equally_far
 from app.geometry.chaining.chain import chain
-from app.geometry.chaining.pieces import equally_far
 from app.geometry.primitives import contour_rows, points_at, signed_area
 from app.model.curves import Arc, Circle, Curve, Line, Point, reversed_curve
 from app.model.finding import FindingKind

@@ -1,5 +1,6 @@
 """Few points compared with one another and many by trees and graphs: the same answers."""
 
+import time
 from itertools import combinations
 
 import numpy as np
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from app.geometry import near_points, triangulation
-from app.geometry.near_points import all_within, groups, groups_within, nearest, pairs_within
+from app.geometry.near_points import all_within, groups, groups_within, nearest, pairs_meeting, pairs_within
 from app.geometry.triangulation import neighbours
 from tests.examples import examples
 
@@ -50,16 +51,48 @@ def test_all_within(points, reach: float, shift: int) -> None:
 
 
 @SOME
-@given(points=places, shift=st.floats(0.1, 0.4))
-def test_nearest(points, shift: float) -> None:
-    points, count = np.unique(points, axis=0), 2
-    if len(points) < count:
-        return
+@given(
+    points=arrays(np.float64, st.tuples(st.integers(1, 30), st.just(2)), elements=st.integers(-5, 5)),
+    shift=st.sampled_from([0.0, 0.3, 9.0]),
+    count=st.integers(1, 9),
+)
+def test_nearest(points, shift: float, count: int) -> None:
+    """Equal points and equal distances, too."""
+    count = min(count, len(points))
     with pytest.MonkeyPatch.context() as monkeypatch:
-        few, many = both(monkeypatch, lambda: nearest(points, points + shift, count)[0])
-    assert few == pytest.approx(many, abs=1e-12)
-    which = nearest(points, points + shift, count)[1]
-    assert np.linalg.norm(points[which] - (points + shift)[:, None], axis=2) == pytest.approx(few, abs=1e-12)
+        few, many = both(monkeypatch, lambda: nearest(points, points + shift, count))
+    assert few[0].tolist() == many[0].tolist()
+    clear = few[0][:, -1] > 0  # else so many points lie there that any of them will do
+    assert few[1][clear].tolist() == many[1][clear].tolist()
+    assert all(len(set(row)) == count for row in many[1].tolist())
+
+
+@SOME
+@given(
+    corners=arrays(np.float64, st.tuples(st.integers(0, 30), st.just(4)), elements=st.integers(-5, 5)),
+    owners=st.lists(st.integers(0, 9), min_size=30, max_size=30),
+)
+def test_pairs_of_boxes_that_meet(corners, owners: list[int]) -> None:
+    boxes = np.hstack([np.minimum(corners[:, :2], corners[:, 2:]), np.maximum(corners[:, :2], corners[:, 2:])])
+    owner = np.array(owners[: len(boxes)], np.int64)
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        few, many = both(monkeypatch, lambda: pairs_meeting(boxes, owner))
+    assert few.tolist() == many.tolist()
+    meeting = {
+        tuple(sorted((int(owner[j]), int(owner[k]))))
+        for j, k in combinations(range(len(boxes)), 2)
+        if (boxes[j, :2] <= boxes[k, 2:]).all() and (boxes[k, :2] <= boxes[j, 2:]).all() and owner[j] != owner[k]
+    }
+    assert few.tolist() == [list(pair) for pair in sorted(meeting)]
+
+
+def test_the_nearest_of_many_points_on_one_another_are_soon_found() -> None:
+    points = np.repeat([[1.0, 2.0], [3.0, 4.0]], 40_000, axis=0)
+    begun = time.process_time()
+    away, which = nearest(points, points, 3)
+    assert time.process_time() - begun < 2.0  # 80,000 times 40,000 distances would take five or more
+    assert away.max() == 0
+    assert (which // 40_000 == np.arange(80_000)[:, None] // 40_000).all()
 
 
 @SOME

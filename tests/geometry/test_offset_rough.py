@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -43,12 +44,31 @@ def points_of(level: OffsetLevel, most: int = 4000) -> np.ndarray:
     return points[np.linspace(0, len(points) - 1, min(len(points), most)).astype(int)]
 
 
+@dataclass(frozen=True)
+class Places:
+    """Places in and round a drawing, asked about at every level.
+
+    Attributes:
+        points: (n, 2) mm. distance: (n,) mm from the drawing. inside: (n,) whether within its areas.
+    """
+
+    points: np.ndarray
+    distance: np.ndarray
+    inside: np.ndarray
+
+    @staticmethod
+    def among(contours: list[Contour], rng: np.random.Generator) -> Places:
+        corners = np.array([curve.start for contour in contours for curve in contour.primitives])
+        points = rng.uniform(corners.min(axis=0) - 2, corners.max(axis=0) + 2, (1500, 2))
+        return Places(points, plain_distance.distance(points, contours), plain_distance.inside(points, contours))
+
+
 def check(seed: int) -> None:
     contours = rough_part(seed)
     regions = tuple(nest(contours))
     rng = np.random.default_rng(seed + 1)
     distances = np.cumsum(rng.uniform(0.05, 1.5, 5)) if seed % 3 else np.array([0.25, 0.5, 1.0, 2.0, 3.0])
-    polygons = polygons_of(regions)
+    polygons, places = polygons_of(regions), Places.among(contours, rng)
     for level in offset_levels(pack(regions), list(distances)):
         assert not any(ring.polyline for ring in level.rings)
         for ring in level.rings:
@@ -57,7 +77,7 @@ def check(seed: int) -> None:
             off = plain_distance.distance(points_of(level), contours) - level.distance
             assert off.min() >= -NEARER and off.max() <= tolerances.LEVEL
         check_area(level, polygons)
-        check_places(level, contours, rng)
+        check_places(level, places)
 
 
 def check_area(level: OffsetLevel, polygons: tuple[shapely.Geometry, ...]) -> None:
@@ -68,21 +88,15 @@ def check_area(level: OffsetLevel, polygons: tuple[shapely.Geometry, ...]) -> No
     assert any(ours == pytest.approx(theirs.area, abs=error * theirs.length + 1e-4) for theirs in buffers)
 
 
-def check_places(level: OffsetLevel, contours: list[Contour], rng: np.random.Generator) -> None:
+def check_places(level: OffsetLevel, places: Places) -> None:
     """No ring is missing and none too many: places are enclosed if they lie inside, farther from the drawing than the
     level.
     """
-    corners = np.array([curve.start for contour in contours for curve in contour.primitives])
-    places = rng.uniform(corners.min(axis=0) - 2, corners.max(axis=0) + 2, (700, 2))
-    distance = plain_distance.distance(places, contours)
-    places, distance = (
-        places[np.abs(distance - level.distance) > SURE],
-        distance[np.abs(distance - level.distance) > SURE],
-    )
-    enclosed = np.zeros(len(places), bool)
+    sure = np.abs(places.distance - level.distance) > SURE
+    points, enclosed = places.points[sure], np.zeros(int(sure.sum()), bool)
     for ring in level.rings:
-        enclosed ^= shapely.contains_xy(shapely.make_valid(shapely.Polygon(sample(ring.rows, CHORD))), places)
-    assert np.array_equal(enclosed, plain_distance.inside(places, contours) & (distance > level.distance))
+        enclosed ^= shapely.contains_xy(shapely.make_valid(shapely.Polygon(sample(ring.rows, CHORD))), points)
+    assert np.array_equal(enclosed, (places.inside & (places.distance > level.distance))[sure])
 
 
 @pytest.mark.parametrize("seed", range(4 * len(KINDS)))

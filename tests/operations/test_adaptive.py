@@ -21,7 +21,7 @@ from app.model.moves import MoveKind, Purpose
 from app.model.operation import AdaptiveOperation, CutParameters, Direction
 from app.model.part import Contour, Entity, Part, Units
 from app.model.tool import Tool
-from app.operations.adaptive.limit import EngagementLimit, engaged_angle
+from app.operations.adaptive.limit import EngagementLimit
 from app.operations.adaptive.plan import ClearingTask, mirrored, mirrored_part, plan
 from app.operations.adaptive.plan import ConnectedPath as Cleared
 from app.operations.adaptive.spiral import spiral
@@ -116,9 +116,14 @@ def greatest(rows: Floats, radius: float = R, step: float = 0.5) -> tuple[float,
     return max(most[:2]), max(most[2:])
 
 
+def engaged_angle(turn: float, clear: float) -> float:
+    """A bound of the engaged angle along a circle of radius `turn`, where no metal is within `clear` of its centre."""
+    return math.acos((clear * clear - turn * turn - R * R) / (2 * turn * R))
+
+
 def test_along_a_circle_beside_a_cleared_one_the_angle_is_greatest_where_the_formula_says() -> None:
     cleared, away, turn = 20.0, 0.5, 20.0 - R
-    bound = engaged_angle(turn, R, cleared - away)
+    bound = engaged_angle(turn, cleared - away)
     assert math.degrees(bound) == pytest.approx(36.2570, abs=1e-4)
     first = [(x, 0.0, -x, 0.0, 0.0, 0.0, turn, 1.0) for x in (turn, -turn)]
     rows = np.array([*first, (away, -turn, away, turn, away, 0.0, turn, 1.0)])
@@ -129,7 +134,7 @@ def test_along_a_circle_beside_a_cleared_one_the_angle_is_greatest_where_the_for
 
 @pytest.mark.parametrize("turn", [0.5, 3.0, 40.0])
 def test_ground_that_is_just_clear_enough_gives_the_planned_angle(turn: float) -> None:
-    assert engaged_angle(turn, R, LIMIT.clear_needed(turn) - LIMIT.slack) == pytest.approx(LIMIT.planned, abs=1e-12)
+    assert engaged_angle(turn, LIMIT.clear_needed(turn) - LIMIT.slack) == pytest.approx(LIMIT.planned, abs=1e-12)
     straight = EngagementLimit(R, ANGLE).depth
     assert straight == pytest.approx(R * (1 - math.cos(LIMIT.planned)))
 

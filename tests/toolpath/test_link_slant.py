@@ -22,7 +22,6 @@ from app.model.operation import Direction
 from app.model.part import Region
 from app.operations.compute import regions_of
 from app.operations.pocket.paths import PocketStrokes, PocketTarget, shortest
-from app.toolpath.coverage.uncut import uncut
 from app.toolpath.linking.link import LinkOptions
 from app.toolpath.linking.slant import covers
 from app.toolpath.machining_areas import MachiningArea
@@ -30,6 +29,7 @@ from tests import plain_distance
 from tests.conftest import ROOT
 from tests.examples import examples
 from tests.part_shapes import fig2, random_part
+from tests.toolpath.uncut_squares import uncut
 
 R = 1.0
 

@@ -20,7 +20,6 @@ from app.model.part import Contour
 from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke
 from app.toolpath.coverage.flat import region_shapes
-from app.toolpath.coverage.uncut import uncut
 from app.toolpath.coverage.uncut_kernels import widest
 from app.toolpath.linking import runs_kernels
 from app.toolpath.linking.bridge import RingField
@@ -29,6 +28,7 @@ from app.toolpath.linking.runs import NOTHING, GapFilling, between, fill, gaps_o
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square
+from tests.toolpath.uncut_squares import uncut
 
 
 def rings(
@@ -210,3 +210,20 @@ def test_squares_between_rings_are_those_that_each_would_be_by_itself() -> None:
         shift = np.column_stack([turn % 2 - 0.5, turn // 2 - 0.5])
         squares = np.column_stack([more[:, :2] + more[:, 2:] * shift, more[:, 2] / 2])
     assert count > 100 and sorted(map(tuple, found[:count, :3].tolist())) == sorted(expected)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_outermost_corners_of_squares_have_the_hull_of_all(seed: int) -> None:
+    """Squares of three sizes on one lattice, in groups that overlap; one group has none."""
+    rng = np.random.default_rng(seed)
+    half = 0.37 * 0.5 ** rng.integers(1, 4, 400)
+    squares = np.column_stack([2 * half[:, None] * (rng.integers(-9, 9, (400, 2)) + 0.5), half, np.zeros(400)])
+    group = rng.choice([0, 1, 3], 400)
+    corners, owner = runs_kernels.outermost(squares, group, 4)
+    assert len(corners) < 400
+    for k in range(4):
+        mine = squares[group == k]
+        all_of_them = (mine[:, None, :2] + mine[:, 2, None, None] * [[-1, -1], [-1, 1], [1, -1], [1, 1]]).reshape(-1, 2)
+        hulls = [shapely.MultiPoint(each).convex_hull for each in (all_of_them, corners[owner == k])]
+        assert hulls[0].equals_exact(hulls[1], 1e-12, normalize=True)
+        assert hulls[0].is_empty == (k == 2)

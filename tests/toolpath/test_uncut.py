@@ -18,10 +18,10 @@ from app.geometry.primitives import Rows, pack
 from app.geometry.region import nest
 from app.model.part import Contour
 from app.operations.pocket.paths import pocket_distances, without_empty
-from app.toolpath.coverage.uncut import UncutSquares, uncut
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, random_part, square
+from tests.toolpath.uncut_squares import UncutSquares, uncut
 
 
 def ringed(contours: list[Contour], first: float, step: float) -> tuple[DistanceField, tuple[OffsetLevel, ...]]:

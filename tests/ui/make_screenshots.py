@@ -30,6 +30,7 @@ from app.ui.views.nc.painting.motion_layer import MotionColourBy
 from tests.ui.curves.facets import facets
 from tests.ui.drawing_states import DrawingStates
 from tests.ui.stages.scan import scan
+from tests.ui.window_picture import seen
 
 SIZES = ((1280, 800), (1920, 1080))
 PROGRAMS = Path(__file__).resolve().parents[1] / "data" / "nc"
@@ -60,9 +61,9 @@ def computed_sample() -> WindowController:
 
 
 def take(wiring: WindowController, path: Path) -> None:
-    """Save what the window looks like."""
+    """Save what the window looks like, with what is open over it."""
     wait(400)
-    wiring.window_.grab().save(str(path))
+    seen(wiring.window_).save(str(path))
     print(path)
 
 

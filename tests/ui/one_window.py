@@ -5,12 +5,16 @@ not.
 from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication, QEvent
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QApplication, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.core.settings import Settings, ThemeChoice
+from app.drafting.commands.command import DraftingSession
+from app.drafting.difference import DrawingDifference
 from app.drafting.document import Document
 from app.ui.framework.fade import FADE_MS
+from app.ui.framework.fields import ChoiceField
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.reading_section import MODEL_SPACE
@@ -21,7 +25,9 @@ from app.ui.views.canvas.modes import CanvasTool, PathColourBy
 from app.ui.views.canvas.view_transform import ViewTransform as CanvasView
 from app.ui.views.cut.cell_colours import CutColourBy
 from app.ui.views.nc.motion_shapes import ViewSide
-from app.usecases.smooth import SmoothOptions
+from app.ui.views.nc.painting.motion_layer import MotionColourBy
+from app.ui.views.nc.program_text import program_text
+from app.usecases.smoothing.result import SmoothOptions
 from tests.ui.traces import fixed_values, left_in, traces
 
 SIZE = (1280, 800)
@@ -43,6 +49,7 @@ class OneWindow:
         self._new: dict[str, object] | None = None
         self._view = CanvasView()
         self._kept: list[tuple[object, dict[str, object]]] = []
+        self._kinds: list[tuple[QToolButton, QAction]] = []
 
     def lend(self, qtbot: QtBot) -> WindowController:
         """Return a window as it is when the program starts, shown and active."""
@@ -55,6 +62,7 @@ class OneWindow:
             if self._new is None:
                 self._view = window.canvas.view
             reset(self._wiring, self._view)
+            self._kinds = [(each, each.defaultAction()) for each in window.tool_strip.findChildren(QToolButton)]
             self._kept = [(owner, fixed_values(owner)) for owner in _prepared_when_shown(self._wiring)]
             if self._new is None:  # all new windows are alike
                 self._new = traces(self._wiring)
@@ -75,6 +83,9 @@ class OneWindow:
 
     def _put_back(self) -> None:
         """Let what is prepared anew whenever it is shown hold what it did in the beginning."""
+        for button, action in self._kinds:
+            if button.defaultAction() is not action:
+                button.setDefaultAction(action)
         for owner, values in self._kept:
             for name, value in values.items():
                 if getattr(owner, name) is not value:
@@ -136,13 +147,17 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.document.load(empty.job)
     wiring.computation.forget()
     wiring.nc.stop_comparing()
+    window.views.nc.other.show_text("", program_text(b""))
     if wiring.nc.foreign:
         wiring.nc.back()
     window.views.nc.set_side(ViewSide.XY)
+    window.views.nc.path_head.colour.show_value(MotionColourBy.TOOL)
+    window.views.nc.set_colour(MotionColourBy.TOOL)
     wiring.cut_controller.back()
     window.notice.ask("")
     window.notice.hide()
     window.command_line.edit.clear()
+    _forget_text(wiring)
     window.canvas.set_tool(CanvasTool.SELECT)
     window.actions_["tool_select"].setChecked(True)
     for name, on in (("snap", True), ("ortho", False), ("grid", False), ("log", True)):
@@ -159,6 +174,8 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.canvas.set_colour_by(PathColourBy.TOOL)
     wiring.display_controller.show_view(View.DRAW)
     _forget_start(wiring)
+    _forget_session(wiring)
+    _close_what_stands_over(wiring)
     window.side.show_page("Drawing")  # it is filled while it is seen
     window.side.show_page("Job")
     window.panel.choose(Subject(SubjectKind.OPERATION, 0))
@@ -169,6 +186,42 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     _settle()
     window.canvas.set_view(view)
     _forget_habits(wiring)
+
+
+def _forget_text(wiring: WindowController) -> None:
+    """Take away what was typed on the text page, tried, looked for and kept."""
+    control, page = wiring.language.control, wiring.language.control.page
+    if page.text or page.replaces:
+        page.text = ""
+        page.set_replaces(False)
+    control.trial_runner.leave()
+    control.trial_runner._session = DraftingSession()
+    if wiring.window_.canvas._trial != DrawingDifference():
+        wiring.window_.canvas.show_trial(DrawingDifference())
+    control._kept.clear()
+    page.editor._found = ""
+    page.finder.set_text(program_text(b""))
+
+
+def _forget_session(wiring: WindowController) -> None:
+    """Take away the session of 1986."""
+    owner = wiring.session_1986
+    if owner.session is not None and owner.tube is not None:
+        owner.leave()
+        owner.session.finish()
+        owner._workspace.activity.ended.disconnect(owner.session.finish)
+        for each in (owner.tube, owner.session):
+            each.deleteLater()
+        owner.session, owner.tube = None, None
+
+
+def _close_what_stands_over(wiring: WindowController) -> None:
+    """Take the tour and the help from the window."""
+    wiring.tour.callout.hide()
+    wiring.tour._ring.hide()
+    wiring.tour.number = 0
+    wiring.language.help.hide()
+    wiring.language.help._laid_out.clear()
 
 
 def _forget_start(wiring: WindowController) -> None:
@@ -195,6 +248,10 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
         *(reading.per_inch, reading.only, reading.layers, reading.types),
         *(curves.tolerance, curves.middle, curves.corner, curves.bend, wiring.smoothing_controller),
         *(each.field for each in form.fields.values()),
+        *(wiring.language.control.trial_runner, wiring.plot_controller, wiring.plot_controller._preview),
+        *(window.plot_panel, window.plot_panel.factor, window.canvas._trial_picture, wiring.language.help),
+        *(wiring.stages_controller, wiring.stages_controller._view.pixels),
+        *(window.stages_panel, window.stages_panel.points, window.stages_panel.pitch),
         *(form.peck_picture, form.side_picture, *window.cut_form.stock),
         *(views.cut_page.player, views.cut_page.transport.plot, wiring.files),
     )
@@ -207,6 +264,8 @@ def _empty_what_is_hidden(wiring: WindowController) -> None:
     window.drawing_page.reading.to_zero.show_value(False)
     window.drawing_page.reading.layout_.set_choices([("", MODEL_SPACE)])
     window.views.cut.legend.colour.set_choices(_COLOURS)
+    _choose_nothing(window.cut_form.heights)
+    window.plot_panel.paths.switch.setChecked(False)
     window.curves_panel.show_options(SmoothOptions(), {})
     window.curves_panel.points._fill()
     window.views.curves.comb.setChecked(False)
@@ -226,6 +285,13 @@ def _empty_what_is_hidden(wiring: WindowController) -> None:
     card.text.setText("")
 
 
+def _choose_nothing(field: ChoiceField) -> None:
+    field._group.setExclusive(False)
+    for button in field.buttons.values():
+        button.setChecked(False)
+    field._group.setExclusive(True)
+
+
 def _settle() -> None:
     """Let what is due happen, and what was thrown away go."""
     QApplication.processEvents()
@@ -234,7 +300,11 @@ def _settle() -> None:
 
 
 def _forget_habits(wiring: WindowController) -> None:
-    """Let nobody remember what was typed and drawn last."""
+    """Let nobody remember what was typed and drawn last, and where the mouse was."""
+    legend = wiring.window_.views.legend
+    legend.fold.setChecked(False)
+    legend._folded_for_room = False
+    wiring.window_.canvas.mouse = None
     line, runner = wiring.window_.command_line, wiring.window_.canvas.runner
     line._typed.clear()
     line._at = 0

@@ -15,9 +15,9 @@ from pathlib import Path
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEventLoop, QPoint, QTimer
-from PySide6.QtGui import QFontMetrics, QImage, QPainter, QPixmap
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtCore import QEventLoop, QTimer
+from PySide6.QtGui import QFontMetrics, QImage, QPixmap
+from PySide6.QtWidgets import QApplication
 
 from app.core.settings import ThemeChoice
 from app.ui.framework.theme import text_font
@@ -25,6 +25,7 @@ from app.ui.shell.start import build
 from app.ui.shell.window_controller import WindowController
 from tests.ui.drawing_states import DrawingStates
 from tests.ui.scene_states import scene_states
+from tests.ui.window_picture import seen
 
 Picture = NDArray[np.uint8]
 
@@ -40,17 +41,6 @@ def wait(milliseconds: int) -> None:
     loop = QEventLoop()
     QTimer.singleShot(milliseconds, loop.quit)
     loop.exec()
-
-
-def seen(window: QWidget) -> QPixmap:
-    """Return what is on the screen where the window is: itself, and the menus, lists and windows over it."""
-    picture, origin = window.grab(), window.mapToGlobal(QPoint(0, 0))
-    painter = QPainter(picture)
-    for other in QApplication.topLevelWidgets():
-        if other.isVisible() and not isinstance(other, type(window)):
-            painter.drawPixmap(other.mapToGlobal(QPoint(0, 0)) - origin, other.grab())
-    painter.end()
-    return picture
 
 
 def small(picture: QPixmap) -> Picture:

@@ -11,6 +11,7 @@ from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Line
 from app.ui.framework.theme import LIGHT
 from app.ui.views.canvas.canvas import BitmapFrame, Canvas, CanvasTool
+from app.ui.views.canvas.painting.grid import cells_shown
 from app.ui.views.canvas.view_transform import ViewTransform
 
 LEFT, RIGHT, MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton, Qt.MouseButton.MiddleButton
@@ -348,11 +349,11 @@ def test_what_was_fitted_stays_fitted_when_the_widget_changes(qtbot: QtBot) -> N
 
 def test_cells_show_when_a_pixel_is_six_screen_pixels(hand: Hand) -> None:
     hand.canvas.set_view(ViewTransform(23.9, 100, 500))
-    assert not hand.canvas.cells_shown
+    assert not cells_shown(hand.canvas.view, hand.canvas.frame)
     hand.canvas.set_view(ViewTransform(24.0, 100, 500))
-    assert hand.canvas.cells_shown
+    assert cells_shown(hand.canvas.view, hand.canvas.frame)
     hand.canvas.frame = BitmapFrame(100, 100, 0.1)
-    assert not hand.canvas.cells_shown
+    assert not cells_shown(hand.canvas.view, hand.canvas.frame)
 
 
 def test_characters_go_to_the_command_line(hand: Hand) -> None:

@@ -23,6 +23,7 @@ from app.ui.framework.theme import LIGHT, TEXT_PX, text_font
 from app.ui.panels.changes import Subject, SubjectKind, with_tool
 from app.ui.panels.lists import OperationTimes
 from app.ui.panels.side_panel import WIDTH, SidePanel
+from tests.ui.fields_typed import enter
 
 SCROLL_BAR_PX = 8
 
@@ -40,12 +41,14 @@ def panel(qtbot, document):
     return made
 
 
-def enter(qtbot, field, text: str) -> None:
-    """Replace what stands in a field, as a person does."""
-    field.edit.setFocus()
-    field.edit.selectAll()
-    qtbot.keyClicks(field.edit, text)
-    qtbot.keyClick(field.edit, Qt.Key.Key_Return)
+def test_notes_for_the_sheet_are_written_and_undone(qtbot, document, panel):
+    panel.choose(Subject(SubjectKind.JOB))
+    enter(qtbot, panel.job_form.clamping, "  two vices ")
+    enter(qtbot, panel.job_form.zero, "3D taster")
+    assert (document.job.clamping_note, document.job.zero_note) == ("two vices", "3D taster")
+    document.undo()
+    assert document.job.zero_note == panel.job_form.zero.edit.text() == ""
+    assert document.job.clamping_note == panel.job_form.clamping.edit.text() == "two vices"
 
 
 def test_every_post_can_be_chosen_by_its_title(qtbot, document, panel):

@@ -75,11 +75,71 @@ def test_an_opened_drawing_offers_a_proposal_and_keeps_its_operations(qtbot, wir
         wiring.files.open_file(path)
     notice = wiring.window_.notice
     assert notice.isVisible()
-    assert [each.text() for each in notice.buttons] == ["Propose operations"]
+    assert [each.text() for each in notice.buttons] == ["Propose operations", "Keep the operations there are"]
     assert wiring.document.job.operations == before
     with qtbot.waitSignal(wiring.proposal_controller.worker.done, timeout=WAIT_MS):
         notice.buttons[0].click()
     assert isinstance(wiring.document.job.operations[0], DrillOperation)
+
+
+def opened(qtbot, wiring, path):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
+        wiring.files.open_file(path)
+    return wiring.document.job.operations
+
+
+def computed_at_once(qtbot, wiring):
+    """Press F5 and wait for the paths."""
+    wiring.window_.actions_["compute"].trigger()
+    ended = (ComputationState.CURRENT, ComputationState.FAILED)
+    qtbot.waitUntil(lambda: wiring.computation.state in ended, timeout=WAIT_MS)
+    assert wiring.computation.state is ComputationState.CURRENT, wiring.computation.error
+    return [type(each) for each in wiring.document.job.operations]
+
+
+def test_an_opened_drawing_is_proposed_for_at_its_first_compute_alone(qtbot, wiring, tmp_path):
+    path = tmp_path / "plate.draw"
+    path.write_text("\n".join(PLATE) + "\n")
+    before = opened(qtbot, wiring, path)
+    kinds = computed_at_once(qtbot, wiring)
+    assert kinds[0] is DrillOperation
+    assert kinds[-1] is ContourOperation
+    assert [each.text() for each in wiring.window_.notice.buttons] == ["As in 1986", "Undo"]
+    wiring.window_.actions_["undo"].trigger()
+    assert wiring.document.job.operations == before
+    assert computed_at_once(qtbot, wiring) == [type(each) for each in before]
+
+
+def test_operations_that_were_said_stay_at_the_first_compute(qtbot, wiring, tmp_path):
+    path = tmp_path / "plate.draw"
+    path.write_text("\n".join(PLATE) + "\n")
+    opened(qtbot, wiring, path)
+    wiring.window_.notice.buttons[1].click()
+    assert not wiring.proposal_controller.due
+    opened(qtbot, wiring, path)
+    assert wiring.proposal_controller.due
+    wiring.window_.panel.operations.added.emit(DrillOperation)
+    assert not wiring.proposal_controller.due
+
+
+def test_fig_2_keeps_the_rule_of_1986_wherever_it_lies(qtbot, wiring, samples, tmp_path):
+    path = tmp_path / "drawn.dxf"
+    path.write_bytes((samples / "fig2.dxf").read_bytes())
+    before = opened(qtbot, wiring, path)
+    assert wiring.proposal_controller.due
+    computed_at_once(qtbot, wiring)
+    assert wiring.document.job.operations == before
+
+
+def test_what_has_nothing_to_propose_is_computed_as_it_stands(qtbot, wiring, tmp_path):
+    path = tmp_path / "gap.draw"
+    path.write_text("line 0,0 20,0 20,20 0,0.5\n")
+    before = opened(qtbot, wiring, path)
+    wiring.window_.actions_["compute"].trigger()
+    qtbot.waitUntil(lambda: not wiring.proposal_controller.worker.busy, timeout=WAIT_MS)
+    assert not wiring.proposal_controller.due
+    assert wiring.computation.state is not ComputationState.NONE
+    assert wiring.document.job.operations == before
 
 
 def test_the_plus_menu_of_the_operations_proposes(qtbot, plate):

@@ -17,7 +17,7 @@ class Counter(Controller):
     def __init__(self, label: QLabel, workspace: Workspace) -> None:
         super().__init__(label)
         self.label, self.document, self.seen = label, workspace.document, False
-        self._unsubscribe = self.document.subscribe(lambda _: self.show())
+        self.document.subscribe(lambda _: self.show())
 
     def show(self) -> None:
         self.label.setText(str(len(self.document.part.entities)))

@@ -110,7 +110,8 @@ def test_export_of_a_changed_job_computes_first_and_shows_findings_before_the_fi
 
 def test_cancel_is_answered_within_0_2_s(qtbot, wiring, data):
     wiring.files.open_file(data / "dxf" / "complex.dxf")
-    qtbot.waitUntil(lambda: bool(wiring.document.part.entities), timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: wiring.proposal_controller.due, timeout=WAIT_MS)
+    qtbot.mouseClick(wiring.window_.notice.buttons[1], Qt.MouseButton.LeftButton)
     press(qtbot, wiring, Qt.Key.Key_F5)
     assert wiring.computation.state is ComputationState.RUNNING
     qtbot.waitUntil(lambda: wiring.window_.status.bar.value() > 0, timeout=WAIT_MS)
@@ -287,9 +288,10 @@ def test_legend_switches_layers(qtbot, computed):
 
 def test_legend_tells_of_left_material_only_when_there_is_some(qtbot, wiring):
     rows = wiring.window_.views.legend.rows
+    wiring.display_controller.show_view(View.PATHS)
 
     def compute():
-        wiring.compute()
+        wiring.computation.start()
         qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
 
     wiring.document.run("circle 50,50 20")
@@ -398,4 +400,5 @@ def test_words_of_the_window_can_be_typed(qtbot, wiring):
     for words in ("rect 0,0 40,30", "compute"):
         qtbot.keyClicks(line, words)
         qtbot.keyClick(line, Qt.Key.Key_Return)
-    assert wiring.computation.state is ComputationState.RUNNING
+        qtbot.waitUntil(lambda: bool(wiring.document.part.entities), timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.RUNNING, timeout=WAIT_MS)

@@ -104,11 +104,25 @@ def _walk(wiring: WindowController) -> Iterator[tuple[str, object]]:
             yield way, value
         elif id(value) not in seen:
             seen.add(id(value))
-            if isinstance(value, QWidget) and value.parent() is None:
-                yield from _shown(way, value)
-            if isinstance(value, QAbstractButton) and value.isCheckable():  # a form's choice is none of its attributes
-                yield f"{way} checked", value.isChecked()
-            waiting.extend((way + step, part) for step, part in _parts(value))
+            if _is_seen(type(value)):
+                yield from _seen_of(way, value)
+            for step, part in _parts(value):
+                if _sort_of(type(part)) is _Sort.SIMPLE:  # most are, and need not wait
+                    yield way + step, part
+                else:
+                    waiting.append((way + step, part))
+
+
+@cache
+def _is_seen(kind: type) -> bool:
+    return issubclass(kind, QWidget)
+
+
+def _seen_of(way: str, value: object) -> Iterator[tuple[str, object]]:
+    if isinstance(value, QWidget) and value.parent() is None:
+        yield from _shown(way, value)
+    if isinstance(value, QAbstractButton) and value.isCheckable():  # a form's choice is none of its attributes
+        yield f"{way} checked", value.isChecked()
 
 
 def fixed_values(owner: object) -> dict[str, object]:
@@ -146,13 +160,13 @@ def _parts(value: object) -> Iterator[tuple[str, object]]:
         yield ".len", len(value)
     elif sort is _Sort.GROUP or sort is _Sort.OURS:
         for name in _names(value):
-            part = getattr(value, name, None)
-            if name not in _UNTOLD and type(part) not in _CODE:
+            if name not in _UNTOLD and type(part := getattr(value, name, None)) not in _CODE:
                 yield f".{name}", part
 
 
-def _names(value: object) -> list[str]:
-    return list(dict.fromkeys([*getattr(value, "__dict__", {}), *_slots(type(value))]))
+def _names(value: object) -> Iterable[str]:
+    slots, own = _slots(type(value)), getattr(value, "__dict__", {})
+    return dict.fromkeys([*own, *slots]) if slots else own
 
 
 @cache
@@ -227,12 +241,12 @@ _MISSING = object()
 
 
 def _alike(a: object, b: object) -> bool:
-    if isinstance(a, float) and isinstance(b, float):
-        return a == b or (a != a and b != b)
-    if type(a) is not type(b):
-        return False
     if a is b:
         return True
+    if type(a) is not type(b):
+        return False
+    if isinstance(a, float) and isinstance(b, float):
+        return a == b or (a != a and b != b)
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
         return a.shape == b.shape and a.dtype == b.dtype and a.tobytes() == b.tobytes()
     if isinstance(a, tuple) and isinstance(b, tuple):

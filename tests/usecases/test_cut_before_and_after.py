@@ -31,7 +31,8 @@ from app.simulation.cutter import Cutter
 from app.simulation.field.workpiece import BoxStock, Grid
 from app.simulation.sweeps.course import Course, Rapids, TrimOptions
 from app.simulation.sweeps.trim import trim
-from app.usecases.smooth import OutputForm, SmoothedProgram, SmoothOptions, smooth
+from app.usecases.smoothing.result import OutputForm, SmoothedProgram, SmoothOptions
+from app.usecases.smoothing.smooth import smooth
 from app.verify.course import course_of, picked
 from tests.simulation.courses import joined
 from tests.usecases.test_smooth_oracle import WAYS, program

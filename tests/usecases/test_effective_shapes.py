@@ -18,8 +18,9 @@ from scipy.spatial import cKDTree
 from app.core.errors import InputError
 from app.fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
 from app.fitting.point_curves.effective_points import EffectiveOptions
-from app.usecases.smooth import OutputForm, SmoothedProgram, SmoothOptions, smooth
-from app.usecases.smooth_report import report
+from app.usecases.smoothing.report import report
+from app.usecases.smoothing.result import OutputForm, SmoothedProgram, SmoothOptions
+from app.usecases.smoothing.smooth import smooth
 from tests.usecases.written_curves import Floats, moves_of
 
 Shape = Callable[[Floats], Floats]

@@ -12,7 +12,7 @@ import pytest
 
 from app.core.effort import Reckoning
 from app.core.progress import Progress
-from app.formats.scene.toml import sources_of
+from app.formats.scene.toml import read_scene, sources_of
 from app.gcode.interpreter.reader import read_program
 from app.model.curves import Curve
 from app.model.stock_box import StockBox
@@ -27,10 +27,10 @@ from app.usecases.bitmap_way import compute_on_bitmap
 from app.usecases.cut import CutOptions, CutSetup, cut
 from app.usecases.effort import cut_effort
 from app.usecases.make import finish
-from app.usecases.smooth import smooth
-from app.usecases.smooth_effort import smooth_effort
-from app.usecases.smooth_result import OutputForm, SmoothOptions
-from app.usecases.surface import read_and_compute
+from app.usecases.smoothing.effort import smooth_effort
+from app.usecases.smoothing.result import OutputForm, SmoothOptions
+from app.usecases.smoothing.smooth import smooth
+from app.usecases.surface import compute
 from tests.conftest import ROOT
 from tests.operations.test_reckoning import holes, job_of, square, wavy
 
@@ -76,7 +76,7 @@ def test_a_long_cut_is_announced() -> None:
 
 def test_a_long_scene_is_announced() -> None:
     with pytest.raises(HeardError, match=r"about \d+ minutes: .* passes over .* facets"):
-        read_and_compute("a.toml", spheres(0.005), NO_FILES, Progress(remarks=stop))
+        compute(read_scene("a.toml", spheres(0.005)), NO_FILES, Progress(remarks=stop))
 
 
 def test_a_long_smoothing_is_announced() -> None:
@@ -162,7 +162,7 @@ def test_what_is_said_of_jobs_on_pixels_is_within_a_factor_of_three(
 def test_what_is_said_of_scenes_is_within_a_factor_of_three() -> None:
     said: list[str] = []
     begun = time.process_time()
-    read_and_compute("a.toml", spheres(0.1), NO_FILES, Progress(remarks=said.append))
+    compute(read_scene("a.toml", spheres(0.1)), NO_FILES, Progress(remarks=said.append))
     took = time.process_time() - begun
     seconds = float(re.search(r"about (\d+) seconds", said[0])[1])  # type: ignore[index]
     assert took / WITHIN < seconds < took * WITHIN

@@ -9,7 +9,8 @@ import pytest
 
 from app.fitting.point_curves.effective_method import EffectiveMethod, states_across
 from app.fitting.point_curves.effective_points import EffectiveOptions, PointState
-from app.usecases.smooth import SmoothedProgram, SmoothOptions, smooth
+from app.usecases.smoothing.result import SmoothedProgram, SmoothOptions
+from app.usecases.smoothing.smooth import smooth
 
 R, SIDES, PASSES = 40.0, 14, 9
 

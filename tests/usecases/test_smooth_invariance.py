@@ -22,7 +22,8 @@ from app.fitting.point_curves.proven_curve import SplineOptions, fit_splines
 from app.fitting.point_curves.space_curve import curve_of_motions
 from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
 from app.gcode.posts.posts import load_post
-from app.usecases.smooth import OutputForm, SmoothOptions, smooth
+from app.usecases.smoothing.result import OutputForm, SmoothOptions
+from app.usecases.smoothing.smooth import smooth
 from tests.examples import examples
 from tests.usecases.test_smooth_oracle import WAYS, closed, eight, helix, noisy, paired, program, quantised, twisted
 from tests.usecases.written_curves import Floats, along, moves_of, off

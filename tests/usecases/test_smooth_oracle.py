@@ -14,8 +14,9 @@ import numpy as np
 import pytest
 
 from app.gcode.posts.posts import load_post
-from app.usecases.smooth import OutputForm, SmoothedProgram, SmoothOptions, smooth
-from app.usecases.smooth_report import report
+from app.usecases.smoothing.report import report
+from app.usecases.smoothing.result import OutputForm, SmoothedProgram, SmoothOptions
+from app.usecases.smoothing.smooth import smooth
 from tests.usecases.written_curves import Floats, along, in_order, long, moves_of, off, spread
 
 HEAD = "G21 G90 G17 G94 G40 G49 G80\nT1 M6\nS8000 M3\nG0 X{:.4f} Y{:.4f} Z5\nG1 Z{:.4f} F200\n"

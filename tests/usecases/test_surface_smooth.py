@@ -15,8 +15,8 @@ from app.formats.scene.toml import read_scene, sources_of
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import Floats, MotionKind
-from app.usecases.better.improve import BetterOptions
-from app.usecases.smooth_result import OutputForm
+from app.usecases.better.result import BetterOptions
+from app.usecases.smoothing.result import OutputForm
 from app.usecases.surface import compute
 from app.usecases.surface_files import MadeScene, SceneOutputs, scene_files
 from app.usecases.surface_nc import write_scene_nc

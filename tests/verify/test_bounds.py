@@ -21,8 +21,9 @@ from app.toolpath.coverage.coverage import measure
 from app.toolpath.coverage.floor_target import floor_targets
 from app.usecases.make import export
 from app.verify.bounds import bounds_of
-from app.verify.verdict import clamps_met, deepest_of, gouge, gouge_depths
+from app.verify.verdict import clamps_met, deepest_of, gouge_depths
 from tests.gcode.programs import Path, square
+from tests.verify.test_gouge import gouge
 
 LEFT, RIGHT = square(0, 0, 20, 20), replace(square(30, 0, 50, 20), number=2)
 POCKET = PocketOperation(CutParameters(1, 2.0))

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from app.verify.clearance import curve_distance, nearest_on
+from app.verify.clearance import curve_distance
 from tests.examples import examples
 
 numbers = st.floats(-10, 10).map(lambda value: round(value, 3))
@@ -77,9 +77,3 @@ def test_distance_is_that_of_dense_points(first: tuple[float, ...], second: tupl
 def test_known_distances(first: tuple[float, ...], second: tuple[float, ...], expected: float) -> None:
     distance, _ = curve_distance(np.array([first], float), np.array([second], float))
     assert distance[0] == pytest.approx(expected, abs=1e-12)
-
-
-def test_nearest_point_of_an_arc_is_an_end_outside_its_sweep() -> None:
-    quarter = np.array([[1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0]])
-    assert nearest_on(quarter, np.array([[3.0, -2.0]]))[0] == pytest.approx([1.0, 0.0])
-    assert nearest_on(quarter, np.array([[3.0, 3.0]]))[0] == pytest.approx([math.sqrt(0.5)] * 2)

@@ -13,11 +13,18 @@ import pytest
 from app.core.errors import Cancelled
 from app.core.progress import Progress
 from app.model.curves import Circle
+from app.model.job import Job
+from app.model.moves import Program
 from app.model.part import Contour, Region
-from app.verify.verdict import gouge, gouge_depths, rapids_in_material
+from app.verify.verdict import Gouge, deepest_of, gouge_depths, rapids_in_material
 from tests.gcode.programs import Path, job, square
 
 ISLAND = Contour((Circle((20.0, 15.0), 4.0, ccw=False),))
+
+
+def gouge(program: Program, task: Job) -> Gouge:
+    """The deepest gouge of a program."""
+    return deepest_of(gouge_depths(program, task))
 
 
 def ring(inset: float) -> Path:

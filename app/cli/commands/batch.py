@@ -26,6 +26,14 @@ from ..signals import StopFlag, undisturbed
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do what is not done yet and return the exit status: 0 all clean, 1 not all."""
     batch = planned(arguments)
+    try:
+        return _done(arguments, batch, stopped)
+    finally:
+        batch.store.close()
+
+
+def _done(arguments: argparse.Namespace, batch: PlannedBatch, stopped: StopFlag) -> int:
+    """Do what is planned and return the exit status."""
     stopped.kept = "what was done is kept, and the same command goes on with the rest"
     progress = shown_progress(arguments.quiet, stopped)
     done = len(batch.rows) - len(batch.pending)

@@ -13,12 +13,13 @@ from ...formats.sheet.write import sheet_bytes
 from ...usecases.cut import cut
 from ...usecases.cut_report import cut_report
 from ...usecases.examine import ExaminedProgram
-from ...usecases.setup import setup_of
-from ...usecases.sheet.program import SheetCut, program_sheet
+from ...usecases.setup import SetupRequest, setup_of
+from ...usecases.sheet.program import SheetCut, SheetNotes, program_sheet
 from ..command import CliCommand, OptionParser
 from ..cut_options import add_cut_options, check_cut_arguments
 from ..cut_request import cut_files, examined_programs, requested_look, setup_request
 from ..files import check_outputs, shown_progress
+from ..machining_options import add_note_options
 from ..outcome import CommandOutcome
 from ..signals import StopFlag
 
@@ -34,6 +35,7 @@ def add_sheet_options(parser: OptionParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="OUT.pdf|html", type=Path, required=True, help="the sheet, for A4 or for a browser"
     )
+    add_note_options(parser)
     add_cut_options(parser)
 
 
@@ -56,22 +58,30 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     check_outputs({"output": arguments.output}, arguments.programs)
     progress = shown_progress(arguments.quiet, stopped)
     programs = examined_programs(arguments, progress.part(0.0, 0.2))
-    done, why = _cut(arguments, programs, progress.part(0.2, 0.95))
+    request = setup_request(arguments)
+    done, why = _cut(arguments, programs, request, progress.part(0.2, 0.95))
     files = {f"program {path.name}": read_input(path) for path in arguments.programs}
     if arguments.against is not None:
         files = {f"part {arguments.against.name}": read_input(arguments.against), **files}
-    sheet = program_sheet(programs, files, done, why)
+    sheet = program_sheet(programs, files, done, why, _notes(arguments, request))
     lines = [f"{arguments.output}: {sheet.verdict}"]
     return CommandOutcome({arguments.output: sheet_bytes(sheet, suffix)}, lines, bool(sheet.findings)).delivered(
         arguments, progress
     )
 
 
+def _notes(arguments: argparse.Namespace, request: SetupRequest) -> SheetNotes:
+    """Return what is to be written on the sheet: as said, or as the job has it."""
+    job = request.job.job if request.job else None
+    kept = SheetNotes(job.clamping_note, job.zero_note) if job else SheetNotes()
+    clamping, zero = arguments.clamping, arguments.zero
+    return SheetNotes(kept.clamping if clamping is None else clamping, kept.zero if zero is None else zero)
+
+
 def _cut(
-    arguments: argparse.Namespace, programs: tuple[ExaminedProgram, ...], progress: Progress
+    arguments: argparse.Namespace, programs: tuple[ExaminedProgram, ...], request: SetupRequest, progress: Progress
 ) -> tuple[SheetCut | None, str]:
     """Return the program, cut out of its stock, or why it cannot be."""
-    request = setup_request(arguments)
     try:
         ready = setup_of(programs, request, progress.part(0.0, 0.1))
     except HitofudeError as error:

@@ -6,8 +6,9 @@ import argparse
 
 from ...core.input_file import read_input
 from ...gcode.interpreter.dialect import DIALECT_RULES
-from ...usecases.smooth import SmoothedProgram, smooth
-from ...usecases.smooth_report import certificate, findings, report_text
+from ...usecases.smoothing.report import certificate, findings, report_text
+from ...usecases.smoothing.result import SmoothedProgram
+from ...usecases.smoothing.smooth import smooth
 from ..command import CliCommand
 from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome

@@ -140,7 +140,7 @@ class Kernel:
 
 
 def _store() -> Store:
-    return store(numba_loader.version())
+    return store(numba_loader.versions())
 
 
 def kernel(signature: str, counts: bool = True) -> Callable[[Compiled], Compiled]:

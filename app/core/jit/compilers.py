@@ -214,4 +214,4 @@ def _asked(process: subprocess.Popen[str], name: str) -> str | None:
 @cache
 def compilers() -> Compilers:
     """Return the one that works for this process."""
-    return Compilers(store(numba_loader.version()))
+    return Compilers(store(numba_loader.versions()))

@@ -14,28 +14,30 @@ from importlib.machinery import ModuleSpec
 from types import FunctionType, ModuleType
 from typing import Any
 
+from .processors import plainer_processors
+
 
 class _ImportBlocker:
-    """Hides a library from the imports of one thread."""
+    """Hides libraries from the imports of one thread."""
 
-    def __init__(self, library: str) -> None:
-        self._library, self._thread = library, threading.get_ident()
+    def __init__(self, *libraries: str) -> None:
+        self._libraries, self._thread = libraries, threading.get_ident()
 
     def find_spec(
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Refuse the library, and leave all others to whoever comes next."""
-        if name.split(".")[0] == self._library and threading.get_ident() == self._thread:
+        """Refuse these libraries, and leave all others to whoever comes next."""
+        if name.split(".")[0] in self._libraries and threading.get_ident() == self._thread:
             raise ImportError(f"{name} is not needed here")
         return None
 
 
 @contextmanager
-def _without_scipy() -> Iterator[None]:
-    """Let numba do without scipy, which it would import for linear algebra that no kernel uses: 0.16 s of every
-    start.
+def _light() -> Iterator[None]:
+    """Let numba do without scipy, which it would import for linear algebra that no kernel uses, and without yaml, in
+    which it would read settings from the folder that a command is given in: 0.16 and 0.02 s of every start.
     """
-    hidden = _ImportBlocker("scipy")
+    hidden = _ImportBlocker("scipy", "yaml")
     sys.meta_path.insert(0, hidden)
     try:
         yield
@@ -46,7 +48,7 @@ def _without_scipy() -> Iterator[None]:
 @cache
 def _numba() -> Any:
     plugins = _no_plugins()
-    with _without_scipy():
+    with _light():
         import numba
     numba.core.entrypoints = plugins
     return numba
@@ -64,7 +66,7 @@ def _no_plugins() -> ModuleType:
 @cache
 def _compiler() -> None:
     """Load what compiling needs, which the machine code of kernels does not."""
-    with _without_scipy():
+    with _light():
         from numba.core.registry import cpu_target
 
         cpu_target.target_context.refresh()
@@ -72,12 +74,22 @@ def _compiler() -> None:
 
 
 @cache
-def version() -> str:
-    """Return a name for compiler and processor: machine code of one is of no use for another."""
+def versions() -> tuple[str, ...]:
+    """Return names for compiler and processor: first of this one, for which machine code is compiled, then of plainer
+    ones, whose machine code runs here as well; that of any other is of no use.
+    """
+    import llvmlite.binding as llvm
+
+    own = _numba().core.registry.cpu_target.target_context.codegen().magic_tuple()
+    levels = plainer_processors(own[0], llvm.get_host_cpu_features())
+    return tuple(dict.fromkeys(map(_version, (own, *((own[0], level, "") for level in levels)))))
+
+
+def _version(processor: tuple[str, str, str]) -> str:
+    """Return the name for this compiler and a processor: triple, name and features, as LLVM has them."""
     numba = _numba()
     import llvmlite
 
-    processor = numba.core.registry.cpu_target.target_context.codegen().magic_tuple()
     text = repr((sys.version_info[:3], numba.__version__, llvmlite.__version__, processor, numba.config.OPT))
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 
@@ -173,7 +185,7 @@ def load(made: Any, code: bytes) -> None:
     """
     from numba.core.compiler import CompileResult
 
-    with _without_scipy():  # which what is unpickled may import too
+    with _light():  # which what is unpickled may import too
         library, function, environment, signature, *_, reloaded, environments = _Unpickler(io.BytesIO(code)).load()
     for each in reloaded:
         each()

@@ -44,10 +44,10 @@ class Store:
 
     Attributes:
         folder: where they are; None: nothing is kept.
-        shipped: what came with the program, which is read and never changed.
+        shipped: folders of what came with the program, the best first, which are read and never changed.
     """
 
-    def __init__(self, folder: Path | None, kept: bool = True, shipped: Path | None = None) -> None:
+    def __init__(self, folder: Path | None, kept: bool = True, shipped: tuple[Path, ...] = ()) -> None:
         self.folder, self.shipped = folder, shipped
         self._useless: set[str] = set()  # of what came with the program
         self._silent = False
@@ -62,22 +62,25 @@ class Store:
 
     def has(self, name: str) -> bool:
         """Return whether there is an entry; it may turn out to be damaged."""
-        path, other = self.path(name), self._shipped(name)
-        return (path is not None and path.exists()) or (other is not None and other.exists())
+        path = self.path(name)
+        return (path is not None and path.exists()) or any(other.exists() for other in self._shipped(name))
 
     def read(self, name: str) -> bytes | None:
         """Return an entry's content, or None where there is none that is whole; a damaged one is removed."""
-        own, shipped = self.path(name), self._shipped(name)
+        own = self.path(name)
         if own is not None and (data := _read(own, _is_own)) is not None:
             if (content := _content(name, data)) is not None:
                 return content
             _remove(own)
-        if shipped is not None and (data := _read(shipped, _is_as_safe_as_the_code)) is not None:
-            return _content(name, data)
+        for path in self._shipped(name):
+            data = _read(path, _is_as_safe_as_the_code)
+            content = None if data is None else _content(name, data)
+            if content is not None:
+                return content
         return None
 
-    def _shipped(self, name: str) -> Path | None:
-        return None if self.shipped is None or name in self._useless else self.shipped / name
+    def _shipped(self, name: str) -> tuple[Path, ...]:
+        return () if name in self._useless else tuple(folder / name for folder in self.shipped)
 
     def drop(self, name: str) -> None:
         """Remove an entry that is of no use; one that came with the program is not asked for again."""
@@ -209,27 +212,35 @@ def _all_own(base: Path, *names: str) -> Path | None:
     return folder
 
 
-def open_store(version: str) -> Store:
-    """Return the store of one version of compiler and processor, in the first place that is safe and can be written.
+def open_store(versions: tuple[str, ...]) -> Store:
+    """Return the store of a compiler and a processor, in the first place that is safe and can be written.
+
+    Args:
+        versions: of both; then those whose machine code is of use, too, where it came with the program.
 
     That is the user's cache folder; else one in the temporary folder that is this user's alone; else a fresh one,
     removed when the program ends.
     """
+    shipped = _shipped_folders(versions)
     own = f"hitofude-{os.geteuid()}" if hasattr(os, "geteuid") else "hitofude"
     for base in (Path(platformdirs.user_cache_dir("hitofude")), Path(tempfile.gettempdir()) / own):
-        folder = _all_own(base, "kernels", version)
+        folder = _all_own(base, "kernels", versions[0])
         if folder is not None:
-            return Store(folder, shipped=_SHIPPED / version)
+            return Store(folder, shipped=shipped)
     try:
         fresh = Path(tempfile.mkdtemp(prefix="hitofude-"))
     except OSError:
-        return Store(None, shipped=_SHIPPED / version)
+        return Store(None, shipped=shipped)
     atexit.register(shutil.rmtree, fresh, ignore_errors=True)
-    return Store(_all_own(fresh, "kernels", version), kept=False, shipped=_SHIPPED / version)
+    return Store(_all_own(fresh, "kernels", versions[0]), kept=False, shipped=shipped)
 
 
 @cache
-def store(version: str) -> Store:
+def store(versions: tuple[str, ...]) -> Store:
     """Return this process's store: the one that the process which started this one names, or see `open_store`."""
     named = os.environ.get(FOLDER_VARIABLE)
-    return Store(Path(named), shipped=_SHIPPED / version) if named else open_store(version)
+    return Store(Path(named), shipped=_shipped_folders(versions)) if named else open_store(versions)
+
+
+def _shipped_folders(versions: tuple[str, ...]) -> tuple[Path, ...]:
+    return tuple(_SHIPPED / version for version in versions)

@@ -175,7 +175,7 @@ def _one_line(a: Line, b: Line, joints: list[Point]) -> Line | None:
 
 
 def _one_arc(a: Arc, b: Arc) -> Arc | Circle | None:
-    from ...geometry.chaining.pieces import equally_far  # not when the window opens
+    from ...geometry.arcs.arcs import equally_far  # not when the window opens
 
     if (
         a.ccw != b.ccw

@@ -43,7 +43,7 @@ def _line(stays: Line, goes: Line, ends: Sequence[Point], tolerance: float) -> L
 
 
 def _round(stays: Arc | Circle, goes: Arc | Circle, ends: Sequence[Point], tolerance: float) -> Arc | Circle | None:
-    from ...geometry.chaining.pieces import equally_far  # not when the window opens
+    from ...geometry.arcs.arcs import equally_far  # not when the window opens
 
     (first, turn), (other, there) = turn_of(stays), turn_of(goes)
     ahead, behind = (other - first) % math.tau, (first - other) % math.tau

@@ -96,7 +96,8 @@ def _pieces(contour: CurveChain) -> list[OffsetPiece]:
 
 def _between(piece: Line | Arc, start: Point, end: Point) -> Line | Arc | None:
     """Return a line or arc from and to points that lie within WELD of its ends; None where it is shorter than that."""
-    from ...geometry.chaining.pieces import equally_far, straightened  # not when the window opens
+    from ...geometry.arcs.arcs import equally_far  # not when the window opens
+    from ...geometry.chaining.pieces import straightened  # not when the window opens
 
     if math.dist(start, end) <= WELD:
         return None

@@ -61,14 +61,6 @@ class Arguments:
         """
         self._effort.taken(curves, share, self._command.place)
 
-    def raw(self, expected: str) -> str:
-        """Step over the next argument and return it as it was written.
-
-        Raises:
-            CommandError: there is none; `expected` says what was wanted.
-        """
-        return self._text_of(self._next(expected))
-
     def accept(self, *words: str) -> str:
         """Step over the next argument when it is one of these words, and return it in lower case; else return ""."""
         if (

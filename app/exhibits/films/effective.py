@@ -13,7 +13,8 @@ from ...fitting.point_curves.correction import Correction, CorrectionCurve, Corr
 from ...fitting.point_curves.effective_method import EffectiveMethod
 from ...fitting.point_curves.effective_points import EffectiveOptions, PointState, effective_points
 from ...model.motion import Floats
-from ...usecases.smooth import SmoothedProgram, SmoothOptions, smooth
+from ...usecases.smoothing.result import SmoothedProgram, SmoothOptions
+from ...usecases.smoothing.smooth import smooth
 from .measures import distances_to_polyline, feet_on_polyline
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
 from .step_drawing import AMBER, BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, GREEN, LINE, PURPLE, RED, StepDrawing

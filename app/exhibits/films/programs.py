@@ -8,7 +8,7 @@ from ...fitting.point_curves.effective_method import without_repeats
 from ...gcode.interpreter.text import ProgramBuffer
 from ...gcode.rework.stretches import find_stretches
 from ...model.motion import Floats
-from ...usecases.smooth_source import read_source
+from ...usecases.smoothing.source import read_source
 
 MOST_POINTS = 400
 """A film shows so many points at most: those from the longest stretch's first one on."""

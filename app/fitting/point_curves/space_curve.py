@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import GeometryError
-from ...geometry.arcs.bezier import cut_at_knots
+from ...geometry.arcs.bezier import cut_at_knots, elevated
 from ...geometry.arcs.nurbs import flattened
 from ...model.motion import MotionKind, Motions, Nurbs
 from ...model.motion_path import ArcPaths, along_xyz, arc_paths
@@ -63,7 +63,7 @@ def curve_of_nurbs(curve: Nurbs) -> SpaceCurve:
     if curve.degree > DEGREE or np.ptp(curve.weights) > 0:
         chords = curve_of_points(flattened(curve, CHORD_SLACK))
         return SpaceCurve(chords.control, chords.owner, CHORD_SLACK)
-    control = raised(cut_at_knots(curve.points, curve.knots, curve.degree))
+    control = elevated(cut_at_knots(curve.points, curve.knots, curve.degree), DEGREE)
     return SpaceCurve(control, np.zeros(len(control), np.int64))
 
 
@@ -167,15 +167,3 @@ def _moving(arcs: ArcPaths, grow: Floats, of: NDArray[np.int64], at: Floats) -> 
     speed = grows * out + radius * sweep * side
     speed[:, 2] = arcs.rise[of]
     return place, speed, 2 * grows * sweep * side - radius * sweep**2 * out
-
-
-def raised(control: Floats) -> Floats:
-    """Return the same pieces (m, p + 1, 3) with degree 5, p <= 5: point k of one degree more is between points k - 1
-    and k.
-    """
-    while (degree := control.shape[1] - 1) < DEGREE:
-        share = (np.arange(degree + 2) / (degree + 1))[:, None]
-        before = np.pad(control, ((0, 0), (1, 0), (0, 0)))
-        after = np.pad(control, ((0, 0), (0, 1), (0, 0)))
-        control = share * before + (1 - share) * after
-    return control

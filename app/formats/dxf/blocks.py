@@ -7,14 +7,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from math import cos, isfinite, radians, sin
+from math import cos, isfinite, radians, sin, sqrt
 from typing import Any, NamedTuple
 
 from ...core.errors import HitofudeError, InputError
 from ...geometry.affine import Affine, transformed
 from ...model.curves import Point
 from ..drawing_account import MOST_CURVES, LayeredCurve
-from .curves import DamagedCurveError, NegativeRadiusError, NoLengthError, curves_of, heights_of, plane_of
+from .curves import DamagedCurveError, NegativeRadiusError, NoLengthError, curves_of, heights_of, plane_of, widths_of
 from .fonts import Fonts
 from .hatch import Hatch, hatch_of
 from .letters import LeftOutError, TextCurves
@@ -52,6 +52,26 @@ class NegativeRadius:
 
 
 @dataclass(frozen=True)
+class WidePolyline:
+    """A polyline that is drawn as wide as told, whose middle line is read; lengths in drawing units.
+
+    Attributes:
+        at: where it begins. least, most: its widths.
+    """
+
+    at: Point
+    least: float
+    most: float
+    layer: str
+
+    def moved(self, place: Affine, outer: str) -> WidePolyline:
+        """Return it under a map; what is on layer 0 goes to `outer`."""
+        scale = sqrt(abs(place.xx * place.yy - place.xy * place.yx))
+        layer = outer if self.layer == "0" else self.layer
+        return WidePolyline(place.point(self.at), self.least * scale, self.most * scale, layer)
+
+
+@dataclass(frozen=True)
 class UnreadText:
     """A text of a sort that is not read, or a curve that cannot be drawn; its place in drawing units."""
 
@@ -84,6 +104,7 @@ class DxfContent:
         without_length: places of entities that draw nothing, None where there is no place.
         hidden: blocks inserted on frozen layers.
         negative: circles and arcs that nobody knows how to draw.
+        bands: polylines with a width.
         unread: texts that are left out for what they are, and curves that cannot be drawn.
         heights: least and greatest Z seen, drawing units.
     """
@@ -96,6 +117,7 @@ class DxfContent:
     without_length: list[Point | None] = field(default_factory=list)
     hidden: list[HiddenInsert] = field(default_factory=list)
     negative: list[NegativeRadius] = field(default_factory=list)
+    bands: list[WidePolyline] = field(default_factory=list)
     unread: list[UnreadText] = field(default_factory=list)
     heights: tuple[float, float] = (0.0, 0.0)
     any_height: bool = False
@@ -228,6 +250,9 @@ class DxfWalker:
             content.left_out[kind] += 1
             return
         content.see(heights_of(entity))
+        widths = widths_of(entity)
+        if widths and curves:
+            content.bands.append(WidePolyline(curves[0].start, min(widths), max(widths), entity.dxf.layer))
         content.curves += [LayeredCurve(curve, entity.dxf.layer) for curve in curves]
         for each in made:
             content.add(each)
@@ -315,6 +340,7 @@ class DxfWalker:
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.negative
         ]
+        content.bands += [each.moved(place, outer) for each in inner.bands]
         content.unread += [
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.unread

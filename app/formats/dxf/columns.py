@@ -49,6 +49,11 @@ class LetterColumns:
             return self.heights[min(column, last)]
         return math.inf
 
+    def breadth(self, column: int) -> float:
+        """Return how wide a column is, by its number from 0, in which lines run downwards; the last has no end."""
+        last = len(self.heights) - 1
+        return self.width if self.width and (column < last or self.repeated) else math.inf
+
     def starts(self, count: int, width: float) -> list[float]:
         """Return the left edges of so many columns as wide as told, from that of the leftmost, drawing units."""
         starts = [k * (width + self.gutter) for k in range(count)]

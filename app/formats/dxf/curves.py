@@ -61,6 +61,27 @@ def heights_of(entity: Any) -> Iterable[float]:
     return (entity.dxf.center.z * entity.dxf.extrusion.z,) if kind in ("ARC", "CIRCLE") else (entity.dxf.center.z,)
 
 
+def widths_of(entity: Any) -> tuple[float, ...]:
+    """Return the widths of the bands that CAD programs show for a polyline, drawing units, each as often as it is
+    told; empty for a line without any.
+    """
+    kind = entity.dxftype()
+    if kind == "LWPOLYLINE":
+        if not entity.has_width:
+            return ()
+        if entity.dxf.hasattr("const_width"):  # CAD programs take it before the widths of segments
+            told = [float(entity.dxf.const_width)]
+        else:
+            told = [float(width) for pair in entity.get_points("se") for width in pair]
+    elif kind == "POLYLINE" and entity.is_2d_polyline:
+        own = [entity.dxf.get(f"default_{end}_width", 0.0) for end in ("start", "end")]
+        ends = (("start_width", own[0]), ("end_width", own[1]))
+        told = [float(vertex.dxf.get(key, default)) for vertex in entity.vertices for key, default in ends]
+    else:
+        return ()
+    return tuple(told) if any(width > 0 and math.isfinite(width) for width in told) else ()
+
+
 def plane_of(entity: Any, height: float) -> Affine:
     """Return the map from the plane in which a flat entity is drawn (its OCS) to the drawing, seen from above."""
     extrusion = entity.dxf.extrusion

@@ -47,6 +47,7 @@ from .blocks import DxfContent, DxfWalker
 from .drawn_curves import all_drawn
 from .findings import (
     about_unread,
+    band_findings,
     comma_findings,
     hatch_findings,
     hidden_insert_findings,
@@ -144,6 +145,7 @@ def read_dxf(
         *hidden_insert_findings(content, unit.size),
         *text_findings([each for each in content.letterings if machined(each.layer)], unit.size),
         *hatch_findings(drawn),
+        *band_findings([each for each in content.bands if machined(each.layer)], unit.size),
         *switched_off(part, layers),
         *all_left_out(+left_out),
     ]

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
-from .blocks import DxfContent, HiddenInsert
+from .blocks import DxfContent, HiddenInsert, WidePolyline
 from .drawn_curves import DrawnCurves
 from .letters import TextCurves
 from .numbers import DecimalCommas
@@ -54,6 +54,38 @@ def about_unread(content: DxfContent, size: float) -> Iterator[Finding]:
         count, where = len(alike), f"at ({x:.3f}, {y:.3f}) on layer {alike[0].layer}"
         text = f"1 {sort} {where} is not read." if count == 1 else f"{count} {sort} are not read, the first {where}."
         yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(count), layer=alike[0].layer)
+
+
+def band_findings(bands: Sequence[WidePolyline], size: float) -> Iterator[Finding]:
+    """Say that the middle lines of polylines with a width are read, a sentence a layer.
+
+    Args:
+        bands: on layers that are machined. size: of the drawing's unit, mm.
+    """
+    for layer in dict.fromkeys(each.layer for each in bands):
+        alike = [each for each in bands if each.layer == layer]
+        least, most = min(each.least for each in alike) * size, max(each.most for each in alike) * size
+        wide = f"{most:.6g}" if least == most else f"{least:.6g} to {most:.6g}"
+        x, y = alike[0].at[0] * size, alike[0].at[1] * size
+        what = (
+            f"1 polyline on layer {layer} is drawn as a band {wide} mm wide"
+            if len(alike) == 1
+            else f"{len(alike)} polylines on layer {layer} are drawn as bands {wide} mm wide, the first"
+        )
+        read, do = (
+            ("its middle line is", "Engrave it with a cutter as wide, or draw its outline")
+            if len(alike) == 1
+            else ("their middle lines are", "Engrave them with cutters as wide, or draw their outlines")
+        )
+        yield Finding(
+            FindingKind.ASSUMED,
+            f"{what} at ({x:.3f}, {y:.3f}); {read} read. {do}.",
+            x,
+            y,
+            counts=False,
+            amount=float(len(alike)),
+            layer=layer,
+        )
 
 
 def hidden_insert_findings(content: DxfContent, size: float) -> Iterator[Finding]:
@@ -102,6 +134,7 @@ def text_findings(texts: Sequence[TextCurves], size: float) -> Iterator[Finding]
         counts=False,
         amount=float(len(texts)),
     )
+    yield from _assumed_places([each for each in texts if each.assumed], size)
     short = [each for each in texts if each.lacking]
     if short:
         letters = list(dict.fromkeys(letter for each in short for letter in each.lacking))
@@ -120,6 +153,20 @@ def text_findings(texts: Sequence[TextCurves], size: float) -> Iterator[Finding]
             x,
             y,
             amount=float(len(short)),
+        )
+
+
+def _assumed_places(texts: Sequence[TextCurves], size: float) -> Iterator[Finding]:
+    """Say that lines that run downwards in columns may stand elsewhere in other programs."""
+    if texts:
+        x, y = texts[0].at[0] * size, texts[0].at[1] * size
+        what = "The text" if len(texts) == 1 else f"{len(texts)} texts, the first"
+        runs = "runs" if len(texts) == 1 else "run"
+        yield remark(
+            f"{what} at ({x:.3f}, {y:.3f}) on layer {texts[0].layer} {runs} downwards in columns; its lines are broken "
+            "where a column ends, and other programs may break them elsewhere. Compare it with the drawing, or explode "
+            "it there.",
+            float(len(texts)),
         )
 
 

@@ -53,6 +53,7 @@ class TextCurves:
         at: where it begins.
         fonts: ("", each font that it is drawn in), and for the engraving face (the font that it stands for, "").
         lacking: letters that are in no font, and so are missing.
+        assumed: other programs may set its letters in other places.
     """
 
     strokes: tuple[Curve, ...]
@@ -62,6 +63,7 @@ class TextCurves:
     at: Point = (0.0, 0.0)
     fonts: tuple[tuple[str, str], ...] = ()
     lacking: str = ""
+    assumed: bool = False
 
     @property
     def size(self) -> int:

@@ -16,7 +16,7 @@ from .fonts import FontName, Fonts, style_font
 from .letter_boxes import LetterBox, LetterLine
 from .letters import LeftOutError, LetterStyle, TextCurves, lettered, run_of
 from .text import MOST_LETTERS
-from .vertical import PlacedBox, is_vertical, stacked
+from .vertical import DownColumn, PlacedBox, is_vertical, stacked
 
 _APART = 5 / 3
 """From baseline to baseline, in heights of the capitals, at a spacing of 1."""
@@ -47,20 +47,19 @@ def mtext_lettering(entity: Any, fonts: Fonts) -> TextCurves:
 
     Lines break where the text says so, and between words where they would be wider than its width; columns where the
     text says so, and where a baseline would lie below their height. Lines that run downwards stand to the right of one
-    another and break only where the text says so. Centred and right tabulators are taken as left ones, justified lines
-    as begun on the left.
+    another and break only where the text says so, in columns also where these end; a column is full where a line would
+    lie beyond its width. Other programs may set these otherwise, which is told. Centred and right tabulators are taken
+    as left ones, justified lines as begun on the left.
 
     Raises:
         NoLengthError: its height is none.
-        LeftOutError: it is too long, or its lines run downwards in columns.
+        LeftOutError: it is too long.
     """
     dxf, style = entity.dxf, fonts.style(entity.dxf.style)
     at = (float(dxf.insert.x), float(dxf.insert.y))
     columns = LetterColumns.of(entity.columns) if entity.has_columns and not _linked(entity) else ONE_COLUMN
     flow = dxf.get("flow_direction", 1)
     down = flow == _DOWNWARD or (flow == _AS_STYLED and is_vertical(style))
-    if down and columns is not ONE_COLUMN:
-        raise LeftOutError("MTEXT (vertical, in columns)")
     if len(entity.text) > MOST_LETTERS:
         raise LeftOutError(f"MTEXT (of more than {MOST_LETTERS} letters)")
     if not dxf.char_height > 0:
@@ -73,11 +72,11 @@ def mtext_lettering(entity: Any, fonts: Fonts) -> TextCurves:
     )
     width = columns.width or float(dxf.get("width", 0.0) or 0.0)
     attachment = int(dxf.attachment_point)
-    page = _DownPage(fonts, first, attachment) if down else _TextPage(fonts, first, attachment, width, columns)
+    page = (_DownPage if down else _TextPage)(fonts, first, attachment, 0.0 if down else width, columns)
     page.fill(entity.text)
     page.set_lines(float(dxf.line_spacing_factor), dxf.line_spacing_style == _EXACT)
     made = lettered(page.curves(), [run for line in page.lines for run in line.runs], _frame(entity, at))
-    return replace(made, layer=dxf.layer, kind="MTEXT", at=at)
+    return replace(made, layer=dxf.layer, kind="MTEXT", at=at, assumed=down and columns is not ONE_COLUMN)
 
 
 def _frame(entity: Any, at: tuple[float, float]) -> Affine:
@@ -289,15 +288,33 @@ class _DownPage(_TextPage):
 
     def set_lines(self, spacing: float, exact: bool) -> None:
         """Give every letter its place: lines apart, each from the top, all of it about the insertion point."""
-        x, cells = 0.0, list[PlacedBox]()
-        for number, line in enumerate(self.lines):
-            x += spacing * _APART * (self._look.height if exact else line.height) if number else 0.0
-            cells += stacked([box for box, _ in line.boxes], self._fonts, x)
-        left = min((cell.x for cell in cells), default=0.0)
-        right = max((cell.x + cell.box.ink for cell in cells), default=0.0)
-        low = min((cell.y for cell in cells), default=0.0)
-        to_left, to_top = left + (right - left) * self._across / 2, low * self._down / 2
+        columns = self._set_downwards(spacing, exact)
+        wide = self._columns.width or max((column.right - column.left for column in columns), default=0.0)
+        starts = self._columns.starts(len(columns), wide) or [0.0]
+        cells = [
+            replace(cell, x=cell.x + start - column.left)
+            for start, column in zip(starts, columns, strict=False)
+            for cell in column.cells
+        ]
+        low = -self._columns.height if self._columns.height else min((cell.y for cell in cells), default=0.0)
+        to_left, to_top = (max(starts) + wide) * self._across / 2, low * self._down / 2
         self._cells = [replace(cell, x=cell.x - to_left, y=cell.y - to_top) for cell in cells]
+
+    def _set_downwards(self, spacing: float, exact: bool) -> list[DownColumn]:
+        """Return the letters of each column, from its top and about the middle of its first line."""
+        columns = [DownColumn()]
+        for line in self.lines:
+            apart = spacing * _APART * (self._look.height if exact else line.height)
+            rest = stacked([box for box, _ in line.boxes], self._fonts)
+            if line.opens and self._columns is not ONE_COLUMN:
+                columns.append(DownColumn())
+            while True:
+                if columns[-1].is_full(rest, apart, self._columns.breadth(len(columns) - 1)):
+                    columns.append(DownColumn())
+                rest = columns[-1].add(rest, apart, self._columns.depth(len(columns) - 1))
+                if not rest:
+                    break
+        return columns
 
     def curves(self) -> Iterator[tuple[Curve, bool]]:
         return joined.from_iterable(cell.box.curves(cell.x, cell.y) for cell in self._cells)

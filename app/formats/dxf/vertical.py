@@ -7,7 +7,7 @@ heights of the capitals. Each letter stands upright, its middle on the line.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from .fonts import Fonts
@@ -16,6 +16,7 @@ from .letters import run_of
 
 _APART = 1.5
 _VERTICAL = 4
+_SLACK = 1e-9
 
 
 def is_vertical(style: Any) -> bool:
@@ -30,6 +31,46 @@ class PlacedBox:
     box: LetterBox
     x: float
     y: float
+
+
+@dataclass
+class DownColumn:
+    """Letters of a column whose lines run downwards beside one another, the middle of the first one at 0.
+
+    Attributes:
+        cells: from the top, which is at the height 0. lines: so many are begun, also empty ones. at: middle of the
+            last, drawing units.
+    """
+
+    cells: list[PlacedBox] = field(default_factory=list)
+    lines: int = 0
+    at: float = 0.0
+
+    @property
+    def left(self) -> float:
+        """Where its letters begin."""
+        return min((cell.x for cell in self.cells), default=0.0)
+
+    @property
+    def right(self) -> float:
+        """Where they end."""
+        return max((cell.x + cell.box.ink for cell in self.cells), default=0.0)
+
+    def is_full(self, line: Sequence[PlacedBox], apart: float, width: float) -> bool:
+        """Return whether a line, its middle at 0, so far from the last one would end beyond a width."""
+        end = max((cell.x + cell.box.ink for cell in line), default=0.0)
+        return self.lines > 0 and self.at + apart + end - self.left > width * (1 + _SLACK)
+
+    def add(self, line: list[PlacedBox], apart: float, depth: float) -> list[PlacedBox]:
+        """Add a line, and return what of it would lie deeper, as a line of its own; at least one letter is added."""
+        self.at += apart if self.lines else 0.0
+        self.lines += 1
+        fit = next((k for k, cell in enumerate(line) if k and -cell.y > depth * (1 + _SLACK)), len(line))
+        self.cells += [replace(cell, x=cell.x + self.at) for cell in line[:fit]]
+        if fit == len(line):
+            return []
+        top = line[fit].y + line[fit].box.look.height
+        return [replace(cell, y=cell.y - top) for cell in line[fit:]]
 
 
 def stacked(boxes: Sequence[LetterBox], fonts: Fonts, x: float = 0.0) -> list[PlacedBox]:

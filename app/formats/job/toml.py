@@ -42,7 +42,7 @@ ORIGIN_XY = {
 }
 ORIGIN_Z = {"top": OriginZ.TOP, "bottom": OriginZ.BOTTOM}
 FEEDS = {"tools": False, "proposed": True}
-SETTINGS = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out")
+SETTINGS = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out", "sheet")
 """Tables that hold the job's own parameters, in the order in which they are written."""
 
 TABLES = (*SETTINGS, "tool", "operation")

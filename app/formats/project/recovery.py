@@ -8,7 +8,6 @@ line, a remark, tells of the file that was being edited.
 from __future__ import annotations
 
 import json
-import os
 import uuid
 from collections.abc import Iterator
 from contextlib import suppress
@@ -17,49 +16,13 @@ from pathlib import Path
 
 from ...core.atomic import write_atomically
 from ...core.errors import InputError
+from ...core.file_lock import FileLock
 from ...core.settings import state_folder
 from .files import Stamp
 from .project import Project, read_project, write_project
 
 _NOTE = "# recovery of "
 _DAMAGED = ".damaged"
-
-
-class _Lock:
-    """A file that one process holds at a time."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self._handle = -1
-
-    def take(self) -> bool:
-        """Return whether the lock is ours now."""
-        self._handle = os.open(self.path, os.O_RDWR | os.O_CREAT, 0o600)
-        try:
-            _lock(self._handle)
-        except OSError:
-            os.close(self._handle)
-            return False
-        return True
-
-    def let_go(self) -> None:
-        """Take the lock away."""
-        with suppress(OSError):
-            os.unlink(self.path)
-        with suppress(OSError):
-            os.close(self._handle)
-
-
-def _lock(handle: int) -> None:
-    """Lock an open file for this process, or raise OSError at once."""
-    try:
-        import fcntl
-    except ImportError:
-        import msvcrt
-
-        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
-        return
-    fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 @dataclass(frozen=True)
@@ -86,7 +49,7 @@ class RecoveryFile:
         """
         folder = state_folder()
         self.path = folder / f"{uuid.uuid4().hex}.hito"
-        self._lock = _Lock(self.path.with_suffix(".lock"))
+        self._lock = FileLock(self.path.with_suffix(".lock"))
         try:
             folder.mkdir(parents=True, exist_ok=True)
             self._lock.take()
@@ -120,7 +83,7 @@ class RecoveredWork:
         path: of the recovery file. when: it was written, s since 1970.
     """
 
-    def __init__(self, path: Path, lock: _Lock) -> None:
+    def __init__(self, path: Path, lock: FileLock) -> None:
         """Begin with a file whose lock is held."""
         self.path, self._lock = path, lock
         self.when = path.stat().st_mtime
@@ -173,7 +136,7 @@ def _recoveries() -> Iterator[RecoveredWork]:
     with suppress(OSError):
         for name in sorted({path.stem for path in state_folder().iterdir() if path.suffix in (".hito", ".lock")}):
             path = state_folder() / f"{name}.hito"
-            lock = _Lock(path.with_suffix(".lock"))
+            lock = FileLock(path.with_suffix(".lock"))
             if not lock.take():
                 continue
             if path.is_file():

@@ -44,7 +44,7 @@ def _table(table: SheetTable) -> str:
     body = "".join(f"<tr>{row(cells, 'td')}</tr>" for cells in table.rows)
     foot = f"<tfoot><tr>{row(table.total, 'td')}</tr></tfoot>" if table.total else ""
     title = escape(table.title)
-    return f"<h2>{title}</h2><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody>{foot}</table>"
+    return f"<h2>{title}</h2><div><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody>{foot}</table></div>"
 
 
 def _proof(proof: SheetProof) -> str:
@@ -147,6 +147,7 @@ figcaption { display: flex; flex-wrap: wrap; gap: .2rem 1rem; color: #5c626a;
   font-size: .8rem; padding: .3rem .7rem; } figcaption i { display: inline-block; width: 1.6rem; border-top: 2px solid;
   vertical-align: middle; margin-right: .4rem; }
 dl { margin: 0; } dt { color: var(--muted); font-weight: 700; font-size: .78rem; } dd { margin: 0 0 .55rem; }
+div { overflow-x: auto; }
 table { width: 100%; border-collapse: collapse; } th { background: var(--band); color: var(--muted); font-size: .78rem;
   text-align: left; print-color-adjust: exact; } th, td { padding: .25rem .4rem; vertical-align: top; }
 td { border-bottom: 1px solid var(--line); } tr { break-inside: avoid; } tfoot td { font-weight: 700; }
@@ -158,6 +159,12 @@ td { border-bottom: 1px solid var(--line); } tr { break-inside: avoid; } tfoot t
 .hashes td { font-size: .8rem; } .hashes td:last-child { text-align: right; } code { overflow-wrap: anywhere; }
 footer { display: flex; gap: 2rem; margin-top: 1.6rem; color: var(--muted); font-size: .8rem; }
 footer span:last-child { margin-left: auto; } footer u { display: inline-block; width: 9rem;
-  border-bottom: 1px solid var(--muted); } @media (max-width: 40rem) { section { grid-template-columns: 1fr; } }
+  border-bottom: 1px solid var(--muted); }
+@media screen and (max-width: 40rem) { section { grid-template-columns: 1fr; }
+  footer { flex-wrap: wrap; gap: .6rem 2rem; } .proofs tr, .hashes tr { display: grid; grid-template-columns: 1fr auto;
+  border-bottom: 1px solid var(--line); } .proofs td, .hashes td, .proofs td:first-child { width: auto; border: 0; }
+  .proofs td:nth-child(2) { grid-row: 2; grid-column: 1 / -1; padding-top: 0; }
+  .hashes td { grid-column: 1 / -1; text-align: left !important; } }
+@media screen and (prefers-color-scheme: dark) { figure { filter: invert(.91) hue-rotate(180deg) brightness(1.35); } }
 @media print { body { margin: 0; padding: 0; max-width: none; font-size: 10pt; } }
 """

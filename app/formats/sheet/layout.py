@@ -19,18 +19,50 @@ from .content import SetupPicture, SetupSheet, SheetColumn, SheetTable
 WIDTH, HEIGHT, MARGIN = 210.0, 297.0, 12.0
 INNER = WIDTH - 2 * MARGIN
 INK, MUTED, RULE, BAND, GOOD, BAD, OPEN = "#1E2227", "#5C626A", "#C9CCD1", "#F1F2EE", "#0B6B4B", "#B3261E", "#8A5A00"
-_BODY, _SMALL, _TITLE = 3.0, 2.5, 7.0
-_LEAD = 1.3
-"""Distance of lines, of the letters' size."""
-
-_PICTURE = (108.0, 80.0)
+_SMALL, _TITLE = 2.5, 7.0
 _FOOT = 14.0
-_ROW = 1.5
+
+
+@dataclass(frozen=True)
+class _Density:
+    """How close everything stands, mm.
+
+    Attributes:
+        body: size of letters. lead: distance of lines, of the letters' size. row: what a row of a table has beside its
+            lines.
+        heading: what a heading takes. fact: what stands between two facts. picture: width and height.
+    """
+
+    body: float = 3.0
+    lead: float = 1.3
+    row: float = 1.5
+    heading: float = 7.0
+    fact: float = 2.1
+    picture: tuple[float, float] = (108.0, 80.0)
+
+    @property
+    def line(self) -> float:
+        """From line to line."""
+        return self.body * self.lead
+
+    @property
+    def first(self) -> float:
+        """From the top of a row to the foot of the letters of its first line."""
+        return self.row / 2 + 0.85 * self.body
+
+
+_COMPACT = _Density(body=2.7, lead=1.16, row=0.8, heading=5.7, fact=0.9, picture=(82.0, 58.0))
 
 
 def sheet_pages(sheet: SetupSheet) -> tuple[PlotPage, ...]:
-    """Return the pages of a sheet."""
-    pages = _SheetPages(sheet)
+    """Return the pages of a sheet: one, where it has room on one if everything stands closer."""
+    pages = _laid_out(sheet, _Density())
+    closer = _laid_out(sheet, _COMPACT) if len(pages) == 2 else pages
+    return closer if len(closer) == 1 else pages
+
+
+def _laid_out(sheet: SetupSheet, density: _Density) -> tuple[PlotPage, ...]:
+    pages = _SheetPages(sheet, density)
     pages.heading()
     pages.picture_and_facts()
     for table in sheet.tables:
@@ -71,8 +103,8 @@ class _SheetPage:
 class _SheetPages:
     """Pages that are filled from the top down; `_y` is how far the last one is filled."""
 
-    def __init__(self, sheet: SetupSheet) -> None:
-        self._sheet = sheet
+    def __init__(self, sheet: SetupSheet, density: _Density) -> None:
+        self._sheet, self._density = sheet, density
         self._pages = [_SheetPage()]
         self._y = HEIGHT - MARGIN
 
@@ -86,7 +118,7 @@ class _SheetPages:
             self._pages.append(_SheetPage())
             self._y = HEIGHT - MARGIN
             self._write(self._sheet.title, MARGIN, self._y - 4, _Look(4.0, bold=True))
-            self._write("goes on", WIDTH - MARGIN, self._y - 4, _Look(_BODY, anchor=1.0, colour=MUTED))
+            self._write("goes on", WIDTH - MARGIN, self._y - 4, _Look(self._density.body, anchor=1.0, colour=MUTED))
             self._rule(self._y - 6.5)
             self._y -= 9
 
@@ -108,9 +140,9 @@ class _SheetPages:
         title = wrapped(sheet.title, _TITLE, INNER - 46, bold=True)[0]
         self._write(title, MARGIN, self._y, _Look(_TITLE, bold=True))
         self._write("Set-up sheet", WIDTH - MARGIN, self._y, _Look(4.2, anchor=1.0, colour=MUTED))
-        for line in wrapped(sheet.program, _BODY, INNER)[:2]:
+        for line in wrapped(sheet.program, self._density.body, INNER)[:2]:
             self._y -= 5.2
-            self._write(line, MARGIN, self._y, _Look(_BODY, colour=MUTED))
+            self._write(line, MARGIN, self._y, _Look(self._density.body, colour=MUTED))
         colour = GOOD if sheet.good else BAD
         self._y -= 11.0
         self._fill((MARGIN, self._y, WIDTH - MARGIN, self._y + 7.6), colour)
@@ -119,17 +151,17 @@ class _SheetPages:
 
     def picture_and_facts(self) -> None:
         """Draw the picture, and beside it what has to be known."""
-        width, height = _PICTURE
+        width, height = self._density.picture
         top = self._y
         self._picture((MARGIN, top - height, MARGIN + width, top), self._sheet.picture)
         x, room, y = MARGIN + width + 6, INNER - width - 6, top
         for fact in self._sheet.facts:
             self._write(fact.label, x, y - 3.0, _Look(_SMALL, bold=True, colour=MUTED))
             y -= 3.6
-            for line in wrapped(fact.text, _BODY, room):
-                self._write(line, x, y - 3.4, _Look(_BODY))
-                y -= _BODY * _LEAD
-            y -= 2.1
+            for line in wrapped(fact.text, self._density.body, room):
+                self._write(line, x, y - 3.4, _Look(self._density.body))
+                y -= self._density.line
+            y -= self._density.fact
         self._y = min(top - height, y) - 3.0
 
     def _picture(self, frame: Box, picture: SetupPicture) -> None:
@@ -190,8 +222,8 @@ class _SheetPages:
 
     def _title(self, text: str, least: float) -> None:
         """Write a heading that so much is to follow on its page."""
-        self._room(8.0 + least)
-        self._y -= 5.0
+        self._room(self._density.heading + 1.0 + least)
+        self._y -= self._density.heading - 2.0
         self._write(text, MARGIN, self._y, _Look(3.7, bold=True))
         self._y -= 2.0
 
@@ -202,16 +234,16 @@ class _SheetPages:
         rows = [(row, False) for row in table.rows] + ([(table.total, True)] if table.total else [])
         for row, bold in rows:
             widths = [column.width * INNER - 2.4 for column in table.columns]
-            cells = [wrapped(cell, _BODY, room, bold) for cell, room in zip(row, widths, strict=True)]
-            height = max(map(len, cells)) * _BODY * _LEAD + _ROW
+            cells = [wrapped(cell, self._density.body, room, bold) for cell, room in zip(row, widths, strict=True)]
+            height = max(map(len, cells)) * self._density.line + self._density.row
             before = len(self._pages)
             self._room(height)
             if len(self._pages) > before:
                 self._table_head(table)
             for x, column, lines in self._columns(table.columns, cells):
                 for number, line in enumerate(lines):
-                    y = self._y - 3.3 - number * _BODY * _LEAD
-                    self._write(line, x, y, _Look(_BODY, bold=bold, anchor=float(column.number)))
+                    y = self._y - self._density.first - number * self._density.line
+                    self._write(line, x, y, _Look(self._density.body, bold=bold, anchor=float(column.number)))
             self._y -= height
             self._rule(self._y)
         self._y -= 1.0
@@ -242,15 +274,30 @@ class _SheetPages:
             word, colour = {True: ("proven", GOOD), False: ("does not hold", BAD), None: ("not proven", OPEN)}[
                 proof.holds
             ]
-            claim = wrapped(proof.claim, _BODY, left - 2, bold=True)
-            bound = wrapped(proof.bound, _BODY, INNER - left - 27)
-            height = max(len(claim), len(bound)) * _BODY * _LEAD + _ROW
+            claim = wrapped(proof.claim, self._density.body, left - 2, bold=True)
+            bound = wrapped(proof.bound, self._density.body, INNER - left - 27)
+            height = max(len(claim), len(bound)) * self._density.line + self._density.row
             self._room(height)
             for number, line in enumerate(claim):
-                self._write(line, MARGIN, self._y - 3.3 - number * _BODY * _LEAD, _Look(_BODY, bold=True))
+                self._write(
+                    line,
+                    MARGIN,
+                    self._y - self._density.first - number * self._density.line,
+                    _Look(self._density.body, bold=True),
+                )
             for number, line in enumerate(bound):
-                self._write(line, MARGIN + left, self._y - 3.3 - number * _BODY * _LEAD, _Look(_BODY))
-            self._write(word, WIDTH - MARGIN, self._y - 3.3, _Look(_BODY, bold=True, anchor=1.0, colour=colour))
+                self._write(
+                    line,
+                    MARGIN + left,
+                    self._y - self._density.first - number * self._density.line,
+                    _Look(self._density.body),
+                )
+            self._write(
+                word,
+                WIDTH - MARGIN,
+                self._y - self._density.first,
+                _Look(self._density.body, bold=True, anchor=1.0, colour=colour),
+            )
             self._y -= height
             self._rule(self._y)
         self._y -= 1.0
@@ -261,12 +308,12 @@ class _SheetPages:
             return
         self._title(title, 6.0)
         for sentence in sentences:
-            lines = wrapped(sentence, _BODY, INNER - 4)
-            self._room(len(lines) * _BODY * _LEAD + 1.0)
+            lines = wrapped(sentence, self._density.body, INNER - 4)
+            self._room(len(lines) * self._density.line + 1.0)
             self._fill((MARGIN + 0.4, self._y - 3.0, MARGIN + 1.5, self._y - 1.9), colour)
             for line in lines:
-                self._write(line, MARGIN + 4, self._y - 3.4, _Look(_BODY))
-                self._y -= _BODY * _LEAD
+                self._write(line, MARGIN + 4, self._y - 3.4, _Look(self._density.body))
+                self._y -= self._density.line
             self._y -= 0.9
 
     def hashes(self) -> None:

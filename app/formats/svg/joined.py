@@ -8,7 +8,7 @@ import math
 from itertools import groupby
 
 from ...core import tolerances
-from ...geometry.chaining.pieces import equally_far
+from ...geometry.arcs.arcs import equally_far
 from ...model.curves import Arc, Circle, Curve, Ellipse, Point, Spline
 
 _TURN = 1e-9

@@ -1,4 +1,4 @@
-"""SVG's attributes as numbers: lengths with units, lists, transforms, and the map of a viewBox into its place."""
+"""SVG's attributes as numbers: lists, transforms, and the map of a viewBox into its place."""
 
 from __future__ import annotations
 
@@ -13,55 +13,12 @@ PIXEL = 25.4 / 96
 MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
 """Units of length that have a size of their own, mm."""
 NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
-_LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z]*|%)\s*\Z")
 _LIST = re.compile(rf"[\s,]*({NUMBER})")
 _TRANSFORM = re.compile(r"[\s,]*([a-zA-Z]+)\s*\(([^()]*)\)")
 
 
 class UnreadableError(ValueError):
     """An attribute cannot be read; the argument is its text."""
-
-
-@dataclass(frozen=True, slots=True)
-class WrittenLength:
-    """A length as it is written; `unit` is in lower case, "" for user units."""
-
-    value: float
-    unit: str = ""
-
-    @property
-    def is_physical(self) -> bool:
-        """True when it is in mm, inches, points and the like."""
-        return self.unit in MM
-
-    def user(self, whole: float) -> float:
-        """Return the length in user units.
-
-        Args:
-            whole: what 100 % is, user units.
-
-        Raises:
-            UnreadableError: the unit depends on a font or is none.
-        """
-        if self.unit in ("", "px"):
-            return self.value
-        if self.unit == "%":
-            return self.value / 100 * whole
-        if self.unit in MM:
-            return self.value * MM[self.unit] / PIXEL
-        raise UnreadableError(f"{self.value:g}{self.unit}")
-
-
-def length(text: str) -> WrittenLength:
-    """Return a length.
-
-    Raises:
-        UnreadableError: the text is none.
-    """
-    found = _LENGTH.match(text)
-    if found is None:
-        raise UnreadableError(text)
-    return WrittenLength(float(found[1]), found[2].lower())
 
 
 def numbers(text: str) -> list[float]:

@@ -7,15 +7,13 @@ from collections.abc import Callable
 
 from ...geometry.affine import ellipse
 from ...model.curves import Arc, Circle, Curve, Line, Point
-from .numbers import UnreadableError, length, numbers
+from .lengths import LengthBasis, length
+from .numbers import UnreadableError, numbers
 from .path import SvgPath, read_path
 from .xml import Node
 
-View = tuple[float, float]
-"""Width and height of the nearest viewport, user units: what percentages are of."""
 
-
-def shape(node: Node, view: View, most: int) -> SvgPath | None:
+def shape(node: Node, basis: LengthBasis, most: int) -> SvgPath | None:
     """Return what an element draws, in its own coordinates; None for an element that is no shape.
 
     Args:
@@ -28,10 +26,10 @@ def shape(node: Node, view: View, most: int) -> SvgPath | None:
     if node.tag == "path":
         return read_path(node.attributes.get("d", ""), most)
     reader = _READERS.get(node.tag)
-    return None if reader is None else reader(node, view)
+    return None if reader is None else reader(node, basis)
 
 
-def measure(node: Node, key: str, view: View, default: float = 0.0) -> float:
+def measure(node: Node, key: str, basis: LengthBasis, default: float = 0.0) -> float:
     """Return a length of an element in user units; percentages are of the viewport's width, height or diagonal.
 
     Raises:
@@ -40,8 +38,7 @@ def measure(node: Node, key: str, view: View, default: float = 0.0) -> float:
     text = node.attributes.get(key)
     if text is None or text.strip() == "auto":
         return default
-    whole = {"x": view[0], "y": view[1]}.get(_AXIS.get(key, ""), math.hypot(*view) / math.sqrt(2))
-    return length(text).user(whole)
+    return length(text).user(basis, _AXIS.get(key, ""))
 
 
 _AXIS = {
@@ -50,45 +47,49 @@ _AXIS = {
 }
 
 
-def _size(node: Node, key: str, view: View, default: float = 0.0) -> float:
-    value = measure(node, key, view, default)
+LENGTHS = ("r", *_AXIS)
+"""Attributes that are lengths."""
+
+
+def _size(node: Node, key: str, basis: LengthBasis, default: float = 0.0) -> float:
+    value = measure(node, key, basis, default)
     if value < 0:
         raise UnreadableError(node.attributes[key])
     return value
 
 
-def _line(node: Node, view: View) -> SvgPath:
-    x1, y1, x2, y2 = (measure(node, key, view) for key in ("x1", "y1", "x2", "y2"))
+def _line(node: Node, basis: LengthBasis) -> SvgPath:
+    x1, y1, x2, y2 = (measure(node, key, basis) for key in ("x1", "y1", "x2", "y2"))
     return _drawn([Line((x1, y1), (x2, y2))] if (x1, y1) != (x2, y2) else [], (x1, y1))
 
 
-def _circle(node: Node, view: View) -> SvgPath:
-    centre, radius = (measure(node, "cx", view), measure(node, "cy", view)), _size(node, "r", view)
+def _circle(node: Node, basis: LengthBasis) -> SvgPath:
+    centre, radius = (measure(node, "cx", basis), measure(node, "cy", basis)), _size(node, "r", basis)
     return _drawn([Circle(centre, radius)] if radius > 0 else [], centre)
 
 
-def _ellipse(node: Node, view: View) -> SvgPath:
-    centre = measure(node, "cx", view), measure(node, "cy", view)
-    rx, ry = _radii(node, view)
+def _ellipse(node: Node, basis: LengthBasis) -> SvgPath:
+    centre = measure(node, "cx", basis), measure(node, "cy", basis)
+    rx, ry = _radii(node, basis)
     if rx == ry:
         return _drawn([Circle(centre, rx)] if rx > 0 else [], centre)
     made = ellipse((centre, (rx, 0.0), (0.0, ry)), 0.0, math.tau)
     return _drawn([made] if made is not None else [], centre)
 
 
-def _radii(node: Node, view: View) -> tuple[float, float]:
+def _radii(node: Node, basis: LengthBasis) -> tuple[float, float]:
     """Return rx and ry; one that is not given is as the other."""
-    given = {key: _size(node, key, view) for key in ("rx", "ry") if node.attributes.get(key, "auto").strip() != "auto"}
+    given = {key: _size(node, key, basis) for key in ("rx", "ry") if node.attributes.get(key, "auto").strip() != "auto"}
     return given.get("rx", given.get("ry", 0.0)), given.get("ry", given.get("rx", 0.0))
 
 
-def _rect(node: Node, view: View) -> SvgPath:
+def _rect(node: Node, basis: LengthBasis) -> SvgPath:
     """A rectangle, from the end of its first corner round to the right, as SVG has it."""
-    x, y = measure(node, "x", view), measure(node, "y", view)
-    width, height = _size(node, "width", view), _size(node, "height", view)
+    x, y = measure(node, "x", basis), measure(node, "y", basis)
+    width, height = _size(node, "width", basis), _size(node, "height", basis)
     if not (width > 0 and height > 0):
         return _drawn([], (x, y))
-    rx, ry = _radii(node, view)
+    rx, ry = _radii(node, basis)
     rx, ry = min(rx, width / 2), min(ry, height / 2)
     right, low = x + width, y + height
     if not (rx > 0 and ry > 0):
@@ -117,7 +118,7 @@ def _corner(places: tuple[Point, Point, Point], radii: tuple[float, float], angl
     return made if made is not None else Line(begin, end)
 
 
-def _poly(node: Node, _: View) -> SvgPath:
+def _poly(node: Node, _: LengthBasis) -> SvgPath:
     """Lines through points; as SVG asks, those before a fault are drawn."""
     path = SvgPath()
     try:
@@ -141,7 +142,7 @@ def _drawn(curves: list[Curve], start: Point) -> SvgPath:
     return SvgPath([curves] if curves else [], None, start)
 
 
-_READERS: dict[str, Callable[[Node, View], SvgPath]] = {
+_READERS: dict[str, Callable[[Node, LengthBasis], SvgPath]] = {
     "line": _line,
     "circle": _circle,
     "ellipse": _ellipse,

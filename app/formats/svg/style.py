@@ -10,11 +10,24 @@ from itertools import chain, zip_longest
 from typing import NamedTuple
 
 from .colours import colour
+from .lengths import MEDIUM, letter_height, size_of_font
 from .xml import Node
 
 _COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)", re.DOTALL)
 _SELECTOR = re.compile(r"(?:(\*)|(:root|[\w-]+)?(?:\.([\w-]+)|#([\w-]+))?)\Z")
-_READ = ("display", "visibility", "fill", "stroke", "color", "clip-path", "mask", "transform", "transform-origin")
+_READ = (
+    "display",
+    "visibility",
+    "fill",
+    "stroke",
+    "color",
+    "clip-path",
+    "mask",
+    "transform",
+    "transform-origin",
+    "font-size",
+    "font",
+)
 _GEOMETRY = ("x", "y", "width", "height", "cx", "cy", "r", "rx", "ry")
 """Places and sizes of shapes, which a style sheet may give in the place of attributes."""
 
@@ -38,6 +51,7 @@ class SvgStyle:
         origin: what that is about, if not the origin of coordinates, as written.
         variables: by name, --x, with what elements round it have set.
         geometry: places and sizes that style sheets give the element itself.
+        em, rem: height of its letters, and of the root's, user units, which lengths may be in.
     """
 
     shown: bool = True
@@ -50,6 +64,8 @@ class SvgStyle:
     origin: str = ""
     variables: Mapping[str, str] = field(default_factory=dict)
     geometry: Mapping[str, str] = field(default_factory=dict)
+    em: float = MEDIUM
+    rem: float = MEDIUM
 
     @property
     def draws(self) -> bool:
@@ -155,6 +171,7 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
         if key not in own and (value := _resolved(written, variables)) and value != "inherit"
     }
     visibility = declared.get("visibility")
+    size = declared.get("font-size", "") or size_of_font(f"{declared.get('font', '')} ")
     hides = any(declared.get(key, "none") != "none" for key in ("clip-path", "mask"))
     return replace(
         outer,
@@ -168,4 +185,5 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
         origin=declared.get("transform-origin", ""),
         variables=variables,
         geometry={key: declared[key] for key in _GEOMETRY if key in declared},
+        em=letter_height(size, outer.em, outer.rem),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import starmap
@@ -40,7 +41,9 @@ from ..reading_question import (
     pixels_question,
 )
 from .generator import CSS_PER_INCH, KNOWN_PER_INCH, PixelDensity, density_of
-from .numbers import MM, UnreadableError, ViewBox, WrittenLength, fitted, length, numbers, view_box
+from .lengths import LengthBasis, WrittenLength, length
+from .numbers import UnreadableError, ViewBox, fitted, numbers, view_box
+from .style import StyleSheet, SvgStyle
 from .walk import SvgContent, SvgWalker
 from .xml import Node, read_xml
 
@@ -99,7 +102,7 @@ def read_svg(
         return usable_curves(content.curves, None, _anchors(content, layers, how.without_layers) if to_zero else None)
 
     found = placed(how.to_zero)
-    left_out = content.left_out + found.missing
+    left_out = +(content.left_out + found.missing + Counter({"shape of unreadable length": len(content.unread)}))
     if not found.entities:
         why = (
             "all of the drawing lies beyond 1 km"
@@ -121,6 +124,8 @@ def read_svg(
         *_units(units, page, density, how),
         *placement_findings(found),
         *_faults(content),
+        *_unread(content),
+        *_of_fonts(content),
         *without_length(content.nothing + found.nothing),
         *_clipped(content),
         *switched_off(part, layers),
@@ -212,7 +217,8 @@ def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False)
         unit, width, height = units.value, None if box else width, None if box else height
     else:
         unit = pixel
-    wide, high = _mm(width, unit), _mm(height, unit)
+    em = StyleSheet(root).style(root, SvgStyle()).em
+    wide, high = _mm(width, unit, em), _mm(height, unit, em)
     if box is None:
         to, view = Affine(unit, 0.0, 0.0, unit), ((wide or 0.0) / unit, (high or 0.0) / unit)
     else:
@@ -229,17 +235,17 @@ def _given(root: Node, key: str) -> WrittenLength | None:
     """Return the page's width or height; None where it is not given or only a share of a window."""
     text = root.attributes.get(key, "auto").strip()
     found = None if text in ("auto", "") else length(text)
-    if found is None or found.unit == "%":
+    if found is None or found.is_share:
         return None
-    if not 0 < found.value < math.inf:
+    if not 0 < found.user(LengthBasis((0.0, 0.0))) < math.inf:
         raise UnreadableError(text)
     return found
 
 
-def _mm(given: WrittenLength | None, unit: float) -> float | None:
+def _mm(given: WrittenLength | None, unit: float, em: float) -> float | None:
     if given is None:
         return None
-    return given.value * MM[given.unit] if given.is_physical else given.user(0.0) * unit
+    return given.mm if given.is_physical else given.user(LengthBasis((0.0, 0.0), em, em)) * unit
 
 
 def _zero(root: Node) -> tuple[float, float] | None:
@@ -282,6 +288,31 @@ def _faults(content: SvgContent) -> Iterator[Finding]:
             "drawn. Check it."
         )
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(content.faults)))
+
+
+def _unread(content: SvgContent) -> Iterator[Finding]:
+    """Name shapes that are missing since a length of theirs cannot be read."""
+    if content.unread:
+        first, count = content.unread[0], len(content.unread)
+        what = "1 shape is" if count == 1 else f"{count} shapes are"
+        where = "in" if count == 1 else "the first in"
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{what} missing from the part, {where} line {first.line}: the length {first.what[:60]!r} cannot be read; "
+            "write it in mm, px or user units.",
+            amount=float(count),
+        )
+
+
+def _of_fonts(content: SvgContent) -> Iterator[Finding]:
+    """Say that lengths were read that depend on a font."""
+    if content.of_font:
+        what = "1 shape has" if content.of_font == 1 else f"{content.of_font} shapes have"
+        yield remark(
+            f"{what} lengths in ex or ch, which depend on a font; half of the height of the letters is taken. "
+            "Measure one of them, or write them in mm.",
+            float(content.of_font),
+        )
 
 
 def _clipped(content: SvgContent) -> Iterator[Finding]:

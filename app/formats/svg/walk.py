@@ -18,9 +18,10 @@ from ..drawing_account import MOST_CURVES, LayeredCurve
 from ..dxf.splines import MOST_POINTS
 from .generator import INKSCAPE, SODIPODI
 from .joined import beziers_joined, joined
+from .lengths import FONT_LENGTH, LengthBasis, Viewport
 from .numbers import UnreadableError, ViewBox, fitted, transform, view_box
 from .path import SvgPath
-from .shapes import SHAPES, View, measure, shape
+from .shapes import LENGTHS, SHAPES, measure, shape
 from .style import StyleSheet, SvgStyle
 from .xml import DEEPEST, Node
 
@@ -64,6 +65,8 @@ class SvgContent:
         left_out: elements that are no curves or draw none, by type.
         nothing: places of shapes without length.
         faults: shapes whose data cannot be read to the end.
+        unread: shapes that are missing, for a length of theirs cannot be read: it, and its line.
+        of_font: shapes with lengths that depend on what a font is like.
         clipped: shapes that are read whole although the drawing hides a part of them.
         layers: by name, in order.
     """
@@ -72,6 +75,8 @@ class SvgContent:
     left_out: Counter[str] = field(default_factory=Counter)
     nothing: list[Point | None] = field(default_factory=list)
     faults: list[SvgFault] = field(default_factory=list)
+    unread: list[SvgFault] = field(default_factory=list)
+    of_font: int = 0
     clipped: int = 0
     layers: dict[str, LayerNote] = field(default_factory=dict)
 
@@ -89,11 +94,16 @@ class InheritedState:
     """
 
     to: Affine
-    view: View
+    view: Viewport
     style: SvgStyle = field(default_factory=SvgStyle)
     layer: str = ""
     depth: int = 0
     copied: bool = False
+
+    @property
+    def basis(self) -> LengthBasis:
+        """What lengths are relative to."""
+        return LengthBasis(self.view, self.style.em, self.style.rem)
 
 
 class SvgWalker:
@@ -110,7 +120,7 @@ class SvgWalker:
             self._named_layers |= _is_layer(node)
         self._open: list[int] = []
 
-    def content(self, to: Affine, view: View) -> SvgContent:
+    def content(self, to: Affine, view: Viewport) -> SvgContent:
         """Return what the file draws.
 
         Args:
@@ -121,7 +131,8 @@ class SvgWalker:
             InputError: a transform or a viewBox cannot be read; uses go in a circle, too deep, or unfold to too much.
         """
         self._size(self._root, {}, 0)
-        self._children(self._root.children, InheritedState(to, view, self._styles.style(self._root, SvgStyle())))
+        style = self._styles.style(self._root, SvgStyle())
+        self._children(self._root.children, InheritedState(to, view, replace(style, rem=style.em)))
         return self._sheet
 
     def _size(self, node: Node, known: dict[int, tuple[int, int]], depth: int) -> tuple[int, int]:
@@ -237,9 +248,9 @@ class SvgWalker:
         to = fitted(box, ViewBox(x, y, width, height), node.attributes.get("preserveAspectRatio", ""))
         return replace(state, to=state.to.after(to), view=(box.width, box.height))
 
-    def _measured(self, node: Node, keys: tuple[str, str], state: InheritedState, default: View) -> View:
+    def _measured(self, node: Node, keys: tuple[str, str], state: InheritedState, default: Viewport) -> Viewport:
         try:
-            return measure(node, keys[0], state.view, default[0]), measure(node, keys[1], state.view, default[1])
+            return measure(node, keys[0], state.basis, default[0]), measure(node, keys[1], state.basis, default[1])
         except UnreadableError as error:
             self._refuse(node, f"the length {error.args[0][:60]!r} cannot be read; write it in mm, px or user units")
 
@@ -251,10 +262,13 @@ class SvgWalker:
             ] += 1
             return
         try:
-            drawn = shape(node, state.view, MOST_CURVES)
+            drawn = shape(node, state.basis, MOST_CURVES)
             if drawn is not None and style.stroke == "none":
                 drawn.runs = [_area(run) for run in drawn.runs]
             curves = self._placed(node, drawn, state.to) if drawn is not None else []
+        except UnreadableError as error:
+            content.unread.append(SvgFault(node.line, str(error.args[0])))
+            return
         except (ValueError, ArithmeticError):  # numbers that are none, or beyond all measure
             content.left_out[f"{node.tag} (damaged)"] += 1
             return
@@ -271,6 +285,7 @@ class SvgWalker:
         note = content.layers.setdefault(layer, LayerNote())
         note.inks |= {style.ink or BLACK} if style.stroke != "none" else set()
         content.clipped += style.clipped
+        content.of_font += _of_font(node)
         content.curves += [LayeredCurve(curve, layer) for curve in curves]
         if len(content.curves) > MOST_CURVES:
             self._refuse(node, _TOO_MUCH)
@@ -310,6 +325,11 @@ def _area(run: list[Curve]) -> list[Curve]:
     if not run or run[0].start == run[-1].end or (len(run) == 1 and isinstance(run[0], Line)):
         return run
     return [*run, Line(run[-1].end, run[0].start)]
+
+
+def _of_font(node: Node) -> bool:
+    """True where a place or size of a shape that is read depends on what a font is like."""
+    return any(FONT_LENGTH.search(node.attributes.get(key, "")) for key in LENGTHS)
 
 
 def _is_layer(node: Node) -> bool:

@@ -95,6 +95,7 @@ TAKES: dict[str, str] = {code: letters.lower() for code, letters in CYCLE_WORDS.
     "G5.2": "pl",
     "G6.2": "pkr",
     "G10": "lprijq",
+    "G30": "p",
     "G33": "k",
     "G33.1": "ki",
     "G41": "d",

@@ -20,6 +20,7 @@ from .offsets import OFFSETS, Place, WorkOffsets
 from .options import ReadOptions, ToolOffset
 from .parameters import Key, Parameters
 from .program import Event, EventKind, FeedMode, ModalState
+from .set_parameters import SetParameters, counts_from
 from .splines import OpenFanucNurbs, OpenNurbs
 
 MOST_EVENTS = 1_000_000
@@ -82,6 +83,7 @@ class Control:
             the program takes it to be, after G40. side: the G word of compensation, also where the radius is 0.
         registers_hold_wear: whether a D word whose register nobody tells means 0.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
+        set_parameters: the control's own that the program sets and that no code has asked for yet.
         requested: parameters that the machine tells, or that nobody has set, and the line that read each first.
         columns, splines, events, homeward, warnings: what comes out; a warning is a text, and of which word.
     """
@@ -113,7 +115,8 @@ class Control:
         self.events: list[Event] = []
         self.homeward: list[int] = []
         self.warnings: dict[str, WordInLine] = {}
-        self.parameters = Parameters(self.own_parameter, local_numbers=33 if self.rules.fanuc_flow else 30)
+        self.parameters = Parameters(self.own_parameter, 33 if self.rules.fanuc_flow else 30, self.set_own_parameter)
+        self.set_parameters = SetParameters()
         self.requested: dict[Key, int] = {}
         self._states: dict[ModalState, int] = {}
         self._last = _NumberedState(None, 0)
@@ -317,8 +320,24 @@ class Control:
             )
         self.events.append(Event(kind, self.row, self.line, value))
 
+    def set_own_parameter(self, key: int, value: float) -> bool:
+        """Obey that the program sets a parameter of the control's own; return False where it is none of these.
+
+        Raises:
+            Fault: it can only be read.
+        """
+        if not self.set_parameters.set(key, value):
+            return False
+        self.warn(
+            f"#{key} is set in the machine's own units, which are taken for mm, and counts from the next "
+            f"{counts_from(key)} on."
+        )
+        return True
+
     def own_parameter(self, key: Key) -> float | None:
         """Return a parameter that the control itself sets, None if it is another; those of tables are in mm."""
+        if key in self.set_parameters.values:
+            return self.set_parameters.values[key]
         axis = _PLACES.get(key)
         if (axis is not None and self.known[axis] < 0) or (
             axis is None and isinstance(key, int) and key not in _OF_THE_PROGRAM

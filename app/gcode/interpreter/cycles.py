@@ -34,6 +34,8 @@ CYCLE_WORDS: dict[str, str] = {
 CHIP_CLEARANCE_MM = 0.254
 """How far G73 lifts, and how far above the chips G83 returns, mm; on Fanuc and Haas a parameter of the machine."""
 
+SAME_HEIGHT = 1e-9
+"""mm; what rounding may part of two heights that are one: no move is made between them."""
 MOST_PECKS = 100_000
 """Pecks of one hole; more are a slip of the pen, or meant to hang the reader."""
 
@@ -274,9 +276,9 @@ def _steps(cycle: Cycle, position: Point, initial: float, heights: tuple[float, 
     for _ in range(cycle.repeats):
         first, second = (_moved(word, at, cycle.absolute) for word, at in zip(cycle.hole, (first, second), strict=True))
         hole = _Hole(cycle, (r, bottom, clear), first, second)
-        height = clear if height <= r and not cycle.fanuc else height
+        height = clear if height <= r + SAME_HEIGHT and not cycle.fanuc else height
         yield hole.rapid(height)
-        if height != r:
+        if abs(height - r) > SAME_HEIGHT:
             yield hole.rapid(r)
         yield from _BORING[cycle.code](hole)
         height = clear

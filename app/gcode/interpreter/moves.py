@@ -35,6 +35,8 @@ LINUXCNC_MISMATCH = {Units.MM: 0.02 * math.sqrt(2.0), Units.INCH: 0.002 * math.s
 """How far the two radii may be apart whatever their size, in units of the program; measured at its interpreter."""
 LINUXCNC_MOST = 100.0
 """So many times that they may never be apart, be the arc as large as it may."""
+_REFERENCES = (1, 2, 3, 4)
+"""P of G30; 1 is Mach3's word for the second one, which other controls call 2."""
 CURVES = ("G5.2", "G5.3", "G6.2")
 """They take several blocks for one curve."""
 MOST_TURNS = 100_000
@@ -97,12 +99,23 @@ def _go_home(control: Control, block: Block, code: str) -> None:
     control.note_known(block, absolute=True)
     if by_way != control.at or not control.rules.fanuc_flow:
         control.move(MotionKind.RAPID, by_way)
-    home = control.offsets.to_program(taken(control.homes[code], control.offsets.tool))
+    place = control.set_parameters.home(code, control.homes[_reference(control, block, code)])
+    home = control.offsets.to_program(taken(place, control.offsets.tool))
     goal = control.program_place
     for axis in named or range(3):
         goal = replaced(goal, axis, home[axis])
     control.homeward.append(control.row)
     control.move(MotionKind.RAPID, control.offsets.to_table(goal))
+
+
+def _reference(control: Control, block: Block, code: str) -> str:
+    """Return the code whose place is meant; P tells the second, third or fourth, of which nothing but that is known."""
+    number = block.values.get("p")
+    if number is not None and control.options.dialect in (Dialect.LINUXCNC, Dialect.GRBL):
+        raise BlockFault("no code in this block takes this word.", letter="p")
+    if number is not None and (code != "G30" or whole(number, "P of G30") not in _REFERENCES):
+        raise BlockFault(f"{code} has no reference point P{number:g}; write G30 with P2, P3 or P4.", letter="p")
+    return code
 
 
 def _target(control: Control, block: Block) -> Place:

@@ -12,6 +12,8 @@ from ...model.motion import Floats
 from .block_fault import BlockFault
 
 Key = int | str
+Assign = Callable[[int, float], bool]
+"""Sets a parameter of the control's own; False = it is none that can be set."""
 System = Callable[[Key], float | None]
 """What the control says of a parameter of its own; None = it is none."""
 
@@ -37,14 +39,14 @@ class Parameters:
         changes: how often a value became another one; alike at two times = nothing has changed between.
     """
 
-    def __init__(self, system: System, local_numbers: int) -> None:
+    def __init__(self, system: System, local_numbers: int, assign: Assign) -> None:
         """Begin with every parameter 0.
 
         Args:
-            system: asked first.
+            system: asked first. assign: told first of a value that is set.
             local_numbers: #1 to this one belong to the subroutine that is running.
         """
-        self._system = system
+        self._system, self._assign = system, assign
         self._local = slice(1, local_numbers + 1)
         self.plain: Floats = np.full(PLAIN + 1, math.nan)
         self._everywhere: dict[Key, float] = {}
@@ -94,6 +96,9 @@ class Parameters:
             if self.plain[key] != value:
                 self.changes += 1
                 self.plain[key] = value
+            return
+        if isinstance(key, int) and self._assign(key, value):
+            self.changes += 1
             return
         place = self._place(key)
         if place.get(key) != value:

@@ -216,6 +216,7 @@ def _work_offset(control: Control, block: Block) -> None:
         if number is None:
             raise BlockFault("G54.1 needs a word P.", letter="g")
         control.offsets.name = offset_name(whole(number, "P of G54.1"), extended=True)
+    control.set_parameters.choose(control.offsets, control.offsets.name)
     control.offsets_changed()
 
 
@@ -295,6 +296,8 @@ def set_once(control: Control, block: Block) -> None:
 
 def _set_local(control: Control, block: Block) -> None:
     _need_axes(block, "G52")
+    if control.offsets.local_is_set_here:
+        control.set_parameters.forget_here()
     for axis, value in control.axis_words(block):
         control.offsets.set_local(axis, value)
 
@@ -304,6 +307,7 @@ def _call_here(control: Control, block: Block) -> None:
         if control.rules.fanuc_flow and block.has("s"):
             return
         _need_axes(block, "G92")
+    control.set_parameters.forget_here()
     for axis, value in control.axis_words(block):
         control.offsets.call_here(control.at, axis, value)
 
@@ -314,6 +318,7 @@ def _need_axes(block: Block, code: str) -> None:
 
 
 def _forget_here(control: Control, block: Block) -> None:
+    control.set_parameters.forget_here()
     control.offsets.set_here, control.offsets.set_here_on = ZERO, True
 
 
@@ -322,11 +327,13 @@ def _suspend_here(control: Control, block: Block) -> None:
 
 
 def _restore_here(control: Control, block: Block) -> None:
+    control.offsets.set_here = control.set_parameters.set_here(control.offsets.set_here)
     control.offsets.set_here_on = True
 
 
 def _home_here(name: str) -> Callable[[Control, Block], None]:
     def act(control: Control, block: Block) -> None:
+        control.set_parameters.forget_home(name)
         control.homes[name] = added(control.at, control.offsets.tool)
 
     return act
@@ -352,6 +359,7 @@ def _set_work(control: Control, block: Block, kind: int, number: int) -> None:
         return
     extended = kind == 20 and control.rules.fanuc_flow
     name = offsets.name if number == 0 else offset_name(number, extended)
+    control.set_parameters.choose(offsets, name)
     if kind == 20 and not extended:
         offsets.call_work(name, control.at, values)
         return

@@ -44,18 +44,14 @@ def curve_blocks(path: Motions, spelling: BlockFormat) -> tuple[str, ...]:
     """Return the blocks that drive along a path from its start, where the tool stands; G1 is in force behind them,
     unless it is said there.
 
-    Every end is rounded once to the post's digits; what a form cannot carry is the caller's to avoid: see `carries`.
+    Every end is rounded once to the post's digits; what a form cannot carry is the caller's to
+    avoid: `nurbs_blocks` gives None for it.
 
     Args:
         path: lines, arcs in any plane, splines; mm from the zero of the table of work offsets.
         spelling: words, and what is in force.
     """
     return tuple(_CurveWriter(path, spelling).lines())
-
-
-def carries(path: Motions, row: int, post: Post, state: ModalState) -> bool:
-    """Tell whether a control can be told of the spline in a row of a path."""
-    return nurbs_blocks(path.splines[row], post, state.units) is not None
 
 
 class _CurveWriter:

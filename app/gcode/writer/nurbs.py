@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.arcs.bezier import cut_at_knots
+from ...geometry.arcs.bezier import cut_at_knots, elevated
 from ...model.motion import MotionKind, Nurbs
 from ...model.part import Units
 from ..posts.post import NurbsForm, Post
@@ -72,7 +72,7 @@ def nurbs_blocks(curve: Nurbs, post: Post, units: Units) -> tuple[str, ...] | No
 def _pieces(curve: Nurbs, post: Post, units: Units) -> list[str]:
     """Return cubic pieces of four control points; the first is where the tool stands, with its weight alone."""
     blocks: list[str] = []
-    pieces = [part for whole in _cubics(_bezier(curve)) for part in _that_turn(whole, post, units)]
+    pieces = [part for whole in elevated(_bezier(curve), CUBIC) for part in _that_turn(whole, post, units)]
     at = _places(pieces[0], post, units)[0]
     for number, piece in enumerate(pieces, 1):
         end = _places(piece, post, units)[-1]
@@ -175,16 +175,6 @@ def _homogeneous(curve: Nurbs) -> Floats:
 def _bezier(curve: Nurbs) -> Floats:
     """Return the Bézier pieces (n, degree + 1, 4), homogeneous."""
     return cut_at_knots(_homogeneous(curve), curve.knots, curve.degree)
-
-
-def _cubics(pieces: Floats) -> Floats:
-    """Return the same pieces with degree 3: point k of one degree more is between points k - 1 and k."""
-    while (degree := pieces.shape[1] - 1) < CUBIC:
-        share = (np.arange(degree + 2) / (degree + 1))[:, None]
-        before = np.pad(pieces, ((0, 0), (1, 0), (0, 0)))
-        after = np.pad(pieces, ((0, 0), (0, 1), (0, 0)))
-        pieces = share * before + (1 - share) * after
-    return pieces
 
 
 def _whole(knots: Floats, decimals: int) -> NDArray[np.int64] | None:

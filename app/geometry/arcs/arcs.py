@@ -121,7 +121,7 @@ def _as_circle(curve: Ellipse | Spline, pieces: BezierCurve, closed: bool, toler
         return LinesAndArcs((Circle(at, radius, sweep > 0),), bound)
     if not closed and bound <= tolerances.WELD:
         return LinesAndArcs(
-            (Arc(curve.start, curve.end, _levelled(curve.start, curve.end, at), sweep > 0),), bound + tolerances.WELD
+            (Arc(curve.start, curve.end, equally_far(curve.start, curve.end, at), sweep > 0),), bound + tolerances.WELD
         )
     return None
 
@@ -136,8 +136,8 @@ def _middle_of(a: Floats, b: Floats, c: Floats) -> Floats | None:
     return centre
 
 
-def _levelled(start: Point, end: Point, centre: Point) -> Point:
-    """Return the point nearest to centre that is equally far from start and end."""
+def equally_far(start: Point, end: Point, centre: Point) -> Point:
+    """Return the point nearest to centre that is equally far from start and end, which differ."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     along = ((centre[0] - (start[0] + end[0]) / 2) * dx + (centre[1] - (start[1] + end[1]) / 2) * dy) / (
         dx * dx + dy * dy
@@ -225,4 +225,4 @@ def _primitive(start: Point, end: Point, centre: Point, turn: float) -> tuple[Li
     """Return the line (turn 0) or the arc between two places; nothing where they are one."""
     if start == end:
         return ()
-    return (Arc(start, end, _levelled(start, end, centre), turn > 0),) if turn else (Line(start, end),)
+    return (Arc(start, end, equally_far(start, end, centre), turn > 0),) if turn else (Line(start, end),)

@@ -174,3 +174,15 @@ def cut_at_knots(points: Floats, knots: Floats, degree: int) -> Floats:
     result = np.empty((len(spans), p + 1, points.shape[1]))
     kernels.blossoms(np.ascontiguousarray(points, np.float64), np.ascontiguousarray(knots, np.float64), spans, result)
     return result
+
+
+def elevated(control: Floats, degree: int) -> Floats:
+    """Return Bézier control points (n, p + 1, ...) of the same curves at a degree >= p.
+
+    Point k of one degree more lies between points k - 1 and k, at k / (p + 1) of the way back.
+    """
+    while (p := control.shape[1] - 1) < degree:
+        share = (np.arange(1, p + 1) / (p + 1)).reshape(-1, *[1] * (control.ndim - 2))
+        inner = control[:, :-1] * share + control[:, 1:] * (1 - share)
+        control = np.concatenate([control[:, :1], inner, control[:, -1:]], axis=1)
+    return control

@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ...model.curves import Circle, Point
 from ...model.part import Contour
-from ..near_points import pairs_within
+from ..near_points import pairs_meeting, pairs_within
 from ..primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, distances, points_at, sweeps
 from ..primitives import lengths as row_lengths
 from ..primitives import rows_of as primitive_rows
-from ..tree_queries import near
 from .pieces import ChainPiece, length_of
 
 Nodes = NDArray[np.int64]
@@ -150,15 +149,9 @@ def near_pairs(rows: Rows, reach: float) -> tuple[NDArray[np.int64], NDArray[np.
     """Return the index pairs i < j of rows whose boxes, widened by `reach`, meet."""
     if len(rows) < 2:
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
-    import shapely
-
     split, owner = _quarters(rows)
-    around = boxes(split)
-    wide = shapely.box(around[:, 0] - reach, around[:, 1] - reach, around[:, 2] + reach, around[:, 3] + reach)
-    a, b = near(shapely.STRtree(wide), wide)
-    i, j = owner[a], owner[b]
-    codes = np.unique(i[i < j] * len(rows) + j[i < j])
-    return codes // len(rows), codes % len(rows)
+    i, j = pairs_meeting(boxes(split) + np.array([-reach, -reach, reach, reach]), owner).T
+    return i, j
 
 
 def _quarters(rows: Rows) -> tuple[Rows, NDArray[np.int64]]:

@@ -16,7 +16,7 @@ from ...core.errors import GeometryError
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Primitive, Spline, reversed_curve
 from ...model.finding import Finding, FindingKind
 from ...model.part import Entity
-from ..arcs.arcs import lines_and_arcs
+from ..arcs.arcs import equally_far, lines_and_arcs
 from ..primitives import boxes, curve_rows
 
 _AMPLIFIED = 2.0
@@ -232,12 +232,3 @@ def off_circle(arc: Arc, old: Arc) -> float:
     angles = [arc.start_angle + arc.sweep * k / 16 for k in range(17)]
     points = [(arc.centre[0] + arc.radius * math.cos(a), arc.centre[1] + arc.radius * math.sin(a)) for a in angles]
     return max(abs(math.dist(p, old.centre) - old.radius) for p in points)
-
-
-def equally_far(start: Point, end: Point, centre: Point) -> Point:
-    """Return the point nearest to centre that is equally far from start and end, which differ."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    along = ((centre[0] - (start[0] + end[0]) / 2) * dx + (centre[1] - (start[1] + end[1]) / 2) * dy) / (
-        dx * dx + dy * dy
-    )
-    return centre[0] - along * dx, centre[1] - along * dy

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...model.curves import Arc, Point
+from ..arcs.arcs import equally_far
 from .overlap import Overlap
-from .pieces import ChainPiece, equally_far, off_circle
+from .pieces import ChainPiece, off_circle
 
 Nodes = NDArray[np.int64]
 

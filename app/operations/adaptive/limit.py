@@ -83,15 +83,3 @@ class EngagementLimit:
             else:
                 high = middle
         return low
-
-
-def engaged_angle(turn: float, radius: float, clear: float) -> float:
-    """Return a bound of the engaged angle along a path round a centre, radians, in [0, pi].
-
-    Args:
-        turn: radius of the path, mm, > 0.
-        radius: of the cutter, mm.
-        clear: so far round the centre there is no metal, mm.
-    """
-    cosine = (clear * clear - turn * turn - radius * radius) / (2 * turn * radius)
-    return math.acos(min(1.0, max(-1.0, cosine)))

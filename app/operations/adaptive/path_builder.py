@@ -18,8 +18,6 @@ from .cleared_discs import ClearedDisc, ClearedDiscs, Point
 from .limit import EngagementLimit
 from .link import Circle, PathPose, Row, smooth_way, way_in
 
-Floats = NDArray[np.float64]
-
 _NOTHING = 1e-6
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -226,8 +225,3 @@ def mirrored_rows(rows: Rows) -> Rows:
     out = rows.copy()
     out[:, [0, 2, 4, 7]] *= -1
     return out
-
-
-def narrow(parts: Sequence[ConnectedPath]) -> list[WalkStop]:
-    """Return where the area is too narrow for the limit."""
-    return [stop for part in parts for stop in part.stops]

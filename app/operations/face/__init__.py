@@ -5,5 +5,6 @@ from __future__ import annotations
 from ...model.face_operation import FaceOperation
 from ..registry import OperationMethod, register
 from .paths import face
+from .proof import face_proof
 
-register(FaceOperation, OperationMethod(face))
+register(FaceOperation, OperationMethod(face, proof=face_proof))

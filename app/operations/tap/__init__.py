@@ -12,6 +12,7 @@ from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..holes import circle_findings
 from ..registry import OperationMethod, register
 from .paths import VERB, tap
+from .proof import tapped_proof
 
 
 def _missed(areas: MachiningAreas, operation: Operation, _: MachiningArea | None) -> Iterable[Finding]:
@@ -19,4 +20,4 @@ def _missed(areas: MachiningAreas, operation: Operation, _: MachiningArea | None
     return circle_findings(holes_of(areas.job, areas.drawn, operation), areas.job, operation, VERB)
 
 
-register(TapOperation, OperationMethod(tap, _missed))
+register(TapOperation, OperationMethod(tap, _missed, proof=tapped_proof))

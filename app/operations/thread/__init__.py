@@ -12,6 +12,7 @@ from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..holes import circle_findings
 from ..registry import OperationMethod, register
 from .paths import VERB, thread
+from .proof import milled_proof
 
 
 def _missed(areas: MachiningAreas, operation: Operation, _: MachiningArea | None) -> Iterable[Finding]:
@@ -19,4 +20,4 @@ def _missed(areas: MachiningAreas, operation: Operation, _: MachiningArea | None
     return circle_findings(holes_of(areas.job, areas.drawn, operation), areas.job, operation, VERB)
 
 
-register(ThreadOperation, OperationMethod(thread, _missed))
+register(ThreadOperation, OperationMethod(thread, _missed, proof=milled_proof))

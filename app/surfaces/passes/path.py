@@ -26,7 +26,6 @@ from ..sections.planes import Stretch, extent_on, stretches
 from .simplification import PathSimplification, simplified
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 ALLOWED = 9.99e-5
 """mm; no chord goes deeper into a surface, measured square to the cutter: that is proven for each. Rounding has the

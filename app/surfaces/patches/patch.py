@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import GeometryError
-from ...geometry.arcs.bezier import cut_at_knots
+from ...geometry.arcs.bezier import cut_at_knots, elevated
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -113,7 +113,7 @@ def patches_of(surfaces: Sequence[Sequence[BsplineSurface]]) -> Patches:
     control, owner, spans = [np.zeros((0, p + 1, q + 1, 4))], [np.zeros(0, np.int64)], [np.zeros((0, 4))]
     for number, surface in parts:
         pieces, edges = _pieces(surface)
-        raised = _elevated(_elevated(pieces, p).swapaxes(1, 2), q).swapaxes(1, 2)
+        raised = elevated(elevated(pieces, p).swapaxes(1, 2), q).swapaxes(1, 2)
         control.append(raised)
         owner.append(np.full(len(raised), number))
         spans.append(edges)
@@ -147,16 +147,6 @@ def _edges(knots: Floats, degree: int, count: int) -> Floats:
     kept = np.flatnonzero(np.diff(inner) > 1e-12 * (knots[-1] - knots[0]))
     share = (inner - inner[0]) / (inner[-1] - inner[0])
     return np.column_stack([share[kept], share[kept + 1]])
-
-
-def _elevated(points: Floats, degree: int) -> Floats:
-    """Return Bézier control points (n, p + 1, …) of the same curves at a higher degree."""
-    while points.shape[1] - 1 < degree:
-        p = points.shape[1] - 1
-        share = (np.arange(1, p + 1) / (p + 1)).reshape(-1, *[1] * (points.ndim - 2))
-        inner = points[:, :-1] * share + points[:, 1:] * (1 - share)
-        points = np.concatenate([points[:, :1], inner, points[:, -1:]], axis=1)
-    return points
 
 
 def bernstein(t: Floats, degree: int) -> Floats:

@@ -88,11 +88,6 @@ class RingField:
             np.concatenate([np.arange(len(r.rows)) for r in rings]),
         )
 
-    def nearest(self, point: NDArray[np.float64]) -> tuple[float, RingPlace, NDArray[np.float64]]:
-        """Return (distance, place, point there) of the nearest point (2,) of any ring."""
-        distance, rows, parts, places = self.nearest_of(point[None])
-        return float(distance[0]), self.place(int(rows[0]), float(parts[0])), places[0]
-
     def nearest_of(
         self, points: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], Indices, NDArray[np.float64], NDArray[np.float64]]:

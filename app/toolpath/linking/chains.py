@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.primitives import Indices, Rows
@@ -27,8 +26,6 @@ _MOST = 6
 
 _FAR = 24
 """Places that a way is tried to be led past in one go."""
-
-Floats = NDArray[np.float64]
 
 
 def chains(

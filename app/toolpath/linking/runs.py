@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -194,6 +195,22 @@ class _Gaps:
         return found
 
 
+class _RingEnd(NamedTuple):
+    """How far the nearest place of rings is, mm, which it is, and where (2,)."""
+
+    distance: float
+    place: RingPlace
+    point: Floats
+
+
+class _RunWithEnds(NamedTuple):
+    """A run, and what of each side's rings is nearest to its beginning and to its end."""
+
+    rows: Rows
+    begins: Sequence[_RingEnd]
+    stops: Sequence[_RingEnd]
+
+
 class _Space:
     """Between a level and the one inside it: the rings that trips start from, and what they keep clear of."""
 
@@ -236,8 +253,8 @@ class _Space:
         return np.split(found, np.searchsorted(of, np.arange(1, len(hulls))))
 
     def _uncut(self, gaps: _Gaps) -> tuple[Indices, Floats]:
-        """Return (number of the group (n,), points (n, 2)) of the corners of squares that hold all that is uncut beyond
-        gaps.
+        """Return (number of the group (n,), points (n, 2)) of the outermost corners of squares that hold all that is
+        uncut beyond gaps.
         """
         if self._next is None or self._inner is None:
             return np.zeros(0, np.int64), np.zeros((0, 2))
@@ -258,11 +275,9 @@ class _Space:
             np.array([self._half.distance, self._radius / _FINEST]),
             self._squares(_along(gaps.outlines, self._radius / 4)[1], self._next.distance - self._half.distance),
         )
-        corners = found[:count, None, :2] + found[:count, 2, None, None] * np.array(
-            [[-1, -1], [-1, 1], [1, -1], [1, 1]]
-        )
         group = gaps.group[gaps.outlines.owner[found[:count, 3].astype(np.int64)]]
-        return np.repeat(group, 4), corners.reshape(-1, 2)
+        corners, owner = runs_kernels.outermost(found[:count], group, int(gaps.group.max()) + 1)
+        return owner, corners
 
     def _squares(self, points: Floats, reach: float) -> Floats:
         """Return squares (n, 3) of half a radius that hold all within `reach`, at most a radius, of ways along points
@@ -280,16 +295,37 @@ class _Space:
         """Return (closed runs, trips) for all gaps, given the `corners` of their groups."""
         rings: list[Ring] = []
         detours: list[Detour] = []
+        open_ones = [gap for gap in gaps.each if not gap.closed]
+        known = dict(zip(map(id, open_ones), self._ends_of([gap.rows for gap in open_ones]), strict=True))
         for group, spur in zip(gaps.groups, self._spurs(corners), strict=True):
             if spur is not None:
                 detours.append(spur)
                 continue
-            runs = [gap.rows for gap in group if not gap.closed]
+            runs = [known[id(gap)] for gap in group if not gap.closed]
             rings += [gap.ring for gap in group if gap.closed]
             alone = [self._run(run) for run in runs]
             both = self._round(runs) if len(runs) == 2 else None
             detours += [both] if both and both.length < sum(detour.length for detour in alone) else alone
         return rings, detours
+
+    def _ends_of(self, runs: Sequence[Rows]) -> list[_RunWithEnds]:
+        """Return runs with what is nearest to their ends; all are asked for at once."""
+        ends = np.array([end for run in runs for end in (run[0, :2], run[-1, 2:4])]).reshape(-1, 2)
+        sides = []
+        for side in self._sides:
+            away, rows, parts, there = side.nearest_of(ends)
+            sides.append(
+                [
+                    _RingEnd(distance, side.place(row, part), point)
+                    for distance, row, part, point in zip(
+                        away.tolist(), rows.tolist(), parts.tolist(), there, strict=True
+                    )
+                ]
+            )
+        return [
+            _RunWithEnds(run, [side[2 * k] for side in sides], [side[2 * k + 1] for side in sides])
+            for k, run in enumerate(runs)
+        ]
 
     def _spurs(self, places: Sequence[Floats]) -> list[Detour | None]:
         """Return for each set of points (m, 2) the shortest straight way there and back that comes within the radius of
@@ -339,17 +375,19 @@ class _Space:
                 )
         return None
 
-    def _run(self, rows: Rows) -> Detour:
+    def _run(self, one: _RunWithEnds) -> Detour:
         """Return the shortest trip along a run: round, or there and back."""
         ways: list[tuple[float, RingPlace, Rows, Rows]] = []
-        for side in self._sides:
-            for run in (rows, reversed_rows(rows)):
-                away, place, start = side.nearest(run[0, :2])
-                length = path_length(run)
-                back = np.concatenate([reversed_rows(run), straight(run[0, :2], start)])
-                ways.append((2 * (away + length), place, np.concatenate([straight(start, run[0, :2]), run]), back))
+        length = path_length(one.rows)
+        both = (one.rows, one.begins), (reversed_rows(one.rows), one.stops)
+        for side in range(len(self._sides)):
+            for (run, ends), (back_again, _) in (both, both[::-1]):
+                away, place, start = ends[side]
+                out = np.concatenate([straight(start, run[0, :2]), run])
+                back = np.concatenate([back_again, straight(run[0, :2], start)])
+                ways.append((2 * (away + length), place, out, back))
                 home = straight(run[-1, 2:4], start)
-                ways.append((away + length + float(np.hypot(*(run[-1, 2:4] - start))), place, ways[-1][2], home))
+                ways.append((away + length + float(np.hypot(*(run[-1, 2:4] - start))), place, out, home))
         ways.sort(key=lambda way: way[0])
         _, place, out, back = next(
             way for way in ways if self._clear(way[2][0]) and (len(way[3]) > 1 or self._clear(way[3][0]))
@@ -358,13 +396,14 @@ class _Space:
         cuts[0] = False
         return Detour(place, np.concatenate([out, back]), cuts)
 
-    def _round(self, runs: Sequence[Rows]) -> Detour | None:
+    def _round(self, runs: Sequence[_RunWithEnds]) -> Detour | None:
         """Return the shortest trip along one run and back along another."""
         best: Detour | None = None
-        for side in self._sides:
-            for one in (runs[0], reversed_rows(runs[0])):
-                _, place, start = side.nearest(one[0, :2])
-                for two in (runs[1], reversed_rows(runs[1])):
+        first, second = ([(run.rows, run.begins), (reversed_rows(run.rows), run.stops)] for run in runs)
+        for side in range(len(self._sides)):
+            for one, ends in first:
+                _, place, start = ends[side]
+                for two, _ in second:
                     across, out, home = (
                         straight(one[-1, 2:4], two[0, :2]),
                         straight(start, one[0, :2]),

@@ -105,7 +105,7 @@ class Computation(QObject):
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
         worker.cancelled.connect(self._on_cancelled)
-        self._unsubscribe = document.subscribe(self._on_change)
+        document.subscribe(self._on_change)
 
     @property
     def state(self) -> ComputationState:

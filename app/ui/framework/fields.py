@@ -294,6 +294,41 @@ class ChoiceField(QWidget):
         self.buttons[value].setChecked(True)
 
 
+class TextField(QWidget):
+    """A line of text."""
+
+    chosen = Signal(object)
+
+    def __init__(self, name: str, tip: str = "") -> None:
+        super().__init__()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 1, 0, 1)
+        row.setSpacing(8)
+        label = muted(name)
+        label.setFixedWidth(LABEL_WIDTH)
+        self.edit = QLineEdit()
+        self.edit.setFixedHeight(ROW_HEIGHT)
+        self.edit.setAccessibleName(name)
+        self.setToolTip(tip)
+        label.setBuddy(self.edit)
+        self._shown = ""
+        self.edit.editingFinished.connect(self._finish)
+        row.addWidget(label)
+        row.addWidget(self.edit, 1)
+
+    def _finish(self) -> None:
+        text = self.edit.text().strip()
+        if text != self._shown:
+            self._shown = text
+            self.chosen.emit(text)
+
+    def show_value(self, text: str) -> None:
+        """Show the job's value."""
+        self._shown = text
+        if self.edit.text() != text:
+            self.edit.setText(text)
+
+
 class ListField(QWidget):
     """Many values: a drop-down list."""
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QPainter, QPaintEvent
-from PySide6.QtWidgets import QLabel
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtGui import QHelpEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import QLabel, QToolTip
 
 _LEAST_PX = 24
 
@@ -17,7 +17,9 @@ def muted(text: str = "") -> QLabel:
 
 
 class Elided(QLabel):
-    """One line that gives way where room is short; `role` is its colour: "muted", "error", or "" for ink."""
+    """One line that gives way where room is short, and then tells itself whole under the mouse; `role` is its colour:
+    "muted", "error", or "" for ink.
+    """
 
     def __init__(self, text: str = "", role: str = "") -> None:
         super().__init__(text)
@@ -26,6 +28,18 @@ class Elided(QLabel):
     def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """A few letters."""
         return QSize(_LEAST_PX, super().minimumSizeHint().height())
+
+    @property
+    def cut_off(self) -> bool:
+        """Whether there is more text than room."""
+        return self.fontMetrics().horizontalAdvance(self.text()) > self.width()
+
+    def event(self, event: QEvent) -> bool:
+        """Show the whole text as a tip where nothing else is to be said."""
+        if isinstance(event, QHelpEvent) and not self.toolTip() and self.cut_off:
+            QToolTip.showText(event.globalPos(), self.text(), self)
+            return True
+        return super().event(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Draw as much as fits."""

@@ -15,7 +15,7 @@ class Log:
         self._document, self._view = document, view
         self.lines: list[LogLine] = []
         self._taken = 0
-        self._unsubscribe = document.subscribe(self._on_change)
+        document.subscribe(self._on_change)
 
     def note(self, what: str, reply: str, error: bool = False) -> None:
         """Add something that is no line of the drawing language."""

@@ -20,7 +20,7 @@ class VerdictLevel(Enum):
     BAD = "bad"
 
 
-_WORST_FIRST = (
+_RED = (
     FindingKind.PROGRAM,
     FindingKind.AREA,
     FindingKind.GOUGE,
@@ -32,6 +32,9 @@ _WORST_FIRST = (
     FindingKind.SHANK_CONTACT,
     FindingKind.BELOW_TABLE,
     FindingKind.LEFT_REACHABLE,
+)
+_WORST_FIRST = (
+    *_RED,
     FindingKind.BEYOND_STOCK,
     FindingKind.HOLE,
     FindingKind.SIZE,
@@ -57,19 +60,6 @@ _WORST_FIRST = (
     FindingKind.RIDGE,
     FindingKind.ENTRY,
 )
-_RED = {
-    FindingKind.PROGRAM,
-    FindingKind.AREA,
-    FindingKind.GOUGE,
-    FindingKind.CLAMP,
-    FindingKind.RAPID_IN_MATERIAL,
-    FindingKind.START_IN_STOCK,
-    FindingKind.PLUNGE,
-    FindingKind.HOLDER_CONTACT,
-    FindingKind.SHANK_CONTACT,
-    FindingKind.BELOW_TABLE,
-    FindingKind.LEFT_REACHABLE,
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +116,7 @@ def figures(data: Mapping[str, Any]) -> str:
         parts.append("0 left" if area < 5e-4 else f"{area:.3f} mm² left")
         if beyond := left.get("out_of_reach_places"):
             parts.append(f"{counted(beyond, 'place')} out of reach")
-    if data.get("strokes") is not None:
+    if data.get("strokes"):  # a job without a pocket has none to count
         parts.append(counted(data["strokes"], "stroke"))
     if data.get("time_s") is not None:
         parts.append(clock(data["time_s"]))

@@ -8,7 +8,7 @@ from ...gcode.posts.posts import post_titles
 from ...model.job import LARGEST_JOIN, Copies, Job, OriginXY, OriginZ
 from ...model.operation import Order
 from ...model.part import Units
-from ..framework.fields import ChoiceField, ListField, NumberSpec
+from ..framework.fields import ChoiceField, ListField, NumberSpec, TextField
 from ..framework.form import FormSection
 from . import parameter_sketches
 from .changes import with_order
@@ -67,6 +67,7 @@ class JobForm(FormSection):
         self._size: tuple[float, float] | None = None
         self._add_copies()
         self._add_clamps()
+        self._add_notes()
 
     def _add_copies(self) -> None:
         self.copies_group = self.begin_group("Copies")
@@ -93,6 +94,13 @@ class JobForm(FormSection):
             NumberSpec("Height", low=0, high=10_000, tip="Of clamps above the stock's top; rapids go over them."),
             lambda job, v: replace(job, keep_out_height=v),
         )
+
+    def _add_notes(self) -> None:
+        self.notes_group = self.begin_group("On the sheet")
+        self.clamping = TextField("Clamping", "How the stock is held, as the sheet for the machine shall say it.")
+        self.zero = TextField("Zero", "How the zero is set, as the sheet for the machine shall say it.")
+        self.add_choice("Clamping", self.clamping, lambda job, v: replace(job, clamping_note=str(v)))
+        self.add_choice("Zero", self.zero, lambda job, v: replace(job, zero_note=str(v)))
 
     def _copied(self, job: Job, **values: float) -> Job:
         """Return the job with other copies; a spacing that is yet missing leaves room for two tools between them."""
@@ -129,6 +137,11 @@ class JobForm(FormSection):
         self.clamp_height.setVisible(bool(job.keep_out_layers))
         self.clamps_group.say(several or "none")
 
+    def _show_notes(self, job: Job) -> None:
+        self.clamping.show_value(job.clamping_note)
+        self.zero.show_value(job.zero_note)
+        self.notes_group.say("; ".join(filter(None, (job.clamping_note, job.zero_note))) or "no note")
+
     def show_job(self, job: Job) -> None:
         """Show the job's values."""
         self.margin.show_value(job.stock.margin)
@@ -145,6 +158,7 @@ class JobForm(FormSection):
         self.units.show_value(job.out_units)
         self._show_copies(job)
         self._show_clamps(job)
+        self._show_notes(job)
 
     def show_size(self, size: tuple[float, float] | None) -> None:
         """Take the size of one part in the plane, mm."""

@@ -88,7 +88,7 @@ class AdviceController(QObject):
         sheet.for_contour.connect(
             lambda tool: self._use(tool, lambda each: not each.COARSE and not each.HOLES, "Tool for contours")
         )
-        self._unsubscribe = self._document.subscribe(self._on_change)
+        self._document.subscribe(self._on_change)
 
     def _on_change(self, change: DocumentChange) -> None:
         if change & DocumentChange.PART and not self._panel.advice.isHidden():

@@ -58,10 +58,12 @@ class FileController(QObject):
     """Everything between the window and files.
 
     Signals:
-        begun(): an empty drawing; what it is to be may be asked.
+        begun(): an empty drawing; what it is to be may be asked. without_job(name): a drawing was opened that says
+            nothing about machining.
     """
 
     begun = Signal()
+    without_job = Signal(str)
 
     def __init__(self, window: MainWindow, showing: DisplayController, log: Log, open_others: Openers) -> None:
         super().__init__(window)
@@ -89,9 +91,7 @@ class FileController(QObject):
         self.open_controller.asked.connect(self._ask_how)
         self.export_controller.written.connect(self._on_written)
         self.export_controller.post_chosen.connect(self._choose_post)
-        self._unsubscribe = window.document.subscribe(
-            lambda change: window.card.hide() if change & DocumentChange.LOADED else None
-        )
+        window.document.subscribe(lambda change: window.card.hide() if change & DocumentChange.LOADED else None)
 
     @property
     def _would_lose(self) -> bool:
@@ -243,17 +243,13 @@ class FileController(QObject):
             self._computation.start()
             self._showing.show_view(View.PATHS)
             tour = [] if window.preferences.settings.tour else [("Show me round", window.actions_["tour"].trigger)]
-            window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)])
+            window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)], of_job=True)
         elif opening_files.is_sample(opened.path):
             window.actions_["propose"].trigger()
         elif opened.drawing.question is not None:
             self._ask_after(opened)
         elif opened.job.part.entities:
-            window.notice.ask(
-                f"{opened.path.name} says nothing about machining; the operations are those that were there before.",
-                [("Propose operations", window.actions_["propose"].trigger)],
-                of_job=True,
-            )
+            self.without_job.emit(opened.path.name)
         self._see_all()
 
     def _see_all(self) -> None:

@@ -88,7 +88,7 @@ class OwnedCurvesController(QObject):
         self.worker.done.connect(self._on_done)
         self.worker.failed.connect(lambda _: self._show_none())
         panel.shown.connect(self._follow)
-        self._unsubscribe = self._document.subscribe(lambda _: self._follow())
+        self._document.subscribe(lambda _: self._follow())
 
     def _follow(self) -> None:
         """Find the curves of what is chosen, unless they are shown or on their way."""

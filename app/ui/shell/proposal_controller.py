@@ -1,23 +1,31 @@
 """Replaces the job's operations by those that are proposed for the drawing, or adds some for what is selected; found on
 a worker of its own.
+
+A drawing that nobody has said anything about is proposed for before it is computed first; fig. 2 of the 1986 patent
+keeps the rule of its text.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from ...core.errors import GeometryError
 from ...core.progress import Progress
+from ...drafting.document import DocumentChange
 from ...model.curve_selectors import Selector
 from ...model.job import Job
-from ...model.operation import Order
+from ...model.operation import Operation, Order
+from ...model.part import Part
 from ..framework.commands import Commands, on_trigger
-from ..framework.figures import counted
+from ..framework.figures import TIMES, counted
 from ..framework.workspace import Workspace
 from ..panels.changes import Subject, SubjectKind, operation_name, with_cut
 from ..panels.side_panel import SidePanel
+from .open_controller import OpenedDrawing, is_sample
 from .operations_controller import OperationsController
 
 if TYPE_CHECKING:
@@ -36,6 +44,30 @@ def proposed_for(job: Job, nesting: bool, progress: Progress) -> Proposal:
     from ...usecases.proposal.propose import as_in_1986, propose  # imports the engines: never on the window's thread
 
     return propose(job, progress=progress) if nesting else as_in_1986(job)
+
+
+@dataclass(frozen=True)
+class FirstProposal:
+    """What is proposed for a drawing that nobody has said anything about.
+
+    Attributes:
+        proposal: None = its operations stay as they are: it is fig. 2, or there is nothing to be proposed.
+    """
+
+    proposal: Proposal | None
+
+
+def first_proposal(job: Job, progress: Progress) -> FirstProposal:
+    """Return what is proposed for a drawing before it is computed first."""
+    from ...usecases.proposal.propose import propose  # imports the engines: never on the window's thread
+    from ...usecases.proposal.published import is_figure_2
+
+    if is_figure_2(job.part):
+        return FirstProposal(None)
+    try:
+        return FirstProposal(propose(job, progress=progress))
+    except GeometryError:
+        return FirstProposal(None)
 
 
 @dataclass(frozen=True)
@@ -74,6 +106,11 @@ class ProposalController(OperationsController):
     def __init__(self, panel: SidePanel, workspace: Workspace, commands: Commands) -> None:
         super().__init__(panel, workspace, "Looking at the drawing…")
         self._commands = commands
+        self._begun_with: tuple[Operation, ...] | None = Job(Part()).operations
+        self._then: Callable[[], None] | None = None
+        workspace.document.subscribe(self._on_change)
+        self.worker.failed.connect(lambda _: self._forget())
+        self.worker.cancelled.connect(lambda _: self._forget())
         on_trigger(commands, "propose", lambda: self.propose(nesting=True))
         on_trigger(commands, "propose_1986", lambda: self.propose(nesting=False))
         for way in WAYS:
@@ -81,6 +118,58 @@ class ProposalController(OperationsController):
         panel.operation_form.selection.connect(self.use_selection)
         panel.operations.proposal.connect(commands["propose"].trigger)
         panel.operations.rule_of_1986.connect(commands["propose_1986"].trigger)
+
+    def _on_change(self, change: DocumentChange) -> None:
+        """Of another document, what a job begins with alone was said by nobody."""
+        if change & DocumentChange.LOADED:
+            self._begun_with = Job(Part()).operations
+            self._forget()
+
+    def _forget(self) -> None:
+        self._then = None
+
+    def know(self, opened: OpenedDrawing) -> None:
+        """Know whether what was opened says what is to be machined: a project and a sample do, a drawing does not."""
+        said = opened.project is not None or is_sample(opened.path)
+        self._begun_with = None if said else self._document.job.operations
+
+    def offer(self, name: str) -> None:
+        """Say what becomes of a drawing that says nothing about machining, and offer the other way."""
+        self._workspace.notice.ask(
+            f"{name} says nothing about machining. F5 proposes operations for it and computes them.",
+            [
+                ("Propose operations", self._commands["propose"].trigger),
+                ("Keep the operations there are", self._keep),
+            ],
+            of_job=True,
+        )
+
+    def _keep(self) -> None:
+        self._begun_with = None
+
+    @property
+    def due(self) -> bool:
+        """Whether nobody has said yet what is to be machined of the drawing, and nothing was computed."""
+        job, computation = self._document.job, self._workspace.computation
+        return (
+            self._begun_with == job.operations
+            and bool(job.part.entities)
+            and computation.made is None
+            and computation.pixels_of(job.part) is None
+        )
+
+    def before(self, act: Callable[[], None]) -> None:
+        """Do something with the job, such as computing it, after operations were proposed where that is due; of what is
+        asked for meanwhile the last is done.
+        """
+        if not self.due:
+            act()
+            return
+        if self._then is not None and self.worker.busy:
+            self._then = act
+            return
+        job, self._then = self._document.job, act
+        self.worker.start(lambda progress: first_proposal(job, progress), self._document.revision)
 
     def propose(self, nesting: bool) -> None:
         """Have operations proposed by how the curves lie in one another, or by the rule of 1986."""
@@ -122,6 +211,16 @@ class ProposalController(OperationsController):
             self._give(made)
         elif isinstance(made, Proposal):
             self._take(made)
+        elif isinstance(made, FirstProposal):
+            self._begin_with(made.proposal)
+
+    def _begin_with(self, proposal: Proposal | None) -> None:
+        """Take what is proposed first, and go on with what that was for."""
+        then, self._then, self._begun_with = self._then, None, None
+        if proposal is not None:
+            self._take(proposal, goes_on=True)
+        if then is not None:
+            then()
 
     def _add(self, chosen: ChosenOperations) -> None:
         """Take over operations that were added, and offer to switch off what machines all curves besides."""
@@ -162,9 +261,11 @@ class ProposalController(OperationsController):
 
         self._panel.change("Switch operations off", make)
 
-    def _take(self, proposal: Proposal) -> None:
+    def _take(self, proposal: Proposal, goes_on: bool = False) -> None:
+        """Take a proposal; where the work goes on with it, computing need not be offered."""
         from ...usecases.proposal.propose import ProposalRule
 
+        self._begun_with = None
         nesting = proposal.rule is ProposalRule.NESTING
         # outlines free the parts, so they must stay last
         self._panel.subject = Subject(SubjectKind.OPERATION, 0)
@@ -175,15 +276,16 @@ class ProposalController(OperationsController):
             self._workspace.log.note(f"propose {operation_name(each.operation)} T{each.operation.cut.tool}", each.why)
         for finding in proposal.findings:
             self._workspace.log.note("propose", finding.text, error=True)
-        self._ask_on(proposal, nesting, changed)
+        self._ask_on(proposal, nesting, changed, goes_on)
 
-    def _ask_on(self, proposal: Proposal, nesting: bool, changed: bool) -> None:
+    def _ask_on(self, proposal: Proposal, nesting: bool, changed: bool, goes_on: bool) -> None:
         """Say what there is now, and offer what comes next; to undo only where something was changed."""
-        names = ", ".join(operation_name(each.operation).lower() for each in proposal.operations)
+        many = Counter(operation_name(each.operation).lower() for each in proposal.operations)
+        names = ", ".join(name if count == 1 else f"{count} {TIMES} {name}" for name, count in many.items())
         left = f" {counted(len(proposal.findings), 'gap')} to close: see the log." if proposal.findings else ""
         other = ("As in 1986", "propose_1986") if nesting else ("By the drawing", "propose")
-        answers = [("Compute", "compute"), other, *([("Undo", "undo")] if changed else [])]
+        answers = [*([] if goes_on else [("Compute", "compute")]), other, *([("Undo", "undo")] if changed else [])]
         self._workspace.notice.ask(
-            f"Proposed: {names}.{left}", [(text, self._commands[name].trigger) for text, name in answers]
+            f"Proposed: {names}.{left}", [(text, self._commands[name].trigger) for text, name in answers], of_job=True
         )
         self.said.emit(f"{counted(len(proposal.operations), 'operation')} proposed; the log says why.")

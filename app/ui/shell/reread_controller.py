@@ -71,7 +71,7 @@ class RereadController(QObject):
         worker.failed.connect(self._on_failed)
         worker.cancelled.connect(self._on_cancelled)
         workspace.activity.ended.connect(self._looking.finish)
-        self._unsubscribe = self._document.subscribe(self._on_change)
+        self._document.subscribe(self._on_change)
         self.possible.emit(False)
 
     def know(self, opened: OpenedDrawing) -> None:

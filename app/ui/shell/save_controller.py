@@ -87,7 +87,7 @@ class SaveController(Controller):
         workspace.activity.ended.connect(lambda: self._worker.finish(30.0))
         backups.setChecked(self._preferences.settings.backups)
         backups.toggled.connect(self._keep_backups)
-        self._unsubscribe = self._document.subscribe(self._on_change)
+        self._document.subscribe(self._on_change)
 
     def project(self) -> Project:
         """Return what a project file of the window holds now."""

@@ -71,7 +71,7 @@ def translate(thing: QObject) -> None:
             continue
         english = source if text == shown else text
         wanted = catalogue(active_language()).look_up(english) or english
-        if wanted != text:
+        if wanted != text or shown not in (None, wanted):  # what a button shows of its action may be the old one
             slot.write(thing, wanted)
         if wanted != english or shown is not None:
             thing.setProperty(f"english_{slot.name}", english)

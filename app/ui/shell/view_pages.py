@@ -87,7 +87,10 @@ def _drawing_pages(window: MainWindow, told: WindowState) -> dict[View, ViewPage
         return _of_job(window, computation.made is not None, none_drawn, NO_PATHS)
 
     def cut_missing() -> MissingHint:
+        asked = window.cut_form.asked
         shows = window.views.cut.model.picture is not None or bool(window.views.cut.sentence.text())
+        if asked is not None and not shows:
+            return MissingHint(f"{asked.foreign.source.name} is not cut yet: say at the right what cuts, and of what.")
         return _of_job(window, shows, none_drawn, NO_CUT)
 
     def beside_cut() -> QWidget | None:

@@ -55,6 +55,7 @@ class EmptyState(QWidget):
         """Show a sentence and a button."""
         self.sentence.setText(sentence)
         self.button.setText(button)
+        self.button.setVisible(bool(button))
         self.adjustSize()
         self.show()
 

@@ -118,7 +118,7 @@ class WindowController(QObject):
         self._connect_language()
         self._connect_helpers()
         self._connect_start()
-        self._unsubscribe = self.document.subscribe(self._on_change)
+        self.document.subscribe(self._on_change)
         self.display_controller.show_view(View.DRAW)
         self.display_controller.refresh(DocumentChange.ALL)
 
@@ -187,7 +187,9 @@ class WindowController(QObject):
     def _connect_helpers(self) -> None:
         window, views = self.window_, self.window_.views
         self._on("export_drawing", self.drawing_export.start)
-        self._on("sheet", self.sheet_export.start)
+        self._on("sheet", lambda: self.proposal_controller.before(self.sheet_export.start))
+        self.files.open_controller.opened.connect(self.proposal_controller.know)
+        self.files.without_job.connect(self.proposal_controller.offer)
         telling = (self.drawing_export, self.sheet_export, self.proposal_controller, self.template_controller)
         for part in telling:
             part.failed.connect(self._say_error)
@@ -516,13 +518,19 @@ class WindowController(QObject):
         self.cut_controller.back()
         if self.nc.foreign and self.nc.source is not None and self.nc.source.path is not None:
             self.nc.back()
+        self.proposal_controller.before(self._compute_job)
+
+    def _compute_job(self) -> None:
         self.computation.start()
         if self.display_controller.view is View.DRAW:
             self.display_controller.show_view(View.PATHS)
 
     def export(self) -> None:
         """Export what the view at the front has made: the job's program, or of a scene a program, plot or table."""
-        (self.scene_export if self.display_controller.view is View.SURFACES else self.files.export_controller).start()
+        if self.display_controller.view is View.SURFACES:
+            self.scene_export.start()
+        else:
+            self.proposal_controller.before(self.files.export_controller.start)
 
     def _show_worst(self) -> None:
         """Show the worst place of the job's cut where it is; what has none there is listed."""

@@ -70,8 +70,9 @@ def _table_row(row: BatchRow, files: Sequence[str]) -> str:
     return (
         f'<tr data-verdict="{row.verdict.value}"><td class="picture">{row.picture}</td>'
         f'<td class="name"><b>{escape(row.name)}</b><span>{links}</span></td>'
-        f'<td><span class="badge {row.verdict.value}">{row.verdict.words}</span></td>'
-        f'<td class="number">{time}</td><td class="number">{length}</td><td class="told">{_findings(row)}</td></tr>'
+        f'<td class="verdict"><span class="badge {row.verdict.value}">{row.verdict.words}</span></td>'
+        f'<td class="number" data-unit="min">{time}</td><td class="number" data-unit="mm">{length}</td>'
+        f'<td class="told">{_findings(row)}</td></tr>'
     )
 
 
@@ -141,6 +142,14 @@ td { border-bottom: 1px solid var(--line); padding: .5rem .6rem; vertical-align:
 .open { color: var(--muted); background: var(--idle-back); }
 .told { font-size: .9rem; max-width: 34rem; overflow-wrap: anywhere; } .told ul { margin: 0; padding-left: 1.1rem; }
 .told .remark { color: var(--muted); } summary { color: var(--muted); cursor: pointer; }
+@media (max-width: 46rem) { body { margin: 1rem auto; padding: 0 1rem; } thead { display: none; }
+  tr { display: grid; grid-template-columns: auto 1fr; gap: .1rem .8rem; align-items: start; padding: .7rem;
+    border-bottom: 1px solid var(--line); }
+  td { border: 0; padding: 0; } td:empty { display: none; } .name, .told { grid-column: 1 / -1; }
+  .verdict, .number { grid-column: 2; } .picture:empty ~ .verdict { grid-column: 1 / -1; }
+  .picture { grid-row: 2 / span 3; width: 120px; } .picture svg { width: 120px; height: 83px; }
+  .number { text-align: left; }
+  .number:not(:empty)::after { content: " " attr(data-unit); color: var(--muted); } }
 tr[hidden] { display: none; }
 @media print { body { margin: 0; max-width: none; } nav { display: none; } tr { break-inside: avoid; } }
 """

@@ -15,10 +15,10 @@ from ..examine import ExaminedProgram, ExamineOptions, examine
 from ..make import make
 from ..make_files import other_files
 from ..options import MakeOptions
-from ..smooth import smooth
-from ..smooth_report import findings as smooth_findings
-from ..smooth_report import report_text
-from ..smooth_result import SmoothOptions
+from ..smoothing.report import findings as smooth_findings
+from ..smoothing.report import report_text
+from ..smoothing.result import SmoothOptions
+from ..smoothing.smooth import smooth
 from .task import BatchResult, BatchRow, BatchTask, BatchVerdict
 from .thumbnail import motions_picture, part_picture
 

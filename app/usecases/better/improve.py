@@ -17,7 +17,6 @@ from ...core.errors import InputError
 from ...core.progress import NO_PROGRESS, Progress
 from ...fitting.point_curves.smoothness import of_points
 from ...formats.scene.toml import sources_of
-from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.dialect_guess import guess_dialect
 from ...gcode.interpreter.program import NcProgram
 from ...gcode.posts.post import Post
@@ -31,115 +30,30 @@ from ...model.tool_kind import ToolKind
 from ...simulation.cutter import cutter_of
 from ...simulation.sweeps.probe import PathProbe
 from ...verify.course import course_of
-from ..cut import CELLS, CutOptions, CutProgram, cut
+from ..cut import CutOptions, CutProgram, cut
 from ..examine import ExaminedProgram, ExamineOptions, examine
 from ..setup import ReadySetup, SetupRequest, setup_of
-from ..smooth import OutputForm, SmoothedProgram, SmoothOptions, smooth
-from ..smooth_source import usual_post
+from ..smoothing.result import SmoothedProgram, SmoothOptions
+from ..smoothing.smooth import smooth
+from ..smoothing.source import usual_post
 from ..surface import compute
 from ..surface_nc import WrittenScene, write_scene_nc
 from ..tolerance_budget import BudgetShare, Evidence, ToleranceBudget
-from .comparison import CutComparison, compared
+from .comparison import compared
 from .raster import RasterProgram, filled, raster_of
+from .result import BetterOptions, BetterProgram, ProgramFigures
 from .surface import FacetLimits, NewPasses, SmoothedSurface, scene_of, smooth_surface, surviving, usual_pitch
 
-TOLERANCES = (0.002, 5.0)
-"""mm; what the tolerance may be."""
 _CHORD, _SMOOTHING = 0.1, 0.15
 """Of the tolerance: what chords of new passes, and their curves, may spend."""
-_EPSILONS = (0.02, 0.05)
-"""Of the tolerance: what is one facet is tried; far less than facets are off, more than their points are off them."""
-_DIGITS = 5.0
-"""Last decimals of a program within which points of one facet lie at least."""
 
-_AS_TOLD = SetupRequest()
-
-
-@dataclass(frozen=True)
-class BetterOptions:
-    """How a program is made better.
-
-    Attributes:
-        tolerance: by how much the new cut may differ from the old one, both ways, square to the surface, mm.
-        epsilon: points so near to one plane are a facet, mm; None: what suits of a fiftieth and a
-            twentieth of the tolerance.
-        pitch: from pass to pass, mm; None: as the old passes.
-        form: what curves are written as. cells: that cuts are compared on, along the longer side.
-        post: by its name, in whose words the new program is; None: those of the old one's control.
-        dialect: of the old program; None: as it looks.
-    """
-
-    tolerance: float = 0.05
-    epsilon: float | None = None
-    pitch: float | None = None
-    form: OutputForm = OutputForm.ARCS
-    cells: int = CELLS
-    post: str | None = None
-    dialect: Dialect | None = None
-
-    def __post_init__(self) -> None:
-        if not TOLERANCES[0] <= self.tolerance <= TOLERANCES[1]:
-            raise InputError(f"the tolerance is {self.tolerance:g} mm; use {TOLERANCES[0]:g} to {TOLERANCES[1]:g} mm.")
-
-    def epsilons(self, digit: float) -> tuple[float, ...]:
-        """Return how near to one plane points may be a facet, mm; `digit` is the last decimal of the program."""
-        if self.epsilon is not None:
-            return (self.epsilon,)
-        return tuple(sorted({max(share * self.tolerance, _DIGITS * digit) for share in _EPSILONS}))
-
-
-@dataclass(frozen=True, slots=True)
-class ProgramFigures:
-    """What a program takes.
-
-    Attributes:
-        blocks: feed moves. length_mm: of them; air_mm: of rapids. time_s: on a usual machine.
-        bend: largest change of direction within a pass, radians.
-    """
-
-    blocks: int
-    length_mm: float
-    air_mm: float
-    time_s: float
-    bend: float
-
-
-@dataclass(frozen=True, eq=False)
-class BetterProgram:
-    """A program, and the better one that was made of it.
-
-    Attributes:
-        name: of the file that came in. options: what was asked. ready: how it was cut.
-        old_cut, new_cut: what both leave of the same stock.
-        smoothed: the surface between them. scene: as a scene of its own. written: its passes before they were curves.
-        curves: the certificate of these. data: the new text.
-        comparison: of both cuts. old, new: what they take. budget: who spent what of the tolerance.
-    """
-
-    name: str
-    options: BetterOptions
-    ready: ReadySetup
-    old_cut: CutProgram
-    new_cut: CutProgram
-    smoothed: SmoothedSurface
-    scene: Scene
-    written: WrittenScene
-    curves: SmoothedProgram
-    comparison: CutComparison
-    old: ProgramFigures
-    new: ProgramFigures
-    budget: ToleranceBudget
-
-    @property
-    def data(self) -> bytes:
-        """The new text."""
-        return self.curves.data
+_AS_USUAL, _AS_TOLD = BetterOptions(), SetupRequest()
 
 
 def better(
     name: str,
     data: bytes,
-    options: BetterOptions = BetterOptions(),
+    options: BetterOptions = _AS_USUAL,
     request: SetupRequest = _AS_TOLD,
     progress: Progress = NO_PROGRESS,
 ) -> BetterProgram:
@@ -154,52 +68,27 @@ def better(
         InputError: the program cannot be read, is no such program, or the tolerance does not hold its facets.
         HitofudeError: something cannot be computed. Cancelled: the job was asked to stop.
     """
-    examined = examine(name, data, ExamineOptions(options.dialect), progress.part(0.0, 0.03))
-    ready = setup_of((examined,), request, progress.part(0.03, 0.05))
-    program, tool = ready.setup.programs[0], _ball(name, ready)
-    raster = raster_of(name, program)
-    post_name = options.post or usual_post(options.dialect or guess_dialect(data))
-    post = load_post(post_name)
-    digit = _digit(post, program)
-    looked = CutOptions(options.cells, trace=False)
-    old_cut = cut(ready.setup, looked, progress.part(0.1, 0.3))
-    cutters = {number: cutter_of(each) for number, each in ready.setup.tools.items()}
-    probe = PathProbe.of([course_of(program).course], cutters)
-    alive = surviving(raster, tool.radius, probe, options.tolerance)
-    alive = replace(alive, raster=filled(alive.raster))
-    shares = _Shares.of(options.tolerance, digit)
-    limits = FacetLimits(options.epsilons(digit), shares.facets)
-    smoothed = smooth_surface(alive, tool.radius, limits, progress.part(0.3, 0.4))
-    _ensure_within(name, smoothed, shares)
-    how = NewPasses(options.pitch or usual_pitch(alive.raster), shares.chords, post_name)
-    scene = _with_feeds(scene_of(_stem(name), smoothed, tool, _block(old_cut), how), raster, program)
-    computed = compute(scene, sources_of(_no_file), progress.part(0.4, 0.55))
-    written = write_scene_nc(computed, progress.part(0.55, 0.7))
-    [file] = written.files
-    asked = SmoothOptions(shares.smoothing, options.form, post=post, dialect=post.dialect)
-    curves = smooth(name, file.nc.text.encode(), asked, progress.part(0.7, 0.85))
-    again = examine(name, curves.data, ExamineOptions(post.dialect))
-    anew = setup_of((again,), replace(request, stock=ready.setup.stock))
-    new_cut = cut(replace(anew.setup, tools=_same(anew, tool)), looked, progress.part(0.85, 1.0))
-    comparison = compared(old_cut.cut.workpiece, new_cut.cut.workpiece, smoothed)
-    budget = _budget(options.tolerance, shares, smoothed, written, curves)
-    rows = max(of_points(row, row[[0, -1]]).bend for row in raster.rows if len(row) > 2)
-    bend = max((piece.after.bend for piece in curves.pieces), default=0.0)
-    old, new = _figures(examined, program, rows), _figures(again, anew.setup.programs[0], bend)
+    context = _resolved(name, data, options, request, progress.part(0.0, 0.1))
+    old_cut = cut(context.ready.setup, context.look, progress.part(0.1, 0.3))
+    smoothed = _surface_behind(context, progress.part(0.3, 0.4))
+    scene = _scene_with_passes(context, smoothed, old_cut)
+    written = write_scene_nc(compute(scene, sources_of(_no_file), progress.part(0.4, 0.55)), progress.part(0.55, 0.7))
+    curves = _curves(context, written, progress.part(0.7, 0.85))
+    again = _cut_again(context, curves, progress.part(0.85, 1.0))
     return BetterProgram(
         name,
         options,
-        ready,
+        context.ready,
         old_cut,
-        new_cut,
+        again.cut,
         smoothed,
         scene,
         written,
         curves,
-        comparison,
-        old,
-        new,
-        budget,
+        compared(old_cut.cut.workpiece, again.cut.cut.workpiece, smoothed),
+        _figures(context.examined, context.program, _bend_of_passes(context.raster)),
+        _figures(again.examined, again.program, max((piece.after.bend for piece in curves.pieces), default=0.0)),
+        _budget(options.tolerance, context.shares, smoothed, written, curves),
     )
 
 
@@ -216,6 +105,103 @@ class _Shares:
     def of(tolerance: float, digit: float) -> _Shares:
         chords, smoothing, digits = _CHORD * tolerance, _SMOOTHING * tolerance, 2 * digit
         return _Shares(tolerance - chords - smoothing - digits, chords, smoothing, digits)
+
+
+@dataclass(frozen=True, eq=False)
+class _BetterContext:
+    """What a better program is made with, resolved once, before anything is computed.
+
+    Attributes:
+        name: of the old file. options, request: as they were asked.
+        examined: the old program. ready: what it is cut out of, and with what.
+        tool: the one ball that cuts. raster: its passes.
+        post: in whose words the new program is; post_name: its name. digit: the last decimal of the old program, mm.
+        shares: of the tolerance. look: how finely both programs are cut.
+    """
+
+    name: str
+    options: BetterOptions
+    request: SetupRequest
+    examined: ExaminedProgram
+    ready: ReadySetup
+    tool: Tool
+    raster: RasterProgram
+    post: Post
+    post_name: str
+    digit: float
+    shares: _Shares
+    look: CutOptions
+
+    @property
+    def program(self) -> NcProgram:
+        """The old program, anchored."""
+        return self.ready.setup.programs[0]
+
+
+def _resolved(
+    name: str, data: bytes, options: BetterOptions, request: SetupRequest, progress: Progress
+) -> _BetterContext:
+    """Return what a better program is made with."""
+    examined = examine(name, data, ExamineOptions(options.dialect), progress.part(0.0, 0.3))
+    ready = setup_of((examined,), request, progress.part(0.3, 0.5))
+    tool, raster = _ball(name, ready), raster_of(name, ready.setup.programs[0])
+    post_name = options.post or usual_post(options.dialect or guess_dialect(data))
+    post = load_post(post_name)
+    digit = _digit(post, ready.setup.programs[0])
+    shares, look = _Shares.of(options.tolerance, digit), CutOptions(options.cells, trace=False)
+    return _BetterContext(name, options, request, examined, ready, tool, raster, post, post_name, digit, shares, look)
+
+
+def _surface_behind(context: _BetterContext, progress: Progress) -> SmoothedSurface:
+    """Return the smooth surface behind the passes, without what others have cut deeper.
+
+    Raises:
+        InputError: facets are farther off it than their share of the tolerance.
+    """
+    cutters = {number: cutter_of(each) for number, each in context.ready.setup.tools.items()}
+    probe = PathProbe.of([course_of(context.program).course], cutters)
+    alive = surviving(context.raster, context.tool.radius, probe, context.options.tolerance)
+    alive = replace(alive, raster=filled(alive.raster))
+    limits = FacetLimits(context.options.epsilons(context.digit), context.shares.facets)
+    smoothed = smooth_surface(alive, context.tool.radius, limits, progress)
+    _ensure_within(context.name, smoothed, context.shares)
+    return smoothed
+
+
+def _scene_with_passes(context: _BetterContext, smoothed: SmoothedSurface, old_cut: CutProgram) -> Scene:
+    """Return the surface with new passes over it, of the old ones' feed and speed."""
+    pitch = context.options.pitch or usual_pitch(smoothed.raster)
+    passes = NewPasses(pitch, context.shares.chords, context.post_name)
+    scene = scene_of(_stem(context.name), smoothed, context.tool, _block(old_cut), passes)
+    return _with_feeds(scene, context.raster, context.program)
+
+
+def _curves(context: _BetterContext, written: WrittenScene, progress: Progress) -> SmoothedProgram:
+    """Return the new passes as curves, proven on their own text."""
+    post, [file] = context.post, written.files
+    options = SmoothOptions(context.shares.smoothing, context.options.form, post=post, dialect=post.dialect)
+    return smooth(context.name, file.nc.text.encode(), options, progress)
+
+
+@dataclass(frozen=True, eq=False)
+class _NewCut:
+    """The new program as it was read back, and what it leaves of the old one's stock."""
+
+    examined: ExaminedProgram
+    cut: CutProgram
+
+    @property
+    def program(self) -> NcProgram:
+        """The new program, anchored."""
+        return self.cut.setup.programs[0]
+
+
+def _cut_again(context: _BetterContext, curves: SmoothedProgram, progress: Progress) -> _NewCut:
+    """Read the new text back, and cut it out of the old one's stock with the old one's tool, whatever its number."""
+    examined = examine(context.name, curves.data, ExamineOptions(context.post.dialect))
+    ready = setup_of((examined,), replace(context.request, stock=context.ready.setup.stock))
+    tools = {number: replace(context.tool, number=each.number) for number, each in ready.setup.tools.items()}
+    return _NewCut(examined, cut(replace(ready.setup, tools=tools), context.look, progress))
 
 
 def _digit(post: Post, program: NcProgram) -> float:
@@ -270,17 +256,17 @@ def _block(done: CutProgram) -> StockBox:
     return StockBox(x0, y0, done.floor, x1, y1, done.top)
 
 
-def _same(ready: ReadySetup, tool: Tool) -> dict[int, Tool]:
-    """Return the tools of a new program's setup: the one tool, whatever its number is there."""
-    return {number: replace(tool, number=each.number) for number, each in ready.setup.tools.items()}
-
-
 def _stem(name: str) -> str:
     return name.rpartition(".")[0] or name
 
 
 def _no_file(name: str) -> bytes:
     raise InputError(f"{name} is no part of the scene.")
+
+
+def _bend_of_passes(raster: RasterProgram) -> float:
+    """Return the largest change of direction within a pass, radians."""
+    return max(of_points(row, row[[0, -1]]).bend for row in raster.rows if len(row) > 2)
 
 
 def _budget(
@@ -321,7 +307,6 @@ def _figures(examined: ExaminedProgram, program: NcProgram, bend: float) -> Prog
     return ProgramFigures(
         int(fed.sum()),
         float(known[fed].sum()),
-        float(known[~fed].sum()),
         examined.time.total,
         bend if math.isfinite(bend) else 0.0,
     )

@@ -8,10 +8,10 @@ from dataclasses import replace
 from typing import Any
 
 from ...model.finding import Finding, FindingKind
-from ..smooth_report import certificate
-from ..smooth_report import findings as smooth_findings
-from .improve import BetterProgram, ProgramFigures
-from .metal import streaks
+from ..smoothing.report import certificate
+from ..smoothing.report import findings as smooth_findings
+from .picture import streaks
+from .result import BetterProgram, ProgramFigures
 
 Json = dict[str, Any]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,7 @@ from ...core.digest import sha256
 from ...core.durations import minutes_words
 from ...formats.plot.page import Pen, TracedPolyline
 from ...formats.plot.picture import CONTOUR, LINK, PART, POCKET, RAPID, PicturePathStyle, StyledPath
-from ...formats.sheet.content import SheetColumn, SheetHash, SheetTable
+from ...formats.sheet.content import SheetColumn, SheetFact, SheetHash, SheetTable
 from ...formats.tools.holders import named_holders
 from ...geometry.primitives import Rows, samples
 from ...model.tool import Tool
@@ -129,6 +129,17 @@ def _holder_words(tool: Tool) -> str:
     known = next((holder.name for holder in named_holders() if holder.outline == tool.holder), "")
     radius = max(radius for _, radius in tool.holder)
     return known or f"Ø {2 * radius:g} x {tool.holder[-1][0]:g} mm"
+
+
+def own_words(note: str) -> list[str]:
+    """Return what somebody has written for the sheet, as a sentence; nothing where it is empty."""
+    note = " ".join(note.split())
+    return [note if note[-1] in ".!?。" else f"{note}."] if note else []
+
+
+def zero_note(note: str) -> Iterator[SheetFact]:
+    """Yield what somebody has written about how the zero is set."""
+    yield from (SheetFact("Setting the zero", text) for text in own_words(note))
 
 
 def hashed(*files: tuple[str, bytes]) -> tuple[SheetHash, ...]:

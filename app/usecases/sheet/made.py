@@ -29,7 +29,20 @@ from ...model.part import Units
 from ...model.stock_box import StockBox, stock_box, work_origin
 from ..make import MakeResult
 from ..picture import picture_of
-from .common import CLAMP_PEN, MADE_BY, PENS, ToolUse, hashed, legend, span_words, styled, tool_table, traced
+from .common import (
+    CLAMP_PEN,
+    MADE_BY,
+    PENS,
+    ToolUse,
+    hashed,
+    legend,
+    own_words,
+    span_words,
+    styled,
+    tool_table,
+    traced,
+    zero_note,
+)
 
 Json = dict[str, Any]
 
@@ -106,6 +119,7 @@ def _facts(made: MakeResult, box: StockBox, report: Json) -> list[SheetFact]:
         SheetFact("Stock", f"{wide:.4g} x {high:.4g} x {thick:.4g} mm{above}"),
         SheetFact("Zero X Y", _zero_words(job, box)),
         SheetFact("Zero Z", _zero_z_words(job, box)),
+        *zero_note(job.zero_note),
         SheetFact("Clamping", _clamping(made, box)),
         SheetFact("Clearance height", f"{job.travel_z:g} mm above the stock's top"),
         SheetFact("Total time", total),
@@ -141,7 +155,7 @@ def _clamping(made: MakeResult, box: StockBox) -> str:
     """Return what the way that the stock is held has to allow, as far as the paths tell."""
     job, deep = made.job, deepest_cut(made.program.moves)
     through = deep - job.stock.thickness
-    told = []
+    told = own_words(job.clamping_note)
     if made.program.clamps:
         layers = ", ".join(job.keep_out_layers)
         told.append(

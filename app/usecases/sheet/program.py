@@ -21,9 +21,17 @@ from ..cut import CutProgram
 from ..cut_report import CutReport
 from ..examine import CONTROLS, ExaminedProgram
 from ..setup import ReadySetup
-from .common import MADE_BY, PENS, ToolUse, hashed, legend, span_words, tool_table, traced
+from .common import MADE_BY, PENS, ToolUse, hashed, legend, own_words, span_words, tool_table, traced, zero_note
 
 Json = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class SheetNotes:
+    """What somebody has written for the sheet: how the stock is held, and how the zero is set."""
+
+    clamping: str = ""
+    zero: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +44,11 @@ class SheetCut:
 
 
 def program_sheet(
-    programs: tuple[ExaminedProgram, ...], files: Mapping[str, bytes], cut: SheetCut | None, why: str = ""
+    programs: tuple[ExaminedProgram, ...],
+    files: Mapping[str, bytes],
+    cut: SheetCut | None,
+    why: str = "",
+    notes: SheetNotes = SheetNotes(),
 ) -> SetupSheet:
     """Return the sheet of programs that are run one after the other in one set-up.
 
@@ -45,6 +57,7 @@ def program_sheet(
         files: bytes of each file that the certificate is about, by what it is.
         cut: what became of the stock; None where that could not be found out.
         why: it could not.
+        notes: in somebody's own words.
     """
     problems = [problem.message(each.name) for each in programs for problem in each.problems]
     errors = any(problem.severity is Severity.ERROR for each in programs for problem in each.problems)
@@ -58,7 +71,7 @@ def program_sheet(
         verdict=_verdict(len(counting), cut),
         good=good,
         picture=_picture(programs, cut),
-        facts=tuple(_facts(programs, cut)),
+        facts=tuple(_facts(programs, cut, notes)),
         tables=(*([_tools(cut)] if cut else []), _runs(programs)),
         proofs=tuple(_proofs(programs, cut, why, errors)),
         findings=counting[:_COUNTING],
@@ -103,10 +116,11 @@ def _lines(motions: Motions, rapid: bool) -> Iterator[TracedPolyline]:
             yield TracedPolyline(pen, spline_points(spline)[:, :2])
 
 
-def _facts(programs: tuple[ExaminedProgram, ...], cut: SheetCut | None) -> Iterator[SheetFact]:
+def _facts(programs: tuple[ExaminedProgram, ...], cut: SheetCut | None, notes: SheetNotes) -> Iterator[SheetFact]:
     boxes = [each.cut_box for each in programs]
     low = np.fmin.reduce([box.low for box in boxes])
     high = np.fmax.reduce([box.high for box in boxes])
+    held = own_words(notes.clamping)
     if cut is None:
         yield SheetFact("Stock", "not known")
     else:
@@ -119,7 +133,10 @@ def _facts(programs: tuple[ExaminedProgram, ...], cut: SheetCut | None) -> Itera
         yield SheetFact("Zero X Y", f"{across} of and {along} the stock's lower left corner")
         height = "top of the stock" if top == 0 else f"{abs(top):.4g} mm {'below' if top > 0 else 'above'} its top"
         yield SheetFact("Zero Z", height)
-        yield SheetFact("Clamping", _clamping(low[2], data["low"][2]))
+        held.append(_clamping(low[2], data["low"][2], bool(held)))
+    yield from zero_note(notes.zero)
+    if held:
+        yield SheetFact("Clamping", " ".join(held))
     sides = zip("XYZ", low, high, strict=True)
     yield SheetFact("Cuts", ", ".join(f"{axis} {a:.3f} to {b:.3f}" for axis, a, b in sides if a == a))
     yield SheetFact("Highest motion", f"Z {max(each.box.high[2] for each in programs):.3f}")
@@ -127,11 +144,12 @@ def _facts(programs: tuple[ExaminedProgram, ...], cut: SheetCut | None) -> Itera
     yield SheetFact("Total time", f"{minutes_words(total)} min on {programs[0].machine.title}")
 
 
-def _clamping(lowest: float, underside: float) -> str:
+def _clamping(lowest: float, underside: float, noted: bool) -> str:
     """Return what the way that the stock is held has to allow."""
     if lowest < underside:
         return f"Cuts go {underside - lowest:.4g} mm below the underside: put waste at least as thick under it."
-    return f"The lowest cut is {lowest - underside:.4g} mm above the underside. Nobody has said where clamps are."
+    unknown = "" if noted else " Nobody has said where clamps are."
+    return f"The lowest cut is {lowest - underside:.4g} mm above the underside.{unknown}"
 
 
 def _tools(cut: SheetCut) -> SheetTable:

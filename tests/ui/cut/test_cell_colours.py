@@ -5,7 +5,7 @@ import pytest
 
 from app.ui.views.cut.cell_colours import OUT_OF_REACH, STOCK, CutColourBy, cell_colours, possible
 from app.ui.views.cut.cut_picture import CutMoves, CutPicture
-from app.ui.views.cut.relief import corner_light, relief
+from app.ui.views.cut.relief import relief
 from tests.ui.cut.pictures import INKS
 
 MOVE = np.array([[-1, 0], [1, 2]], np.int32)
@@ -85,9 +85,9 @@ def test_normals_are_those_of_the_slope():
 
 def test_corners_are_darker_and_planes_are_not():
     x = np.arange(128, dtype=np.float32)[None] * np.ones((128, 1), np.float32)
-    assert np.all(corner_light(0.05 * x, 0.1)[20:-20, 20:-20] >= 253)
+    assert np.all(relief(0.05 * x, 0.1)[..., 2][20:-20, 20:-20] >= 253)
     step = np.where(x < 64, np.float32(0.0), np.float32(-5.0))
-    light = corner_light(step, 0.1)
+    light = relief(step, 0.1)[..., 2]
     assert light[64, 68] < 200
     assert light[64, 120] > 250
     assert np.all(light[40:90, 20:60] == 255)

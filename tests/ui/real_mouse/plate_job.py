@@ -32,27 +32,24 @@ def draw(hand: Hand) -> None:
 
 
 def open_gear(hand: Hand, folder: Path) -> None:
-    """Open a drawing and have operations proposed for it, as the notice offers."""
+    """Open a drawing; operations are proposed for it when it is computed."""
     own = folder / "wheel.draw"
     own.write_bytes(resource("samples", "gear.draw").read_bytes())
     hand.press("ctrl+o")
     hand.wait_until(dialog_has_the_keys, "the file dialog")
     hand.type_seen_line(str(own))
-    notice = hand.window.notice
-    hand.wait_until(lambda: notice.isVisible() and bool(notice.buttons), "the offer")
-    hand.click(notice.buttons[0])
+    hand.wait_until(lambda: hand.wiring.proposal_controller.due, "the drawing")
+    hand.focus_window()  # the dialog had it
 
 
 def whole_job(hand: Hand, gaps: Gaps, name: str, folder: Path) -> None:
-    """Draw or open, have operations proposed, compute, export for grbl."""
+    """Draw or open, compute, export for grbl: operations are proposed at the first compute."""
     hand.focus_window()
     hand.ask(lambda: gaps.now("draw"))
     if name == "plate":
         draw(hand)
-        hand.press("ctrl+F5")
     else:
         open_gear(hand, folder)
-    hand.wait_until(lambda: not hand.wiring.proposal_controller.worker.busy, "the proposal")
     hand.ask(lambda: gaps.now("compute"))
     hand.press("F5")
     computation = hand.wiring.computation

@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.formats.job.toml import read_job
+from app.formats.job.write import job_lines
 from app.formats.plot.page import PageContent, PlotPage, TextLine
 from app.formats.plot.page_pdf import pages_pdf
 from app.formats.plot.pdf_outlines import outlined_words
@@ -159,6 +161,33 @@ def test_no_text_lies_on_another(sheet: SetupSheet) -> None:
     for number, (y, left, right) in enumerate(lines):
         for other, a, b in lines[number + 1 :]:
             assert other - y > 2.0 or b <= left or right <= a or y < 9 or (left > 12 and right < 121 and y > 160)
+
+
+def test_nine_tools_stand_on_one_page(sheet: SetupSheet) -> None:
+    """Everything stands closer where that saves the second page; nothing lies on another, and no sheet is squeezed for
+    nothing.
+    """
+    tools, operations = (replace(table, rows=tuple(table.rows[k % 2] for k in range(9))) for table in sheet.tables)
+    many = replace(sheet, tables=(tools, operations), remarks=("A remark of one line that says something.",))
+    (page,) = pdf_pages(sheet_bytes(many, ".pdf"))
+    assert [word.text for word in page].count("Roughing mill") == 5
+    assert min(word.y for word in page if word.y > 9) > 10
+    lines = sorted(lines_of(page))
+    for number, (y, left, right) in enumerate(lines):
+        for other, a, b in lines[number + 1 :]:
+            assert other - y > 2.0 or b <= left or right <= a or y < 9 or (left > 12 and right < 121 and y > 160)
+    sizes = {round(word.size, 2) for word in pdf_pages(sheet_bytes(sheet, ".pdf"))[0]}
+    assert 3.0 in sizes and 3.0 not in {round(word.size, 2) for word in page}
+
+
+def test_what_somebody_writes_of_clamping_and_zero_is_on_it(job: Job) -> None:
+    noted = replace(job, clamping_note="Two vices, jaws 8 mm  high", zero_note="3D taster on the lower left corner")
+    facts = {fact.label: fact.text for fact in made_sheet(export(noted), Path("a.ngc"), {}).facts}
+    assert facts["Clamping"].startswith("Two vices, jaws 8 mm high. No clamp is drawn")
+    assert facts["Setting the zero"] == "3D taster on the lower left corner."
+    text = "\n".join(job_lines(noted))
+    assert read_job("job.toml", text.encode()).job.clamping_note == noted.clamping_note
+    assert '[sheet]\nclamping = "Two vices' in text
 
 
 def test_long_tables_go_on_on_another_page(sheet: SetupSheet) -> None:

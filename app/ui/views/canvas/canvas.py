@@ -27,7 +27,6 @@ from .painting import overlay
 from .painting.annotation_layer import NoteLook, paint_note
 from .painting.curve_path import MANY, curve_path
 from .painting.grid import (
-    cells_shown,
     paint_display,
     paint_origin,
     paint_paper,
@@ -102,19 +101,9 @@ class Canvas(InteractiveViewport):
         self._follow(DocumentChange.ALL)
 
     @property
-    def mode(self) -> CanvasMode:
-        """Whether drawing or tool paths are shown."""
-        return self._mode
-
-    @property
     def colour_by(self) -> PathColourBy:
         """What the colour of a path tells."""
         return self._look.colour_by
-
-    @property
-    def cells_shown(self) -> bool:
-        """Whether the cells of the display are large enough to be seen."""
-        return cells_shown(self.view, self.frame)
 
     def set_theme(self, theme: Theme) -> None:
         """Paint with another theme."""

@@ -14,7 +14,7 @@ from ...framework.labels import muted
 from ...framework.section import hairline, heading
 
 if TYPE_CHECKING:
-    from ....usecases.better.improve import BetterProgram
+    from ....usecases.better.result import BetterProgram
 
 _WITHIN = 0.05
 

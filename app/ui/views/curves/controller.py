@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -10,31 +11,26 @@ from PySide6.QtWidgets import QFileDialog
 from ....core.atomic import write_atomically
 from ....core.errors import HitofudeError
 from ....core.progress import Progress
-from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
 from ..nc.controller import NcController
 from ..nc.motion_shapes import ViewSide
 from ..nc.painting.motion_layer import MotionLayer
-from ..nc.program_reader import FILTER, ProgramReader, ShownProgram
+from ..nc.program_reader import FILTER, ShownProgram
 from .model import CurveLayers, CurvesModel, layers, smoothed
 from .panel import CurvesPanel
+from .program_controller import ProgramController
 from .view import CurvesView, picture_of
 
 
-class SmoothingController(Controller):
+class SmoothingController(ProgramController):
     """Follows the NC view: its program is the one that is smoothed."""
 
     def __init__(self, view: CurvesView, panel: CurvesPanel, nc: NcController, workspace: Workspace) -> None:
-        super().__init__(view)
-        self._view, self._panel, self._nc = view, panel, nc
-        self._preferences, self._log = workspace.preferences, workspace.log
+        super().__init__(view, panel, nc, workspace)
+        self._view, self._panel, self._preferences = view, panel, workspace.preferences
         self._followed: ShownProgram | None = None
         self._filled, self._seen = False, False
-        self.reading = ProgramReader(self)
-        self.reading.failed.connect(self._on_failed)
-        self.reading.worker.busy_changed.connect(panel.show_busy)
-        workspace.activity.follow(self.reading.worker)
         nc.changed.connect(self._follow)
         self._panel.smooth_requested.connect(self.smooth_or_cancel)
         self._panel.save_requested.connect(self.choose_place)
@@ -42,19 +38,11 @@ class SmoothingController(Controller):
         self._view.side_requested.connect(self._draw_side)
         self._view.spotted.connect(self.said)
 
-    @property
-    def shown_document(self) -> ShownDocument | None:
-        """The NC view's program, where it is not the job's."""
-        return self._nc.shown_document
-
     def smooth_or_cancel(self) -> None:
         """Smooth the program as the form says; while that is done, leave it."""
-        from ....usecases.smooth import SmoothOptions
+        from ....usecases.smoothing.result import SmoothOptions
 
-        if self.reading.worker.busy:
-            self.reading.worker.cancel()
-            return
-        shown = self._nc.shown
+        shown = self._program_unless_busy()
         if shown is None:
             return
         try:
@@ -110,7 +98,7 @@ class SmoothingController(Controller):
         """Fill the form, once; what it needs is not loaded before it is seen."""
         if not self._filled:
             from ....gcode.posts.posts import post_titles
-            from ....usecases.smooth import SmoothOptions
+            from ....usecases.smoothing.result import SmoothOptions
 
             self._filled = True
             self._panel.show_options(SmoothOptions(), post_titles())
@@ -136,28 +124,32 @@ class SmoothingController(Controller):
         self._log.note(f"smooth {curves.was.source.name}", self._panel.title.text())
         self.changed.emit()
 
-    def _on_failed(self, sentence: str) -> None:
-        self._panel.show_reason(sentence)
-        self.failed.emit(sentence)
-
     def _draw_side(self, side: ViewSide) -> None:
         """Have the side prepared that is missing; a job on its way ends first, and what it shows asks again."""
         if self._followed is not None and not self.reading.worker.busy:
             self.reading.start(partial(_drawn, self._view.curves, self._followed, side), self._on_drawn)
 
-    def _on_drawn(self, made: tuple[CurvesModel | None, ShownProgram, ViewSide, CurveLayers | MotionLayer]) -> None:
-        curves, shown, side, picture = made
-        if curves is not None and isinstance(picture, CurveLayers):
-            curves.layers[side] = picture
-        elif isinstance(picture, MotionLayer):
-            shown.pictures[side] = picture
-        if curves is self._view.curves and shown is self._followed:
+    def _on_drawn(self, drawn: _DrawnSide) -> None:
+        if drawn.curves is not None and isinstance(drawn.picture, CurveLayers):
+            drawn.curves.layers[drawn.side] = drawn.picture
+        elif isinstance(drawn.picture, MotionLayer):
+            drawn.shown.pictures[drawn.side] = drawn.picture
+        if drawn.curves is self._view.curves and drawn.shown is self._followed:
             self._view.set_side(self._view.side)
 
 
-def _drawn(
-    curves: CurvesModel | None, shown: ShownProgram, side: ViewSide, progress: Progress
-) -> tuple[CurvesModel | None, ShownProgram, ViewSide, CurveLayers | MotionLayer]:
-    """Return what is seen from another side, and of what."""
+@dataclass(frozen=True, eq=False)
+class _DrawnSide:
+    """What is seen from a side: of the curves, or of the program where there are none."""
+
+    curves: CurvesModel | None
+    shown: ShownProgram
+    side: ViewSide
+    picture: CurveLayers | MotionLayer
+
+
+def _drawn(curves: CurvesModel | None, shown: ShownProgram, side: ViewSide, progress: Progress) -> _DrawnSide:
+    """Return what is seen from another side."""
     progress.step(0.0, "Preparing the picture")
-    return curves, shown, side, layers(curves, side, progress) if curves is not None else picture_of(shown, side)
+    picture = picture_of(shown, side) if curves is None else layers(curves, side, progress)
+    return _DrawnSide(curves, shown, side, picture)

@@ -11,7 +11,7 @@ from ....fitting.point_curves.deviation import deviation
 from ..nc.motion_shapes import Floats, Ints
 
 if TYPE_CHECKING:
-    from ....usecases.smooth import SmoothedProgram, SmoothedStretch
+    from ....usecases.smoothing.result import SmoothedProgram, SmoothedStretch
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from ..nc.program_reader import ProgramSource, ShownProgram, read_shown
 from .deviation_track import DeviationTrack, pieces_of_lines, track_of
 
 if TYPE_CHECKING:
-    from ....usecases.smooth import SmoothedProgram, SmoothedStretch, SmoothOptions
+    from ....usecases.smoothing.result import SmoothedProgram, SmoothedStretch, SmoothOptions
 
 _TEETH = 20_000
 """Teeth of the comb of a whole program, about."""
@@ -112,7 +112,7 @@ def smoothed(was: ShownProgram, options: SmoothOptions, side: ViewSide, progress
         Cancelled: the job was asked to stop.
     """
     from ....model.motion_path import anchored
-    from ....usecases.smooth import smooth
+    from ....usecases.smoothing.smooth import smooth
 
     done = smooth(was.source.name, was.source.bytes(), replace(options, dialect=was.dialect), progress.part(0.0, 0.7))
     name = Path(was.source.name)

@@ -19,7 +19,7 @@ from .outline_field import OutlineField
 from .points_form import PointsForm
 
 if TYPE_CHECKING:
-    from ....usecases.smooth import SmoothedProgram, SmoothOptions
+    from ....usecases.smoothing.result import SmoothedProgram, SmoothOptions
 
 PRESETS = (("Fine", 0.002), ("Finishing", 0.01), ("Semi", 0.05))
 """Name and tolerance, mm."""
@@ -180,7 +180,7 @@ class CurvesPanel(QScrollArea):
             HitofudeError: it cannot be so; a sentence.
         """
         from ....gcode.posts.posts import load_post
-        from ....usecases.smooth import OutputForm
+        from ....usecases.smoothing.result import OutputForm
 
         name, profile = self.post.value, self.outline.profile() if self.region.value == "outline" else None
         return replace(
@@ -226,7 +226,7 @@ class CurvesPanel(QScrollArea):
         self._result.setVisible(done is not None)
         if done is None:
             return
-        from ....usecases.smooth_report import findings, report
+        from ....usecases.smoothing.report import findings, report
 
         told = report(done)
         changed = told["stretches"]["changed"]

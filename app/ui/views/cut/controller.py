@@ -170,7 +170,8 @@ class CutController(Controller):
             self._panel.choose(entry)
 
     def show_program(self, source: ProgramSource, dialect: Dialect, scene: Callable[[], Part] | None = None) -> None:
-        """Cut a program that is none of the job's; what was there stays until it is cut.
+        """Cut a program that is none of the job's; what was there stays until it is cut, or until something is to
+        be said of it.
 
         Args:
             source, dialect: what it is and how it is read. scene: makes what a scene's program is to come to; None: it
@@ -366,6 +367,7 @@ class CutController(Controller):
         result = answer.value
         if isinstance(result, MissingSetup):
             self._form.ask(result)
+            self._leave_other(result.foreign)
             self.changed.emit()
         elif isinstance(result, ShownCut) and result.given is not None:
             self._form.ask(None)
@@ -373,6 +375,13 @@ class CutController(Controller):
             self._show(result)
         elif isinstance(result, ShownCut):
             self._show_own(result)
+
+    def _leave_other(self, foreign: ForeignProgram) -> None:
+        """Show no cut of anything else while what is to be known of a program is asked for."""
+        before = self._shown_foreign
+        if before is None or before.source.bytes() != foreign.source.bytes():
+            self._shown_foreign = None
+            self._show(None)
 
     def _on_failed(self, answer: JobOutcome) -> None:
         self.failed.emit(answer.error or "")

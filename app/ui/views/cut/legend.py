@@ -8,6 +8,7 @@ from PySide6.QtCore import QRectF, Qt, Signal
 from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSlider, QWidget
 
+from ...framework.catalogue import tr
 from ...framework.fields import ChoiceField, ListField
 from ...framework.legend import LegendRow, LegendSheet
 from ...framework.samples import PathLineKind
@@ -69,9 +70,9 @@ class ColourScale(QWidget):
             painter.setPen(self._theme.muted)
             painter.drawLine(_BAR_PX + 3, round(y), _BAR_PX + 8, round(y))
             text = QRectF(_BAR_PX + 14, y - 9, 80, 18)
-            painter.drawText(text.translated(76, 0), Qt.AlignmentFlag.AlignVCenter, tick.remark)
+            painter.drawText(text.translated(76, 0), Qt.AlignmentFlag.AlignVCenter, tr(tick.remark))
             painter.setPen(self._theme.ink)
-            painter.drawText(text, Qt.AlignmentFlag.AlignVCenter, tick.text)
+            painter.drawText(text, Qt.AlignmentFlag.AlignVCenter, tr(tick.text))
 
     def _paint_names(self, painter: QPainter, key: ColourKey) -> None:
         for k, (colour, name) in enumerate(key.names):
@@ -80,7 +81,7 @@ class ColourScale(QWidget):
             painter.setBrush(QColor(*colour))
             painter.drawRoundedRect(QRectF(0, middle - 6, 12, 12), 2, 2)
             painter.setPen(self._theme.ink)
-            painter.drawText(QRectF(22, middle - 9, self.width(), 18), Qt.AlignmentFlag.AlignVCenter, name)
+            painter.drawText(QRectF(22, middle - 9, self.width(), 18), Qt.AlignmentFlag.AlignVCenter, tr(name))
 
 
 class CutLegend(LegendSheet):

@@ -9,6 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
+from ...framework.catalogue import tr
 from ...framework.theme import LIGHT, Theme, text_font
 from .camera import Camera, Floats
 from .overlay_text import pitch_words
@@ -127,7 +128,7 @@ class CutOverlay(QWidget):
         painter.setFont(text_font(12, semibold=self._finer))
         painter.setPen(self._theme.accent_text if self._finer else self._theme.muted)
         row = QRectF(2 * _AXES_EDGE_PX + 8, self.height() - _AXES_EDGE_PX + 10, 160, 18)
-        painter.drawText(row, Qt.AlignmentFlag.AlignVCenter, self._pitch)
+        painter.drawText(row, Qt.AlignmentFlag.AlignVCenter, tr(self._pitch))
 
     def _on_screen(self, place: tuple[float, float, float]) -> QPointF:
         ratio = self.devicePixelRatioF()
@@ -147,7 +148,7 @@ class CutOverlay(QWidget):
         knee = at + QPointF(_LEADER_PX, _LEADER_PX)
         painter.drawLine(at + QPointF(0.7, 0.7) * _RING_PX, knee)
         painter.drawLine(knee, knee + QPointF(10, 0))
-        rows = ((pin.title, text_font(13, semibold=True)), (pin.facts, text_font(12)))
+        rows = ((tr(pin.title), text_font(13, semibold=True)), (tr(pin.facts), text_font(12)))
         wide = max(QFontMetricsF(font).horizontalAdvance(text) for text, font in rows) + 2.5 * _PAD_PX
         sheet = QColor(self._theme.canvas)
         sheet.setAlphaF(0.94)

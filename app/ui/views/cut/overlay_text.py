@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...framework.catalogue import tr
 from .cell_picking import PickedCell
 
 
@@ -27,7 +28,7 @@ def facts_of(hit: PickedCell) -> str:
         off = float(picture.deviation[hit.row, hit.column])
         if abs(off) > picture.tolerance:
             facts.append(f"{number(abs(off))} {'left' if off > 0 else 'too deep'}")
-    return " · ".join(facts)
+    return " · ".join(map(tr, facts))
 
 
 def place_of(hit: PickedCell) -> str:

@@ -149,11 +149,6 @@ class CutPanel(QWidget):
     def _lay_out(self) -> None:
         for label in (self.verdict, self.sentence):
             label.setWordWrap(True)
-        self.name.setAlignment(Qt.AlignmentFlag.AlignRight)
-        head = QHBoxLayout()
-        head.addWidget(self.title)
-        head.addSpacing(12)
-        head.addWidget(self.name, 1)
         self._rows.setContentsMargins(0, 0, 0, 0)
         self._rows.setSpacing(0)
         self._rows.addStretch(1)
@@ -173,8 +168,7 @@ class CutPanel(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(1, 12, 0, 8)
         column.setSpacing(6)
-        column.addLayout(_indented(head))
-        for widget in (self.verdict, self.cells):
+        for widget in (self.title, self.name, self.verdict, self.cells):
             column.addLayout(_indented(widget))
         row = QHBoxLayout(self.foreign)
         row.setContentsMargins(EDGE - 4, 0, EDGE, 0)

@@ -76,15 +76,6 @@ def relief_part(heights: NDArray[np.float32], pitch: float, rows: slice, columns
     return np.ascontiguousarray(part[inner])
 
 
-def corner_light(heights: NDArray[np.float32], pitch: float) -> Bytes:
-    """Return (rows, columns) how much light reaches each cell, 255 = all: less, the more the metal round it stands
-    higher.
-
-    A plane, however it slopes, gets all of it.
-    """
-    return relief(heights, pitch)[..., 2]
-
-
 def _relief(heights: NDArray[np.float32], around: NDArray[np.float32], pitch: float, first: tuple[int, int]) -> Bytes:
     """Return the relief of cells; `first` are the row and the column of the whole, of which `around` tells, that they
     begin with.

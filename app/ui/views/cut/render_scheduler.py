@@ -19,7 +19,7 @@ from .rendering.cut_scene import CutScene
 from .rendering.render_target import RenderStyle
 from .surface import GlSurface, ImageSurface, pixel_size
 
-REST_MS = 80
+REST_MS = 50
 """After so long without a movement the fine picture is begun."""
 
 _FAST_MS, _SLOW_MS = 25.0, 60.0
@@ -55,7 +55,7 @@ class RenderScheduler(QObject):
         self._patches: list[CellPatch] = []
         self.playback = PlaybackOverlay(model, self)
         self.playback.stirred.connect(self.stir)
-        self._steps: Iterator[None] | None = None
+        self._steps: Iterator[bool] | None = None
         self._rest = QTimer(self, singleShot=True, interval=REST_MS)
         self._rest.timeout.connect(self._on_rest)
         self._next = QTimer(self, singleShot=True, interval=0)
@@ -215,11 +215,11 @@ class RenderScheduler(QObject):
         surface, steps = self.surface, self._steps
         if surface is None or steps is None:
             return
-        if surface.work(lambda _: next(steps, _DONE)) is None:
+        shows = surface.work(lambda _: next(steps, None))
+        if shows is not None:
+            if shows:
+                surface.update()
             self._next.start()
             return
         self._steps, self.fine = None, True
         surface.update()
-
-
-_DONE = object()

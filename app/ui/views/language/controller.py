@@ -63,7 +63,7 @@ class TextController(Controller):
         )
         lines.ran.connect(self._on_ran)
         workspace.activity.ended.connect(self.trial_runner.leave)
-        self._unsubscribe = self._document.subscribe(self._follow)
+        self._document.subscribe(self._follow)
 
     @property
     def text(self) -> str:

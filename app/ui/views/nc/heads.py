@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from ....gcode.interpreter.dialect import DIALECT_RULES, Dialect
 from ...framework.fields import ChoiceField
@@ -14,7 +14,9 @@ from .motion_shapes import ViewSide
 from .painting.motion_layer import MotionColourBy
 
 BAR_PX = 36
-_ROOM_PX = 320
+_ROOM_PX = 420
+_GAP_PX, _BUTTON_PX = 8, 44
+_LEAST_CHOICE_PX, _LEAST_PX = 72, 360
 
 
 def bar(widget: QWidget, spacing: int = 8) -> QHBoxLayout:
@@ -53,8 +55,11 @@ class TextHead(QWidget):
         self.dialect.setAccessibleName("Control that the program is for")
         self.dialect.setToolTip("How the program is read")
         self.dialect.setFixedHeight(24)
+        self.dialect.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
+        self.dialect.setMinimumWidth(_LEAST_CHOICE_PX)
         self.dialect.activated.connect(lambda at: self.dialect_chosen.emit(self.dialect.itemData(at)))
         self._offer("as it looks")
+        self._buttons = _BUTTON_PX * (2 if closable else 1)
         row = bar(self)
         row.addWidget(self.name, 1)
         row.addWidget(self.files, 1)
@@ -71,8 +76,21 @@ class TextHead(QWidget):
     def show_program(self, name: str, detail: str) -> None:
         """Name the program."""
         self.name.setText(name)
-        self.name.setToolTip(name)
+        self.name.setToolTip(f"{name}, {detail}" if detail else name)
         self.detail.setText(detail)
+        self._make_room()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave out how long it is where its name needs the room."""
+        super().resizeEvent(event)
+        self._make_room()
+
+    def _make_room(self) -> None:
+        shown = [each for each in (self.files, self.dialect) if not each.isHidden()]
+        beside = sum(each.sizeHint().width() + _GAP_PX for each in (self.detail, *shown))
+        name = self.name.sizeHint().width() if not self.name.isHidden() else 0
+        self.detail.setVisible(bool(self.detail.text()) and name + beside + self._buttons <= self.width())
+        self.name.setMinimumWidth(min(name, max(0, self.width() - self._buttons - _LEAST_CHOICE_PX - 2 * _GAP_PX)))
 
     def show_files(self, names: list[str], current: int) -> None:
         """Offer the files of a program that has several; one alone is only named."""
@@ -93,6 +111,7 @@ class TextHead(QWidget):
         self._offer(DIALECT_RULES[guessed].title)
         self.dialect.setCurrentIndex(self.dialect.findData(chosen))
         self.dialect.setVisible(free)
+        self._make_room()
 
     def _offer(self, guessed: str) -> None:
         self.dialect.clear()
@@ -126,6 +145,17 @@ class Banner(QWidget):
         self.sentence.setText(sentence)
         self.button.setText(button)
         self.show()
+        self._make_room()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave the sentence out where there is room for the button alone, which says as much."""
+        super().resizeEvent(event)
+        self._make_room()
+
+    def _make_room(self) -> None:
+        needed = self.sentence.sizeHint().width() + self.button.sizeHint().width() + 3 * _GAP_PX
+        self.sentence.setVisible(needed <= self.width())
+        self.button.setToolTip(self.sentence.text())
 
 
 class PathHead(QWidget):
@@ -175,3 +205,4 @@ class PathHead(QWidget):
         """Leave out what explains itself where there is no room for it."""
         super().resizeEvent(event)
         self.key.setVisible(event.size().width() >= _ROOM_PX)
+        self.colour.setVisible(event.size().width() >= _LEAST_PX)

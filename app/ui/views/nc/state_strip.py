@@ -6,6 +6,7 @@ from PySide6.QtCore import QRect, QSize, Qt
 from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
+from ...framework.catalogue import tr
 from ...framework.theme import LIGHT, Theme, text_font
 from .state_words import StateItem
 
@@ -37,9 +38,9 @@ class StateStrip(QWidget):
     def show_items(self, items: list[StateItem]) -> None:
         """Show what is in force; nothing picked, nothing to show."""
         self.items = items
-        words = "   ".join(f"{item.name} {item.value}".strip() for item in items)
+        words = "   ".join(f"{tr(item.name)} {tr(item.value)}".strip() for item in items)
         self.setToolTip(words)
-        self.setAccessibleName(f"At the picked line: {words}" if words else _HINT)
+        self.setAccessibleName(f"At the picked line: {words}" if words else tr(_HINT))
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
@@ -51,17 +52,17 @@ class StateStrip(QWidget):
         metrics = painter.fontMetrics()
         if not self.items:
             painter.setPen(self._theme.muted)
-            painter.drawText(self._place(_EDGE, self.width()), Qt.AlignmentFlag.AlignVCenter, _HINT)
+            painter.drawText(self._place(_EDGE, self.width()), Qt.AlignmentFlag.AlignVCenter, tr(_HINT))
         x = _EDGE
         for item in self.items:
             width = _width(item, metrics)
             if x + width > self.width() - _EDGE:
                 break
             painter.setPen(self._theme.muted)
-            painter.drawText(self._place(x, width), Qt.AlignmentFlag.AlignVCenter, item.name)
+            painter.drawText(self._place(x, width), Qt.AlignmentFlag.AlignVCenter, tr(item.name))
             painter.setPen(self._theme.ink)
-            after = metrics.horizontalAdvance(item.name) + _NAME_GAP if item.name else 0
-            painter.drawText(self._place(x + after, width), Qt.AlignmentFlag.AlignVCenter, item.value)
+            after = metrics.horizontalAdvance(tr(item.name)) + _NAME_GAP if item.name else 0
+            painter.drawText(self._place(x + after, width), Qt.AlignmentFlag.AlignVCenter, tr(item.value))
             x += width + _GAP
 
     def _place(self, x: int, width: int) -> QRect:
@@ -69,5 +70,5 @@ class StateStrip(QWidget):
 
 
 def _width(item: StateItem, metrics: QFontMetrics) -> int:
-    name = metrics.horizontalAdvance(item.name) + _NAME_GAP if item.name else 0
-    return name + metrics.horizontalAdvance(item.value)
+    name = metrics.horizontalAdvance(tr(item.name)) + _NAME_GAP if item.name else 0
+    return name + metrics.horizontalAdvance(tr(item.value))

@@ -96,7 +96,7 @@ class PlotController(Controller):
         self._panel.print_requested.connect(self.choose_printer)
         for leaving in (self._panel.left, self._preview.left):
             leaving.connect(self.left)
-        self._unsubscribe = self._document.subscribe(self._on_change)
+        self._document.subscribe(self._on_change)
 
     def start(self) -> None:
         """Show the drawing on paper."""

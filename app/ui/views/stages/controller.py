@@ -56,7 +56,7 @@ class StagesController(Controller):
         self._panel.chain_picked.connect(self._view.light_chain)
         self._panel.rules_chosen.connect(self._choose_rules)
         self._panel.size_chosen.connect(self._choose_size)
-        self._unsubscribe = self._document.subscribe(self._on_change)
+        self._document.subscribe(self._on_change)
 
     @property
     def state(self) -> StagesState:

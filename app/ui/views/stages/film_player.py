@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QElapsedTimer, QSignalBlocker, Qt, QTimer, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QWidget
 
@@ -83,6 +85,15 @@ class FilmPlayer(QWidget):
         self.forward.clicked.connect(lambda: self.step(1))
         self.first.clicked.connect(lambda: self._go_part(-1))
         self.last.clicked.connect(lambda: self._go_part(1))
+        self._keys: dict[int, Callable[[], None]] = {
+            Qt.Key.Key_Space: self.switch,
+            Qt.Key.Key_Right: lambda: self.step(1),
+            Qt.Key.Key_Left: lambda: self.step(-1),
+            Qt.Key.Key_Home: lambda: self.step(-self.count),
+            Qt.Key.Key_End: lambda: self.step(self.count),
+            Qt.Key.Key_PageDown: self.last.click,
+            Qt.Key.Key_PageUp: self.first.click,
+        }
         self.slider.valueChanged.connect(self._slide)
         self.speed.currentIndexChanged.connect(lambda _: self._restart())
         self._timer.timeout.connect(self._tick)
@@ -103,6 +114,13 @@ class FilmPlayer(QWidget):
             widget.setEnabled(count > 1)
         if count < 2:
             self.pause()
+
+    def takes_key(self, key: int) -> bool:
+        """Do what a key stands for; return whether it stands for something."""
+        act = self._keys.get(key)
+        if act is not None:
+            act()
+        return act is not None
 
     def step(self, way: int) -> None:
         """Go so many stages on, or back, and stay there."""

@@ -68,7 +68,7 @@ class ImportController(Controller):
         panel.accepted.connect(self._take)
         panel.left.connect(self.leave)
         self._view.preview_clicked.connect(self._point)
-        self._unsubscribe = self._document.subscribe(self._on_change)
+        self._document.subscribe(self._on_change)
         self._view.theme_changed.connect(lambda _: self._show())
 
     def open(self, path: Path) -> None:

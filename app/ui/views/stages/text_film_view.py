@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QByteArray, QRectF, QSize, Qt, Signal
@@ -139,16 +138,5 @@ class TextFilmView(QWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
         """Space plays, arrows step, Home and End go to the ends."""
-        player = self.player
-        keys: dict[int, Callable[[], None]] = {
-            Qt.Key.Key_Space: player.switch,
-            Qt.Key.Key_Right: lambda: player.step(1),
-            Qt.Key.Key_Left: lambda: player.step(-1),
-            Qt.Key.Key_Home: lambda: player.step(-player.count),
-            Qt.Key.Key_End: lambda: player.step(player.count),
-        }
-        act = keys.get(event.key())
-        if act is not None and not event.modifiers():
-            act()
-        else:
+        if event.modifiers() or not self.player.takes_key(event.key()):
             super().keyPressEvent(event)

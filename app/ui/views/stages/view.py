@@ -4,8 +4,6 @@ the middle, the player under it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
@@ -225,22 +223,8 @@ class StagesView(QWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
         """Space plays, arrows step, Page up and down go part by part, Home and End to the ends."""
-        player = self.player
-        keys: dict[int, Callable[[], None]] = {
-            Qt.Key.Key_Space: player.switch,
-            Qt.Key.Key_Right: lambda: player.step(1),
-            Qt.Key.Key_Left: lambda: player.step(-1),
-            Qt.Key.Key_Home: lambda: player.step(-player.count),
-            Qt.Key.Key_End: lambda: player.step(player.count),
-            Qt.Key.Key_PageDown: lambda: player.last.click(),
-            Qt.Key.Key_PageUp: lambda: player.first.click(),
-        }
-        act = keys.get(event.key())
-        if act is not None and not event.modifiers() & (
-            Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier
-        ):
-            act()
-        else:
+        held = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier
+        if event.modifiers() & held or not self.player.takes_key(event.key()):
             super().keyPressEvent(event)
 
     def _show_pixels(self) -> None:

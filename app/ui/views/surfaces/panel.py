@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from enum import Enum
 from functools import partial
 
@@ -36,7 +36,6 @@ from .scene_fields import (
     tool_fields,
 )
 
-Change = Callable[[str], str]
 Subject = tuple[str, int]
 """What properties are shown of: "surface", "passes" or "tool" and its number from 0; or the scene itself, ("scene",
 0).

@@ -19,7 +19,7 @@ WIDTH, PATTERN, HIDDEN, BIAS, STRENGTH, LEAST = 3, 4, 8, 9, 10, 11
 hidden, how far behind a surface it is before that, mm, how strong it is where it is not, up to 1; and px: shorter steps
 are joined with the next.
 """
-_DARKEST = 0.45
+_DARKEST = 0.62
 
 
 @kernel(f"UniTuple(float64, 3)(float64, float64, float64, {_R})")
@@ -85,16 +85,49 @@ def fill(triangles, owner, shown, frame, depths, owners, lights):  # type: ignor
                     depths[row, column], owners[row, column], lights[row, column] = near, owner[n], light
 
 
-@kernel(f"void({_OWNERS}, {_LIGHTS}, {_POINTS}, float64, {_PIXELS})")
-def tint(owners, lights, inks, strength, image):  # type: ignore[no-untyped-def]
-    """Lay the colours of owners, (k, 3) blue, green, red, over a picture, as strongly as `strength`, in [0, 1]."""
-    for row in range(owners.shape[0]):
-        for column in range(owners.shape[1]):
-            whose = owners[row, column]
-            if whose >= 0:
-                for c in range(3):
-                    ink = inks[whose, c] * lights[row, column]
-                    image[row, column, c] = int(image[row, column, c] * (1.0 - strength) + ink * strength + 0.5)
+@kernel(f"void({_DEPTHS}, {_OWNERS}, {_LIGHTS}, {_POINTS}, float64, {_DEPTHS}, {_OWNERS}, {_PIXELS})")
+def tint(fine_depths, fine_owners, lights, inks, strength, depths, owners, image):  # type: ignore[no-untyped-def]
+    """Lay the colours of owners over a picture, each pixel the mean of its samples, so that outlines have no stairs.
+
+    The light darkens what the colour and the picture mix to: so a shaded place keeps its hue.
+
+    Args:
+        fine_depths, fine_owners, lights: of the samples, a whole number of them for each pixel, both ways.
+        inks: (k, 3) blue, green, red of each owner. strength: of them over the picture, in [0, 1].
+        depths, owners: out; of the nearest surface, its mean there: the nearest sample would hide lines on a slope.
+        image: painted over.
+    """
+    high, wide = depths.shape
+    times = fine_depths.shape[0] // high
+    share = 1.0 / (times * times)
+    for row in range(high):
+        for column in range(wide):
+            whose, near = -1, depths[row, column]
+            ground, blue, green, red = 0.0, 0.0, 0.0, 0.0
+            for y in range(row * times, (row + 1) * times):
+                for x in range(column * times, (column + 1) * times):
+                    owner = fine_owners[y, x]
+                    if owner < 0:
+                        ground += 1.0
+                        continue
+                    if fine_depths[y, x] > near:
+                        whose, near = owner, fine_depths[y, x]
+                    light = lights[y, x]
+                    ground += light * (1.0 - strength)
+                    blue += light * inks[owner, 0]
+                    green += light * inks[owner, 1]
+                    red += light * inks[owner, 2]
+            if whose < 0:
+                continue
+            depth, count = 0.0, 0
+            for y in range(row * times, (row + 1) * times):
+                for x in range(column * times, (column + 1) * times):
+                    if fine_owners[y, x] == whose:
+                        depth, count = depth + fine_depths[y, x], count + 1
+            depths[row, column], owners[row, column] = depth / count, whose
+            for c in range(3):
+                ink = (blue, green, red)[c] * strength
+                image[row, column, c] = int((ground * image[row, column, c] + ink) * share + 0.5)
 
 
 @kernel(f"void(float64, float64, float64, float64, float64, float64, float64, {_R}, {_DEPTHS}, {_PIXELS})")

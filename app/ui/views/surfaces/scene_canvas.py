@@ -26,7 +26,16 @@ from PySide6.QtWidgets import QWidget
 from ....model.scene import LineType
 from ...framework.theme import LIGHT, Theme
 from ..cut.camera import Camera, Floats, StandardView
-from .scene_raster import Rgb, SceneColourBy, SceneColours, SceneLayer, SceneRaster, SceneStyle, raster
+from .scene_raster import (
+    SURFACE_STRENGTH,
+    Rgb,
+    SceneColourBy,
+    SceneColours,
+    SceneLayer,
+    SceneRaster,
+    SceneStyle,
+    raster,
+)
 from .shown_scene import ScenePicture
 
 _MARK_PX, _REACH_PX, _TURN, _ZOOM, _STEP = 3.0, 9.0, 0.008, 1.0015, 40.0
@@ -309,13 +318,22 @@ class SceneCanvas(QWidget):
             ]
         for row, (colour, name, line) in enumerate(entries):
             y = _EDGE + row * step
-            pen = QPen(colour, 3.0 if line is LineType.SOLID else 1.6)
+            if self.colour_by is SceneColourBy.SURFACE:
+                self._paint_swatch(painter, colour, QRectF(_EDGE, y + step / 2 - 6, 24, 12))
+            pen = QPen(colour, 2.0 if line is LineType.SOLID else 1.6)
             if line is not LineType.SOLID:
                 pen.setDashPattern([1.2, 2.0] if line is LineType.DOTTED else [6.0, 2.0, 1.2, 2.0])
             painter.setPen(pen)
             painter.drawLine(QPointF(_EDGE, y + step / 2), QPointF(_EDGE + 24, y + step / 2))
             painter.setPen(self._theme.ink)
             painter.drawText(QPointF(_EDGE + 32, y + step / 2 + painter.fontMetrics().ascent() / 2 - 1), name)
+
+    def _paint_swatch(self, painter: QPainter, colour: QColor, area: QRectF) -> None:
+        """Paint a piece of a surface as it is where the light falls full on it."""
+        painter.fillRect(area, self._theme.canvas)
+        surface = QColor(colour)
+        surface.setAlphaF(SURFACE_STRENGTH)
+        painter.fillRect(area, surface)
 
     def _point(self, at: QPointF) -> PickedPart | None:
         """Return what is at a place of the widget: a boundary point that is near, else the surface; in a section, the

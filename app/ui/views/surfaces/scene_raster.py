@@ -61,8 +61,12 @@ PATTERNS: Mapping[LineType, tuple[float, ...]] = {
     LineType.CHAIN: (9.0, 3.0, 2.0, 3.0),
 }
 """Dash and gap, twice, px."""
-_STRENGTH, _HIDDEN, _BEHIND = 0.5, 0.22, 0.35
-"""How strongly surfaces are coloured; what is left of a line behind one; px that count as behind."""
+SURFACE_STRENGTH = 0.55
+"""How strongly surfaces are coloured: paths in the full colour are to be seen on them."""
+_HIDDEN, _BEHIND = 0.22, 0.35
+"""What is left of a line behind a surface; px that count as behind."""
+_SAMPLES, _FINE_RATIO = 2, 1.5
+"""So many samples each way for a pixel of surfaces, unless the screen's own pixels are fine enough."""
 _LEAST_PX, _COARSE_PX = 0.3, 1.5
 """Steps of lines that are shorter are left out: of a picture that stands, and of one on the move."""
 _DENSE_PX, _FAINTEST = 4.0, 0.18
@@ -128,11 +132,17 @@ def raster(picture: ScenePicture, style: SceneStyle, size: tuple[int, int]) -> S
     pixels[:] = (*style.inks.ground[::-1], 255)
     depths, owners = np.full((high, wide), -np.inf, np.float32), np.full((high, wide), -1, np.int16)
     if SceneLayer.SURFACES in style.layers and len(picture.triangles):
-        lights, shown = np.zeros((high, wide), np.float32), np.ones(int(picture.owner.max()) + 1, np.bool_)
-        kernels.fill(picture.triangles, picture.owner, shown, frame, depths, owners, lights)
+        times = 1 if style.coarse or style.ratio >= _FINE_RATIO else _SAMPLES
+        fine = (times * high, times * wide)
+        fine_frame = frame_of(style.camera, fine[::-1], times * style.ratio)
+        fine_depths, fine_owners = np.full(fine, -np.inf, np.float32), np.full(fine, -1, np.int16)
+        lights, shown = np.zeros(fine, np.float32), np.ones(int(picture.owner.max()) + 1, np.bool_)
+        kernels.fill(picture.triangles, picture.owner, shown, fine_frame, fine_depths, fine_owners, lights)
         plain = style.colour_by is not SceneColourBy.SURFACE
-        inks = [style.inks.rapid if plain else style.inks.surfaces[n] for n in range(len(shown))]
-        kernels.tint(owners, lights, np.array([ink[::-1] for ink in inks], np.float64), _STRENGTH, pixels)
+        inks = np.array([(style.inks.rapid if plain else style.inks.surfaces[n])[::-1] for n in range(len(shown))])
+        kernels.tint(
+            fine_depths, fine_owners, lights, inks.astype(np.float64), SURFACE_STRENGTH, depths, owners, pixels
+        )
     pieces = 0
     for each in picture.strands:
         if LAYER_OF[each.role] in style.layers:

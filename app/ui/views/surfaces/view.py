@@ -149,11 +149,6 @@ class SurfacesView(QWidget):
         self.name.setText("")
         self.canvas.show_picture(None)
 
-    @property
-    def computing(self) -> bool:
-        """Whether a scene, or its program, is on its way."""
-        return self.state in (SceneState.COMPUTING, SceneState.PROVING)
-
     def show_standing(self, state: SceneState, verdict: VerdictSummary, findings: tuple[Finding, ...]) -> None:
         """Know where the scene stands, and what is to be said of its program."""
         self.state, self.verdict, self.findings = state, verdict, findings

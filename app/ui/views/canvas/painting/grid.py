@@ -9,6 +9,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
 from .....raster.frame import BitmapFrame
+from ....framework.catalogue import tr
 from ....framework.figures import TIMES
 from ....framework.theme import Theme, text_font
 from ..view_transform import ViewTransform, nice_step
@@ -71,7 +72,7 @@ def paint_display(painter: QPainter, view: ViewTransform, area: QRectF, frame: B
                 painter.drawLine(corner, corner + QPointF(0, down))
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     painter.setFont(text_font(_FONT_PX))
-    name = f"{frame.cols} {TIMES} {frame.rows} display"
+    name = tr(f"{frame.cols} {TIMES} {frame.rows} display")
     at = QPointF(_px(outline.left()), _px(outline.top()) - 6)
     if QFontMetricsF(painter.font()).horizontalAdvance(name) < outline.width() and area.adjusted(
         -400, -40, 40, 40

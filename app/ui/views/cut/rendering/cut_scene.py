@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 SAMPLES = 4
 
+_SPILL_PX = 8
+"""So far beyond its outline metal may show: pixels share lines of sight while things move, and colours are mixed."""
+
 
 class CutScene:
     """Heights, colours and paths on the graphics side, and the picture that was painted of them last.
@@ -102,29 +105,51 @@ class CutScene:
         for _ in self.draw_in_steps(frame):
             pass
 
-    def draw_in_steps(self, frame: CutFrame) -> Iterator[None]:
-        """Paint a picture piece by piece; the one before stays the one that is shown until the last piece is done.
+    def draw_in_steps(self, frame: CutFrame) -> Iterator[bool]:
+        """Paint a picture piece by piece; the one before stays the one that is shown until the last piece is done, but
+        that a picture at rest is shown with a line of sight in a pixel as soon as these are known.
 
         Between the pieces, which take some 20 ms without graphics hardware, nobody may paint with this scene.
+
+        Yields:
+            Whether there is another picture to be shown now.
         """
         stage = self._stage_of(frame.size)
-        back = stage.quick if frame.budget else stage.smooth
-        reach, metal, finer = 0.0, self._metal_of(frame), None
-        if self.picture is not None:
-            reach = self._reach(frame, self.picture)
-            extents = self._extents(reach, self.picture)
-            if not frame.budget:  # first a line of sight in a pixel, then more where that is not enough
-                once = replace(frame, budget=frame.size[0] * frame.size[1])
-                finer, metal = metal, self._metal_of(once)
-                yield from self._draw_metal(once, extents, metal)
-                metal.find_uneven()
-                yield from self._draw_metal(frame, extents, finer, metal)
-            else:
-                yield from self._draw_metal(frame, extents, metal, at_once=True)
+        metal = self._metal_of(frame)
+        if self.picture is None:
+            self._compose(frame, stage, stage.quick, metal)
+        elif frame.budget:
+            extents = self._extents(self._reach(frame, self.picture), self.picture)
+            yield from self._draw_metal(frame, extents, metal, at_once=True)
+            self._compose(frame, stage, stage.quick, metal)
+        else:  # first a line of sight in a pixel, then more where that is not enough
+            extents = self._extents(self._reach(frame, self.picture), self.picture)
+            once = replace(frame, budget=frame.size[0] * frame.size[1])
+            plain = self._metal_of(once)
+            yield from self._draw_metal(once, extents, plain)
+            self._compose(frame, stage, stage.quick, plain)
+            yield True
+            plain.find_uneven()
+            yield from self._draw_metal(frame, extents, metal, plain)
+            self._compose(frame, stage, stage.smooth, plain, metal)
+        yield True
+
+    def _compose(
+        self,
+        frame: CutFrame,
+        stage: RenderTarget,
+        back: moderngl.Framebuffer,
+        metal: MetalTarget,
+        finer: MetalTarget | None = None,
+    ) -> None:
+        """Put metal, paths and tool together in a framebuffer, and have that shown."""
         back.use()
         back.clear(*frame.look.canvas, 1.0, depth=1.0)
         if self.picture is not None:
+            reach = self._reach(frame, self.picture)
+            back.scissor = self._seen_area(frame, self.picture)
             self._put_over(frame.size, metal, finer)
+            back.scissor = (0, 0, *frame.size)
             for plane in CLIP_PLANES:
                 self.ctx.enable_direct(plane)
             self._paths.draw(
@@ -137,7 +162,6 @@ class CutScene:
             for body in (self._facets, self._tool):
                 body.draw(frame, reach, back)
         self.ctx.copy_framebuffer(stage.front, back)
-        yield None
 
     def copy_to(self, target: moderngl.Framebuffer) -> None:
         """Put the painted picture into another framebuffer of the same size."""
@@ -170,15 +194,15 @@ class CutScene:
         metal: MetalTarget,
         plain: MetalTarget | None = None,
         at_once: bool = False,
-    ) -> Iterator[None]:
+    ) -> Iterator[bool]:
         """Paint the whole, but for the part that there is a finer look at, and that part."""
         target = metal.framebuffer
         target.use()
         target.clear(*frame.look.canvas, 1.0, depth=1.0)
         for field, extent in zip((self._whole, self._part), extents, strict=False):
             target.use()
-            for step in field.draw(frame, extent, plain, at_once):
-                yield step
+            for _ in field.draw(frame, extent, plain, at_once):
+                yield False
                 target.use()
 
     def _extents(self, reach: float, picture: CutPicture) -> list[StockExtent]:
@@ -201,6 +225,15 @@ class CutScene:
         self.ctx.depth_func = "1"
         self._over_all.render(self.ctx.TRIANGLES, vertices=3)
         self.ctx.depth_func = "<"
+
+    def _seen_area(self, frame: CutFrame, picture: CutPicture) -> tuple[int, int, int, int]:
+        """Return what of the picture metal can be seen in: left, lower edge, width and height, px."""
+        corners = np.array(np.meshgrid(*zip(picture.low, picture.high, strict=True))).reshape(3, -1).T
+        seen = frame.camera.project(corners, frame.size)[:, :2]
+        seen[:, 1] = frame.size[1] - seen[:, 1]
+        low = np.clip(np.floor(seen.min(axis=0)) - _SPILL_PX, 0, frame.size).astype(int)
+        high = np.clip(np.ceil(seen.max(axis=0)) + _SPILL_PX, low, frame.size).astype(int)
+        return int(low[0]), int(low[1]), int(high[0] - low[0]), int(high[1] - low[1])
 
     def _reach(self, frame: CutFrame, picture: CutPicture) -> float:
         """Return how far from the camera's target there may be something, mm."""

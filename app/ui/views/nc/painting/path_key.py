@@ -11,6 +11,7 @@ from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
 from .....geometry.sample import Box
+from ....framework.catalogue import tr
 from ....framework.theme import Theme, text_font
 from ..motion_hover import outline
 from ..motion_shapes import Floats, MotionLineStyle, MotionShapes, ViewSide
@@ -52,7 +53,7 @@ class KeyRow:
 def key_size(rows: Sequence[KeyRow]) -> QSizeF:
     """Return the size of a key, px; nothing for none."""
     metrics = QFontMetricsF(text_font(12))
-    wide = max((metrics.horizontalAdvance(row.words) for row in rows), default=0.0)
+    wide = max((metrics.horizontalAdvance(tr(row.words)) for row in rows), default=0.0)
     return QSizeF(wide + _LINE_PX + _GAP_PX + 2 * _PAD_PX, len(rows) * _ROW_PX + _PAD_PX) if rows else QSizeF(0.0, 0.0)
 
 
@@ -105,7 +106,7 @@ def paint_key(painter: QPainter, place: QRectF, rows: Sequence[KeyRow], theme: T
         _paint_mark(painter, QPointF(left, middle), row)
         painter.setPen(theme.muted)
         words = QRectF(left + _LINE_PX + _GAP_PX, middle - _ROW_PX / 2, place.width(), _ROW_PX)
-        painter.drawText(words, Qt.AlignmentFlag.AlignVCenter, row.words)
+        painter.drawText(words, Qt.AlignmentFlag.AlignVCenter, tr(row.words))
 
 
 def cuts_within(shapes: MotionShapes, side: ViewSide, box: Box) -> bool:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter
 
+from ....framework.catalogue import tr
 from ....framework.theme import Theme, text_font
 
 ROW_PX, SWATCH_PX, GAP_PX, PAD_PX, EDGE_PX = 22.0, 16.0, 10.0, 10.0, 12.0
@@ -29,7 +30,7 @@ def code_key_size(rows: tuple[CodeRow, ...]) -> QSizeF:
     if not rows:
         return QSizeF(0.0, 0.0)
     metrics = QFontMetricsF(text_font(12, semibold=True))
-    wide = max(metrics.horizontalAdvance(row.words) for row in rows)
+    wide = max(metrics.horizontalAdvance(tr(row.words)) for row in rows)
     return QSizeF(wide + SWATCH_PX + GAP_PX + 2 * PAD_PX, len(rows) * ROW_PX + PAD_PX)
 
 
@@ -68,7 +69,7 @@ def _paint_row(painter: QPainter, at: QPointF, row: CodeRow, lit: bool, theme: T
     painter.setFont(text_font(12, semibold=lit))
     painter.setPen(theme.ink if lit else theme.muted)
     words = QRectF(at.x() + SWATCH_PX + GAP_PX, at.y() - ROW_PX / 2, 400, ROW_PX)
-    painter.drawText(words, Qt.AlignmentFlag.AlignVCenter, row.words)
+    painter.drawText(words, Qt.AlignmentFlag.AlignVCenter, tr(row.words))
 
 
 def _bold(pixels: int) -> QFont:

@@ -15,12 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.progress import NO_PROGRESS, Progress
-from ...geometry import kernels
-from ...geometry.distance import DistanceField
-from ...geometry.offset.offset import OffsetLevel
-from ...geometry.primitives import Rows, boxes, within_half_turn
-from . import uncut_kernels
+from app.core.progress import NO_PROGRESS, Progress
+from app.geometry import kernels
+from app.geometry.distance import DistanceField
+from app.geometry.offset.offset import OffsetLevel
+from app.geometry.primitives import Rows, boxes, within_half_turn
+from app.toolpath.coverage import uncut_kernels
+from tests.toolpath import uncut_squares_kernels
 
 FINEST = 32
 """The smallest squares' half side goes so many times, or up to twice as many, into the smallest radius: sides are R/16
@@ -97,7 +98,7 @@ def uncut(
     found = []
     for first in range(0, len(squares), _AT_ONCE):
         progress.step(first / len(squares), "Measuring what is left")
-        part, count = uncut_kernels.undecided(
+        part, count = uncut_squares_kernels.undecided(
             walls.rows,
             walls.order,
             walls.nodes,

@@ -11,18 +11,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.errors import InputError
-from ..core.progress import NO_PROGRESS, Progress
-from ..gcode.interpreter.dialect import Dialect
-from ..gcode.interpreter.dialect_guess import guess_dialect
-from ..gcode.interpreter.options import PATIENT, ReadOptions
-from ..gcode.interpreter.program import NcProgram
-from ..gcode.interpreter.reader import read_program
-from ..gcode.posts.post import Post
-from ..gcode.posts.posts import load_post
-from ..gcode.rework.stretches import FeedStretch
-from ..gcode.translate.program import translated
-from ..model.motion import Floats
+from ...core.errors import InputError
+from ...core.progress import NO_PROGRESS, Progress
+from ...gcode.interpreter.dialect import Dialect
+from ...gcode.interpreter.dialect_guess import guess_dialect
+from ...gcode.interpreter.options import PATIENT, ReadOptions
+from ...gcode.interpreter.program import NcProgram
+from ...gcode.interpreter.reader import read_program
+from ...gcode.posts.post import Post
+from ...gcode.posts.posts import load_post
+from ...gcode.rework.stretches import FeedStretch
+from ...gcode.translate.program import translated
+from ...model.motion import Floats
 
 _POSTS = {
     Dialect.LINUXCNC: "linuxcnc",

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from ..fitting.fitted import RefusalReason, SplineRefusal
-from ..fitting.line_arcs.arc_fit import BEND
-from ..fitting.point_curves.effective_points import PointState
-from ..fitting.point_curves.smoothness import joints_of
-from ..gcode.interpreter.dialect import DIALECT_RULES
-from ..model.finding import Finding, FindingKind
-from .smooth_result import SmoothedProgram, SmoothedStretch
+from ...fitting.fitted import RefusalReason, SplineRefusal
+from ...fitting.line_arcs.arc_fit import BEND
+from ...fitting.point_curves.effective_points import PointState
+from ...fitting.point_curves.smoothness import joints_of
+from ...gcode.interpreter.dialect import DIALECT_RULES
+from ...model.finding import Finding, FindingKind
+from .result import SmoothedProgram, SmoothedStretch
 
 Json = dict[str, Any]
 LISTED = 1000

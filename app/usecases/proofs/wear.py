@@ -10,26 +10,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.progress import NO_PROGRESS, Progress
-from ..gcode.interpreter.options import ReadOptions, ToolOffset
-from ..gcode.interpreter.program import NcProgram
-from ..gcode.interpreter.reader import read_program
-from ..gcode.writer.write import NcFile
-from ..geometry.distance import DistanceField
-from ..geometry.primitives import CX, CY, TURN, X0, Y0, R, Rows, boxes, pack, points_at
-from ..model.finding import Finding, FindingKind
-from ..model.job import Job
-from ..model.motion import MotionKind
-from ..model.motion_path import anchored
-from ..model.moves import Program, Purpose
-from ..model.operation import Operation
-from ..verify.clearance import pair_distance
-from .written import WrittenMotions, WrittenProgram
+from ...core.progress import NO_PROGRESS, Progress
+from ...gcode.interpreter.options import ReadOptions, ToolOffset
+from ...gcode.interpreter.program import NcProgram
+from ...gcode.interpreter.reader import read_program
+from ...gcode.writer.write import NcFile
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import CX, CY, TURN, X0, Y0, R, Rows, boxes, pack, points_at
+from ...model.finding import Finding, FindingKind
+from ...model.job import Job
+from ...model.motion import MotionKind
+from ...model.motion_path import anchored
+from ...model.moves import Program, Purpose
+from ...model.operation import Operation
+from ...verify.clearance import pair_distance
+from ..written import WrittenMotions, WrittenProgram
 
 Floats = NDArray[np.float64]
 
@@ -54,6 +54,8 @@ class WearProof:
             nothing to tell.
         fault: what the control would say, "" = nothing.
     """
+
+    KEY: ClassVar[str] = "worn"
 
     range_mm: float
     gouge_mm: float

@@ -9,21 +9,21 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.errors import ParameterError
-from ..fitting.fitted import SplineRefusal
-from ..fitting.line_arcs.arc_fit import BEND
-from ..fitting.point_curves.bspline import FitRound
-from ..fitting.point_curves.corners import LEAST_LEG
-from ..fitting.point_curves.effective_method import EffectiveMethod, PointClasses
-from ..fitting.point_curves.region_profile import RegionProfile
-from ..fitting.point_curves.smoothness import Smoothness
-from ..fitting.point_curves.space_curve import SpaceCurve
-from ..fitting.point_curves.tube import TubeJudgement
-from ..gcode.interpreter.dialect import Dialect
-from ..gcode.interpreter.program import NcProgram
-from ..gcode.posts.post import Post
-from ..gcode.rework.stretches import FeedStretch, FoundStretches
-from ..model.motion import Floats
+from ...core.errors import ParameterError
+from ...fitting.fitted import SplineRefusal
+from ...fitting.line_arcs.arc_fit import BEND
+from ...fitting.point_curves.bspline import FitRound
+from ...fitting.point_curves.corners import LEAST_LEG
+from ...fitting.point_curves.effective_method import EffectiveMethod, PointClasses
+from ...fitting.point_curves.region_profile import RegionProfile
+from ...fitting.point_curves.smoothness import Smoothness
+from ...fitting.point_curves.space_curve import SpaceCurve
+from ...fitting.point_curves.tube import TubeJudgement
+from ...gcode.interpreter.dialect import Dialect
+from ...gcode.interpreter.program import NcProgram
+from ...gcode.posts.post import Post
+from ...gcode.rework.stretches import FeedStretch, FoundStretches
+from ...model.motion import Floats
 
 TOLERANCES = (1e-4, 10.0)
 """mm; what a tolerance may be."""

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from ..core.progress import Progress
-from ..model.finding import Finding, FindingKind
-from ..model.job import Job
-from ..model.motion import MotionKind
-from ..model.moves import Program
-from ..verify.bounds import deepest, followed_walls
-from ..verify.carved_roof import ConePath, RoofProof, prove_roof, straightened
-from .written import WrittenMotions
+from ...core.progress import Progress
+from ...model.finding import Finding, FindingKind
+from ...model.job import Job
+from ...model.motion import MotionKind
+from ...model.moves import Program
+from ...verify.bounds import deepest, followed_walls
+from ...verify.carved_roof import ConePath, RoofProof, prove_roof, straightened
+from ..written import WrittenMotions
 
 METHOD = (
     "motions as read back, held against the largest discs behind places of the drawn curves; what is left at a disc's "
@@ -37,6 +37,8 @@ class CarvingProof:
         rate: mm of radius per mm of height.
         tool: its words.
     """
+
+    KEY: ClassVar[str] = "carved"
 
     proof: RoofProof
     rate: float
@@ -83,14 +85,13 @@ def carving_proofs(program: Program, job: Job, motions: WrittenMotions, progress
     carving = [k for k, each in enumerate(job.operations) if each.CARVES and each.cut.enabled]
     if not motions.files:
         return {}
-    origin = np.array(motions.origin)
     proofs = {}
     for n, index in enumerate(carving):
         cut, regions = job.operations[index].cut, program.areas[index].regions
         if not regions:
             continue
-        own = motions.done_for(index, cutting=True)
-        a, b, c = own.start + origin, own.end + origin, own.centre[:, :2] + origin[:2]
+        own = motions.done_for(index, cutting=True).moved(motions.origin)
+        a, b, c = own.start, own.end, own.centre[:, :2]
         tool = job.tool(cut.tool)
         begins, ends = straightened(_rows(a, b, c, own.kind), np.stack([a[:, 2], b[:, 2]], 1), _CHORD)
         rate = math.tan(tool.tip_angle / 2)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from ..core.progress import Progress
-from ..model.finding import Finding, FindingKind
-from ..model.job import Job
-from ..verify.engaged_angle import CutterPath, EngagementProof, prove_engagement
-from .written import WrittenMotions
+from ...core.progress import Progress
+from ...model.finding import Finding, FindingKind
+from ...model.job import Job
+from ...verify.engaged_angle import CutterPath, EngagementProof, prove_engagement
+from ..written import WrittenMotions
 
 METHOD = (
     "bounds on every motion as read back: no more of the rim than reaches beyond the ground that was cleared before, "
@@ -24,17 +24,18 @@ _TOLD = 20
 
 
 @dataclass(frozen=True)
-class OperationProof:
+class LimitProof:
     """What is proven of an operation.
 
     Attributes:
-        limit: radians.
+        limit: of the engaged angle, radians.
         proof: places in program coordinates, motions of its own.
         origin: of these in part coordinates, mm.
         lines: of the NC text, of each of its motions.
     """
 
-    operation: int
+    KEY: ClassVar[str] = "engaged"
+
     limit: float
     proof: EngagementProof
     origin: tuple[float, float, float]
@@ -70,7 +71,7 @@ class OperationProof:
         return found
 
 
-def engagement_proofs(job: Job, motions: WrittenMotions, progress: Progress) -> dict[int, OperationProof]:
+def engagement_proofs(job: Job, motions: WrittenMotions, progress: Progress) -> dict[int, LimitProof]:
     """Return what is proven, by index of the operation, of those that have a limit and make moves.
 
     Raises:
@@ -85,5 +86,5 @@ def engagement_proofs(job: Job, motions: WrittenMotions, progress: Progress) -> 
         radius = job.tool(job.operations[index].cut.tool).radius
         path = CutterPath(own.start, own.end, own.centre[:, :2], own.kind, radius, -motions.origin[2])
         proof = prove_engagement(path, limit, progress.part(n / len(limited), (n + 1) / len(limited)))
-        proofs[index] = OperationProof(index, limit, proof, motions.origin, own.line)
+        proofs[index] = LimitProof(limit, proof, motions.origin, own.line)
     return proofs

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..core.effort import Reckoning
-from ..core.wording import counted
-from ..fitting.point_curves.effective_method import EffectiveMethod
-from ..gcode.rework.stretches import FeedStretch
-from .smooth_result import OutputForm
+from ...core.effort import Reckoning
+from ...core.wording import counted
+from ...fitting.point_curves.effective_method import EffectiveMethod
+from ...gcode.rework.stretches import FeedStretch
+from .result import OutputForm
 
 _POINT_S = {OutputForm.LINES: 6e-6, OutputForm.ARCS: 6e-5, OutputForm.NURBS: 2e-4}
 """A point of a stretch that is fitted anew and proven."""

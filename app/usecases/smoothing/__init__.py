@@ -1,0 +1,1 @@
+"""Straight feed moves of a program as lines, arcs or splines, within a proven tolerance."""

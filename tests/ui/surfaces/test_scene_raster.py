@@ -1,0 +1,57 @@
+"""Surfaces as an image, without a window: soft outlines, and the hue that the legend shows."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.ui.views.cut.camera import Camera, StandardView
+from app.ui.views.surfaces.scene_raster import SURFACE_STRENGTH, SceneColours, SceneStyle, raster
+from app.ui.views.surfaces.shown_scene import ScenePicture
+
+GROUND, INK = (250, 248, 240), (0, 158, 115)
+SIZE = (120, 90)
+
+
+def picture(triangles):
+    """A picture of bare triangles."""
+    none = np.zeros((0, 3))
+    triangles = np.array(triangles, np.float64)
+    return ScenePicture((), none, (), triangles, np.zeros(len(triangles), np.int64), none[:, :2], none[:, :2])
+
+
+def painted(triangles, coarse=False):
+    made = picture(triangles)
+    camera = Camera().seen_from(StandardView.TOP).fitted(*made.box, SIZE)
+    colours = SceneColours(GROUND, (0, 0, 0), (90, 90, 90), (200, 90, 0), [INK])
+    return raster(made, SceneStyle(camera, colours, coarse=coarse), SIZE)
+
+
+SLANTED = [[(0, 0, 0), (40, 7, 0), (0, 30, 0)]]
+
+
+def shares(made):
+    """How much of each pixel is the surface's, by its red: of ground 250, of the surface where it is whole less."""
+    red = made.pixels[:, :, 2].astype(float)
+    return (GROUND[0] - red) / (GROUND[0] - red.min())
+
+
+def test_outlines_are_soft_and_cover_what_the_surface_covers():
+    fine, coarse = painted(SLANTED), painted(SLANTED, coarse=True)
+    between = (shares(fine) > 0.1) & (shares(fine) < 0.9)
+    assert between.sum() > 40
+    assert not ((shares(coarse) > 0.1) & (shares(coarse) < 0.9)).any()
+    scale = (coarse.owners >= 0).sum()
+    assert shares(fine).sum() == pytest.approx(scale, rel=0.01)
+
+
+def test_a_surface_has_the_hue_of_its_colour_however_it_lies():
+    flat = painted(SLANTED)
+    steep = painted([[(0, 0, 0), (40, 0, 60), (0, 30, 0)]])
+    full = np.array(GROUND) * (1 - SURFACE_STRENGTH) + np.array(INK) * SURFACE_STRENGTH
+    for made in (flat, steep):
+        seen = made.pixels[made.owners >= 0][:, 2::-1].astype(float)
+        inside = seen[np.abs(seen - np.median(seen, axis=0)).max(axis=1) < 2]
+        ratio = np.median(inside, axis=0) / full
+        assert ratio.max() - ratio.min() < 0.02
+        assert 0.55 < ratio.mean() <= 1.01
