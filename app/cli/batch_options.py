@@ -43,7 +43,7 @@ def add_batch_options(parser: OptionParser) -> None:
     kind.add_argument("--check", action="store_true", help="check NC programs instead of making them of drawings")
     kind.add_argument("--smooth", action="store_true", help="smooth NC programs instead")
     parser.add_argument(
-        "--jobs", metavar="N", type=_jobs, help="parts at a time, each in its own process (default: one a core)"
+        "--jobs", metavar="N", type=jobs_given, help="parts at a time, each in its own process (default: one a core)"
     )
     parser.add_argument(
         "--limit",
@@ -67,7 +67,8 @@ def add_batch_options(parser: OptionParser) -> None:
     _add_passed(parser)
 
 
-def _jobs(text: str) -> int:
+def jobs_given(text: str) -> int:
+    """Return a number of processes, for argparse."""
     if not text.isdecimal() or not 1 <= int(text) <= 1024:
         raise argparse.ArgumentTypeError(f"is wrong: '{text}' is no number of jobs; write one from 1 to 1024")
     return int(text)

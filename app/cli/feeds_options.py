@@ -15,7 +15,7 @@ from ..formats.tools.materials import stock_material, stock_materials
 from ..model.operation import LEAST_LENGTH
 from ..model.tool import Tool, ToolMaterial
 from ..toolpath.feeds.proposal import CutEngagement
-from ..usecases.feeds import FeedsOptions, engagement_asked
+from ..usecases.feeds import FeedsOptions, engagement_at
 from .command import OptionParser
 from .cut_options import shape_given
 from .values import MACHINE_HELP, TOOLS_HELP, machine_named, number, typed
@@ -91,7 +91,7 @@ def check_feeds_options(arguments: argparse.Namespace) -> None:
             raise InputError(f"--{name.replace('_', '-')} has no effect with --tools, which tells it of each tool")
 
 
-def asked_tools(arguments: argparse.Namespace) -> ToolLibrary:
+def requested_tools(arguments: argparse.Namespace) -> ToolLibrary:
     """Return the tools that feeds are asked for.
 
     Raises:
@@ -114,6 +114,6 @@ def feeds_options(arguments: argparse.Namespace) -> FeedsOptions:
     return FeedsOptions(arguments.material.word, arguments.machine)
 
 
-def asked_engagement(arguments: argparse.Namespace) -> CutEngagement:
+def requested_engagement(arguments: argparse.Namespace) -> CutEngagement:
     """Return how much of the tools is in metal."""
-    return engagement_asked(arguments.engaged, arguments.depth or 0.0)
+    return engagement_at(arguments.engaged, arguments.depth or 0.0)

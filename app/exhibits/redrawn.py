@@ -13,7 +13,7 @@ from ..core.resources import resource
 from ..formats.plot.page import PlotPage
 from ..formats.plot.page_png import page_png
 from ..usecases.better.improve import better
-from ..usecases.better.metal import metal_picture
+from ..usecases.better.picture import stock_picture
 from ..usecases.better.result import BetterOptions
 from ..usecases.bitmap_options import BitmapOptions, BitmapSize
 from ..usecases.options import MakeOptions
@@ -113,7 +113,7 @@ def _metal() -> bytes:
     """Return the metal of the sample of `better`, before and after."""
     name = "raster.ngc"
     done = better(name, resource("samples", name).read_bytes(), BetterOptions(cells=_FINE))
-    return metal_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed)
+    return stock_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed)
 
 
 def _apparatus() -> PlotPage:

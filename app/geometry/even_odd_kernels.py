@@ -34,6 +34,8 @@ def _beneath(curves, k, a, b):
     if r == 0.0:
         return area
     t = 2 * math.asin(min(math.hypot(xb - xa, b - a) / (2 * abs(r)), 1.0))
+    # The segment over a chord of angle t is r^2 / 2 (t - sin t). Of a small t that difference has no digits left, and
+    # its series has: the next term is 2e-11 of the first one at 0.1.
     over = t**3 / 6 * (1 - t * t / 20 * (1 - t * t / 42)) if t < 0.1 else t - math.sin(t)
     return area + math.copysign(r * r / 2 * over, r)
 
@@ -69,6 +71,8 @@ def _meet(curves, i, j, heights):
     if gap == 0.0:
         return 0
     reach = (gap + (ri - rj) * (ri + rj) / gap) / 2
+    # reach: from the first centre to the line through both meetings, (g^2 + ri^2 - rj^2) / 2 g, so written that nothing
+    # cancels. h2: the square of half their chord.
     h2 = (ri - reach) * (ri + reach)
     if h2 < 0.0:
         return 0
@@ -177,11 +181,13 @@ def swept_area(curves, owner, outlines, heights):
             active[busy] = begun
             busy += 1
             begun += 1
+        # Between two heights no curves change places, so their order half way between is that all along.
         _sort(curves, x, active, busy, (a + b) / 2)
         if not _signs(owner, active, busy, within, new):
             lost += b - a
         for place in range(busy):
             k = active[place]
+            # A curve whose sign stays goes on: its integral is taken once, from where the sign began.
             if new[place] != sign[k]:
                 if sign[k] != 0:
                     area += sign[k] * _beneath(curves, k, since[k], a)

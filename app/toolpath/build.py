@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, lengths, point_on, reversed_rows, sweep_of
+from ..geometry.primitives import CX, TURN, X0, X1, Y0, Y1, R, Rows, lengths, point_on, reversed_rows
 from ..model.moves import MoveKind, Moves, Purpose
+from .merge_kernels import beginnings
 
-_SAME_CENTRE = 1e-6  # mm
 _NO_CENTRE = (math.nan, math.nan)
 _KIND_BY_TURN = np.array([MoveKind.ARC_CW, MoveKind.LINE, MoveKind.ARC_CCW], np.uint8)
 
@@ -236,33 +236,17 @@ def merged(stroke: Stroke) -> Stroke:
     turns = stroke.rows[:, TURN]
     if not np.any((turns[1:] != 0) & (turns[1:] == turns[:-1])):
         return stroke
-    rows, purpose, least_z = stroke.rows.tolist(), stroke.purpose.tolist(), stroke.least_z
-    heights = [0.0] * len(rows) if least_z is None else least_z.tolist()
-    kept, total = [0], abs(sweep_of(rows[0]))
-    for i in range(1, len(rows)):
-        turn = abs(sweep_of(rows[i]))
-        alike = purpose[i] == purpose[i - 1] and heights[i] == heights[i - 1] and _one_circle(rows[i - 1], rows[i])
-        if alike and total + turn < math.tau - 1e-3:
-            total += turn
-            continue
-        kept.append(i)
-        total = turn
-    if len(kept) == len(rows):
+    least_z = stroke.least_z
+    heights = np.zeros(0) if least_z is None else least_z
+    kept = beginnings(
+        *(np.ascontiguousarray(each) for each in (stroke.rows, stroke.purpose.astype(np.uint8, copy=False), heights))
+    )
+    if len(kept) == len(stroke.rows):
         return stroke
     joined = stroke.rows[kept]
-    joined[:, X1 : Y1 + 1] = stroke.rows[[*(k - 1 for k in kept[1:]), -1], X1 : Y1 + 1]
+    joined[:, X1 : Y1 + 1] = stroke.rows[np.append(kept[1:] - 1, len(stroke.rows) - 1), X1 : Y1 + 1]
     return replace(
         stroke, rows=joined, purpose=stroke.purpose[kept], least_z=None if least_z is None else least_z[kept]
-    )
-
-
-def _one_circle(a: Sequence[float], b: Sequence[float]) -> bool:
-    """Tell whether two rows, one after the other, are arcs of one circle that go the same way round it."""
-    return (
-        b[TURN] != 0
-        and a[TURN] == b[TURN]
-        and math.hypot(b[CX] - a[CX], b[CY] - a[CY]) < _SAME_CENTRE
-        and abs(b[R] - a[R]) < _SAME_CENTRE
     )
 
 

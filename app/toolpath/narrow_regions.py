@@ -16,7 +16,7 @@ from ..core.pool import in_bands
 from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ..geometry.outlines import Outlines, polygons
-from ..geometry.primitives import Primitives, sample
+from ..geometry.primitives import Primitives, boxes, sample
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.operation import Operation
@@ -145,7 +145,7 @@ def necks(level: OffsetLevel, primitives: Primitives, field: DistanceField, tool
     findings = []
     pairs = _nearest_pairs(level)
     lower = offset_levels(primitives, [level.distance * k / _LOWER for k in range(1, _LOWER)]) if pairs else ()
-    outlines = [np.array([_outline(ring) for ring in each.rings if ring.area > 0], dtype=object) for each in lower]
+    outlines = [_Areas([ring for ring in each.rings if ring.area > 0]) for each in lower]
     for a, b, region in pairs[:_TELL]:
         (x, y), room = _narrowest(*_at_the_neck(a, b, outlines), field)
         width = min(2 * room, need.width - _NARROWER)
@@ -183,19 +183,49 @@ def _outline(ring: Ring) -> shapely.Polygon:
     )
 
 
-def _at_the_neck(a: Floats, b: Floats, outlines: Sequence[NDArray[np.object_]]) -> tuple[Floats, Floats]:
+class _Areas:
+    """Areas within the outer rings of a level, whose outlines are made when they are asked for: of many, few are."""
+
+    def __init__(self, rings: Sequence[Ring]) -> None:
+        self._rings = rings
+        self._made: dict[int, shapely.Geometry] = {}
+        self._low, self._high = np.zeros((0, 2)), np.zeros((0, 2))
+        if rings:
+            first = np.cumsum([0, *(len(ring.rows) for ring in rings[:-1])])
+            around = boxes(np.concatenate([ring.rows for ring in rings]))
+            self._low = np.minimum.reduceat(around[:, :2], first) - 1e-6  # what stands for a point is so wide
+            self._high = np.maximum.reduceat(around[:, 2:], first) + 1e-6
+
+    def outline(self, k: int) -> shapely.Geometry:
+        """Return the area within ring k."""
+        if k not in self._made:
+            self._made[k] = _outline(self._rings[k])
+        return self._made[k]
+
+    def nearest(self, point: Floats) -> int | None:
+        """Return the area nearest to a point (2,), of those as near the smallest; None where there are none."""
+        away = np.hypot(*np.maximum(np.maximum(self._low - point, point - self._high), 0.0).T)
+        place, best = shapely.Point(point), (math.inf, math.inf, -1)
+        for k in np.argsort(away, kind="stable").tolist():
+            if away[k] > best[0]:
+                break
+            outline = self.outline(k)
+            best = min(best, (float(shapely.distance(outline, place)), float(shapely.area(outline)), k))
+        return best[2] if best[2] >= 0 else None
+
+
+def _at_the_neck(a: Floats, b: Floats, outlines: Sequence[_Areas]) -> tuple[Floats, Floats]:
     """Return the nearest points of the areas round two points at the first level that parts them.
 
     Args:
         outlines: of the areas at rising levels.
     """
     for areas in outlines:
-        if not len(areas):
+        one, other = (areas.nearest(point) for point in (a, b))
+        if one is None or other is None:
             return a, b
-        sizes = shapely.area(areas)
-        one, other = (areas[np.lexsort((sizes, shapely.distance(areas, shapely.Point(point))))[0]] for point in (a, b))
-        if one is not other:
-            ends = shapely.get_coordinates(shapely.shortest_line(one, other))
+        if one != other:
+            ends = shapely.get_coordinates(shapely.shortest_line(areas.outline(one), areas.outline(other)))
             return (ends[0], ends[1]) if np.any(ends[0] != ends[1]) else (a, b)
     return a, b
 

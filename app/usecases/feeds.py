@@ -126,7 +126,7 @@ def proposal_values(made: FeedProposal) -> Json:
     }
 
 
-def engagement_asked(angle: float | None, depth: float) -> CutEngagement:
+def engagement_at(angle: float | None, depth: float) -> CutEngagement:
     """Return an engagement that somebody has said.
 
     Args:

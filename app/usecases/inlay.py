@@ -147,7 +147,7 @@ class InlayPair:
 
 
 def inlay(
-    name: str, data: bytes, options: MakeOptions, wished: InlayOptions, progress: Progress = NO_PROGRESS
+    name: str, data: bytes, options: MakeOptions, sizes: InlayOptions, progress: Progress = NO_PROGRESS
 ) -> InlayPair:
     """Return pocket and plug for the bytes of a drawing, and how they fit.
 
@@ -159,51 +159,51 @@ def inlay(
         Cancelled: the job was asked to stop.
     """
     drawing = read_for(name, data, options)
-    return inlay_of(job_from_drawing(drawing, options), wished, progress, drawing.findings)
+    return inlay_of(job_from_drawing(drawing, options), sizes, progress, drawing.findings)
 
 
 def inlay_of(
     job: Job,
-    wished: InlayOptions,
+    sizes: InlayOptions,
     progress: Progress = NO_PROGRESS,
     drawing_findings: tuple[Finding, ...] = (),
 ) -> InlayPair:
     """Return the pocket of a job and its plug, and how they fit; args and errors as `inlay`."""
-    jobs = inlay_jobs(job, wished)
+    jobs = inlay_jobs(job, sizes)
     pocket = export(jobs.pocket, progress.part(0.0, 0.4), drawing_findings)
     plug = export(jobs.plug, progress.part(0.4, 0.8))
-    fit = fit_of(pocket, plug, jobs, wished, progress.part(0.8, 1.0))
-    return InlayPair(pocket, plug, fit, tuple(_fit_findings(fit, jobs, wished)))
+    fit = fit_of(pocket, plug, jobs, sizes, progress.part(0.8, 1.0))
+    return InlayPair(pocket, plug, fit, tuple(_fit_findings(fit, jobs, sizes)))
 
 
-def inlay_jobs(job: Job, wished: InlayOptions) -> InlayJobs:
+def inlay_jobs(job: Job, sizes: InlayOptions) -> InlayJobs:
     """Return the jobs of pocket and plug.
 
     Args:
         job: of the pocket.
 
     Raises:
-        ParameterError: it is no single V-carving with a flat tool, or what is wished does not go with it.
+        ParameterError: it is no single V-carving with a flat tool, or what is asked does not go with it.
     """
     operation = _carving(job)
     tool, flat = job.cutter(operation), flat_tool_of(job, operation)
     assert flat is not None  # it was asked for
-    rate, face = math.tan(tool.tip_angle / 2), operation.cut.depth - wished.glue
-    if not 0 <= wished.glue < operation.cut.depth:
+    rate, face = math.tan(tool.tip_angle / 2), operation.cut.depth - sizes.glue
+    if not 0 <= sizes.glue < operation.cut.depth:
         raise ParameterError(
-            f"The glue is {wished.glue:g} mm deep and the pocket {operation.cut.depth:g} mm; it must be 0 or more, and "
+            f"The glue is {sizes.glue:g} mm deep and the pocket {operation.cut.depth:g} mm; it must be 0 or more, and "
             "less than the pocket."
         )
-    if wished.gap < tool.tip_diameter / 2:
+    if sizes.gap < tool.tip_diameter / 2:
         raise ParameterError(
-            f"The gap is {wished.gap:g} mm, and the tip of T{tool.number} {tool.label} is {tool.tip_diameter:g} mm "
+            f"The gap is {sizes.gap:g} mm, and the tip of T{tool.number} {tool.label} is {tool.tip_diameter:g} mm "
             f"wide, so that the plug would not go into narrow places; give it a gap of {tool.tip_diameter / 2:g} mm or "
             "more, or take a pointed cutter."
         )
-    below = wished.saw - wished.gap / rate
+    below = sizes.saw - sizes.gap / rate
     if below < 0.01:
         raise ParameterError(
-            f"The plug is to stand out by {wished.saw:g} mm, and with that gap it sinks in by {wished.gap / rate:.3f} "
+            f"The plug is to stand out by {sizes.saw:g} mm, and with that gap it sinks in by {sizes.gap / rate:.3f} "
             "mm; let it stand out more."
         )
     drawn = drawn_contours(job)
@@ -211,7 +211,7 @@ def inlay_jobs(job: Job, wished: InlayOptions) -> InlayJobs:
     box = extent(chosen)
     if box is None:
         raise ParameterError(f"{job.part.name}: there is no closed contour to inlay; draw one, or choose other curves.")
-    depth = face + wished.saw
+    depth = face + sizes.saw
     room = tool.tip_diameter + 2 * depth * rate + 2 * flat.diameter
     contours = [_mirrored(each) for each in chosen]
     block = polygon_contour(
@@ -224,10 +224,10 @@ def inlay_jobs(job: Job, wished: InlayOptions) -> InlayJobs:
     )
     stepdown = operation.cut.stepdown
     around = PocketOperation(
-        CutParameters(flat.number, depth, stepdown, stock_to_leave=wished.saw * rate), open_edges=True
+        CutParameters(flat.number, depth, stepdown, stock_to_leave=sizes.saw * rate), open_edges=True
     )
     walls = ChamferOperation(
-        CutParameters(tool.number, curves=(OnLayer(_PLUG),)), Side.OUTSIDE, face * rate + wished.gap, below
+        CutParameters(tool.number, curves=(OnLayer(_PLUG),)), Side.OUTSIDE, face * rate + sizes.gap, below
     )
     pocket = replace(job, origin_xy=OriginXY.DRAWING, origin_z=OriginZ.TOP)
     plug = replace(
@@ -265,7 +265,7 @@ def _part(contours: list[tuple[Contour, str]], name: str) -> Part:
 
 
 def fit_of(
-    pocket: MakeResult, plug: MakeResult, jobs: InlayJobs, wished: InlayOptions, progress: Progress = NO_PROGRESS
+    pocket: MakeResult, plug: MakeResult, jobs: InlayJobs, sizes: InlayOptions, progress: Progress = NO_PROGRESS
 ) -> InlayFit:
     """Lay a plug into its pocket, both as their programs were read back and cut, and return how they fit.
 
@@ -287,13 +287,13 @@ def fit_of(
     points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     inset = _inset(contours, points).reshape(rows, cols)
     walls = (inset > 0) & (inset < jobs.face * jobs.rate)
-    floor = inset > (jobs.face + wished.glue) * jobs.rate + grid.pitch
-    off = between[walls] - wished.gap / jobs.rate if walls.any() else np.zeros(1)
+    floor = inset > (jobs.face + sizes.glue) * jobs.rate + grid.pitch
+    off = between[walls] - sizes.gap / jobs.rate if walls.any() else np.zeros(1)
     return InlayFit(
         max(0.0, -float(between[inset > 0].min(initial=0.0))),
         float(off.max()),
         float(between[floor].min()) if floor.any() else None,
-        max(0.0, _left(pocket) + _left(plug) - wished.gap / jobs.rate),
+        max(0.0, _left(pocket) + _left(plug) - sizes.gap / jobs.rate),
         grid.pitch,
     )
 
@@ -314,7 +314,7 @@ def _left(made: MakeResult) -> float:
     return float(sum(each["left_mm"] + each["between_places_mm"] for each in carved))
 
 
-def _fit_findings(fit: InlayFit, jobs: InlayJobs, wished: InlayOptions) -> list[Finding]:
+def _fit_findings(fit: InlayFit, jobs: InlayJobs, sizes: InlayOptions) -> list[Finding]:
     """Return what counts of a fit."""
     most, found = SIDEWAYS / jobs.rate, []
     if fit.overlap > most:
@@ -326,7 +326,7 @@ def _fit_findings(fit: InlayFit, jobs: InlayJobs, wished: InlayOptions) -> list[
     if fit.walls > most:
         text = f"Along the walls {fit.walls:.4f} mm of height more are open than asked for; the inlay is loose."
         found.append(Finding(FindingKind.TOLERANCE, text, amount=fit.walls))
-    if fit.floor is not None and fit.floor < wished.glue - most - 1.5 * RIDGE:  # of ridges that cross in corners
-        text = f"Between plug and floor are {fit.floor:.4f} mm, and the glue was to have {wished.glue:g} mm."
-        found.append(Finding(FindingKind.TOLERANCE, text, amount=wished.glue - fit.floor))
+    if fit.floor is not None and fit.floor < sizes.glue - most - 1.5 * RIDGE:  # of ridges that cross in corners
+        text = f"Between plug and floor are {fit.floor:.4f} mm, and the glue was to have {sizes.glue:g} mm."
+        found.append(Finding(FindingKind.TOLERANCE, text, amount=sizes.glue - fit.floor))
     return found

@@ -2,67 +2,84 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import MISSING
 
 from ..core.toml_tables import Keyword
-from ..model.fields import ParameterPlace, Unit, declared_of
+from ..model.fields import Parameter, ParameterPlace, Unit, declared_of
 from ..model.operation import Operation
 from ..model.operation_kinds import parameters
 from ..model.tool import Tool
 
-HEAD = """# Parameters of operations
+_OPERATIONS = "Parameters of operations"
+_ABOUT_OPERATIONS = (
+    "Each stands in a job file under its key, on the command line as its option, in the window under its name, and in "
+    "every program's header."
+)
+_OPERATION_COLUMNS = ("Key", "Option", "Name", "What it means", "Values", "Default", "Of")
+_TOOLS = "Parameters of tools"
+_ABOUT_TOOLS = (
+    "Each stands in a job file and in a tool library under its key, and in a spreadsheet as a column. What is 0 or "
+    "empty is not known."
+)
+_TOOL_COLUMNS = ("Key", "Name", "What it means", "Values", "Default")
 
-Each stands in a job file under its key, on the command line as its option, in the window under its name,
-and in every program's header.
-
-| Key | Option | Name | What it means | Values | Default | Of |
-|---|---|---|---|---|---|---|
-"""
-
-TOOLS = """
-# Parameters of tools
-
-Each stands in a job file and in a tool library under its key, and in a spreadsheet as a column. What is 0 or empty is
-not known.
-
-| Key | Name | What it means | Values | Default |
-|---|---|---|---|---|
-"""
+Translation = Callable[[str], str]
 
 
-def parameter_table() -> str:
-    """Return the page in Markdown; `resources/docs/parameters.md` is this text."""
-    operations = (_cells(placed, kinds) for placed, kinds in parameters().values())
-    tools = (_tool_cells(placed) for placed in declared_of(Tool).values())
-    return HEAD + "".join(map(_row, operations)) + TOOLS + "".join(map(_row, tools))
+def parameter_table(tr: Translation = str) -> str:
+    """Return the page in Markdown; `resources/docs/parameters.md` is this text.
+
+    Args:
+        tr: gives words in the language of the page.
+    """
+    operations = (_cells(placed, kinds, tr) for placed, kinds in parameters().values())
+    tools = (_tool_cells(placed, tr) for placed in declared_of(Tool).values())
+    return (
+        f"# {tr(_OPERATIONS)}\n\n{tr(_ABOUT_OPERATIONS)}\n\n{_head(_OPERATION_COLUMNS, tr)}"
+        + "".join(map(_row, operations))
+        + f"\n# {tr(_TOOLS)}\n\n{tr(_ABOUT_TOOLS)}\n\n{_head(_TOOL_COLUMNS, tr)}"
+        + "".join(map(_row, tools))
+    )
+
+
+def _head(columns: tuple[str, ...], tr: Translation) -> str:
+    return _row(iter([tr(each) for each in columns])) + f"|{'---|' * len(columns)}\n"
+
+
+def _meaning(declared: Parameter, tr: Translation) -> str:
+    """Return what a parameter means, as its form says it in a language, and what it needs."""
+    said = f"{declared.help[:1].upper()}{declared.help[1:]}."
+    words = tr(said)
+    words = declared.help if words == said else words.rstrip("。")
+    return f"{words}; {tr(f'with {declared.needs.with_}')}" if declared.needs else words
 
 
 def _row(cells: Iterator[str]) -> str:
     return f"| {' | '.join(cells)} |\n"
 
 
-def _tool_cells(placed: ParameterPlace) -> Iterator[str]:
+def _tool_cells(placed: ParameterPlace, tr: Translation) -> Iterator[str]:
     declared = placed.parameter
     yield f"`{declared.key}`"
-    yield declared.label
-    yield declared.help
-    yield _values(placed)
-    yield "" if placed.default is MISSING else _default(placed)
+    yield tr(declared.label)
+    yield _meaning(declared, tr)
+    yield _values(placed, tr)
+    yield "" if placed.default is MISSING else _default(placed, tr)
 
 
-def _cells(placed: ParameterPlace, kinds: tuple[type[Operation], ...]) -> Iterator[str]:
+def _cells(placed: ParameterPlace, kinds: tuple[type[Operation], ...], tr: Translation) -> Iterator[str]:
     declared = placed.parameter
     yield f"`{declared.key}`"
     yield f"`--{declared.option}`" if declared.option else ""
-    yield declared.label
-    yield declared.help + (f"; with {declared.needs.with_}" if declared.needs else "")
-    yield _values(placed)
-    yield _default(placed)
+    yield tr(declared.label)
+    yield _meaning(declared, tr)
+    yield _values(placed, tr)
+    yield _default(placed, tr)
     yield ", ".join(kind.WORD for kind in kinds)
 
 
-def _values(placed: ParameterPlace) -> str:
+def _values(placed: ParameterPlace, tr: Translation) -> str:
     declared = placed.parameter
     if placed.enum is not None:
         return ", ".join(str(each.value) for each in placed.enum)
@@ -77,17 +94,17 @@ def _values(placed: ParameterPlace) -> str:
         Unit.OUTLINE: "points [height, radius], mm, or a name",
         Unit.FEEDS: "rows of material, surface_speed, feed_per_tooth, plunge_share",
     }
-    return words.get(declared.unit) or declared.range_words()
+    return tr(words.get(declared.unit) or declared.range_words())
 
 
-def _default(placed: ParameterPlace) -> str:
+def _default(placed: ParameterPlace, tr: Translation) -> str:
     declared, value = placed.parameter, placed.default
     if placed.enum is not None or isinstance(value, Keyword):
         return str(value.value)
     if value is None:
-        return declared.auto
+        return tr(declared.auto)
     if declared.unit is Unit.FLAG:
         return str(value).lower()
     if isinstance(value, int | float):
-        return f"{declared.shown(value):g}{declared.sign}"
-    return "none" if value == () else ""
+        return tr(f"{declared.shown(value):g}{declared.sign}")
+    return tr("none") if value == () else ""

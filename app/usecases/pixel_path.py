@@ -27,6 +27,9 @@ pixels.
 _STEP_PX = 0.25
 """Pixels between the places at which a path's clearance is measured."""
 
+_MOST_PLACES = 100_000
+"""Of one row; an arc that a move has turned inside out can be kilometres long, and places farther apart tell less."""
+
 _REACH_PX = 4.0
 """Pixels that a path may be moved out by at most."""
 
@@ -53,11 +56,11 @@ def clearance(rows: Rows, field: DistanceField, step: float, limit: float) -> Fl
     point on its chord, and an arc's sagitta less from the arc.
 
     Args:
-        step: between places, mm, > 0.
+        step: between places, mm, > 0; more on rows of more than _MOST_PLACES.
         limit: distances above it do not matter, mm.
     """
     size = lengths(rows)
-    counts = np.maximum(np.ceil(size / step), 1).astype(np.int64)
+    counts = np.clip(np.ceil(size / step), 1, _MOST_PLACES).astype(np.int64)
     owner = np.repeat(np.arange(len(rows)), counts + 1)
     place = np.arange(len(owner)) - np.repeat(np.cumsum(counts + 1) - counts - 1, counts + 1)
     distance, _ = field.nearest(points_at(rows[owner], place / counts[owner]), limit)

@@ -14,39 +14,7 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from ..core.resources import resource
-
-FIRST = ("manual", "language", "parameters", "holes", "chamfer", "adaptive", "vcarve", "project", "posts", "scene")
-"""Pages in this order; the others follow by name, and last what is for those who change the program."""
-
-_LAST = ("python", "architecture", "changelog")
-
-
-@dataclass(frozen=True)
-class ManualLanguage:
-    """What a site says itself in a language.
-
-    Attributes:
-        code: of HTML, and behind the names of its pages: NAME_ja.md; "en" is behind none.
-        name: of the language, in itself.
-    """
-
-    code: str
-    name: str
-    title: str
-    search: str
-    nothing: str
-    pages: str
-
-    @property
-    def ending(self) -> str:
-        """What the names of its pages end in."""
-        return "" if self.code == "en" else f"_{self.code}"
-
-
-LANGUAGES = (
-    ManualLanguage("en", "English", "Hitofude manual", "Search the manual", "Nothing found", "Pages"),
-    ManualLanguage("ja", "日本語", "Hitofude マニュアル", "マニュアルを検索", "見つかりません", "ページ"),
-)
+from .manual_pages import LANGUAGES, ManualLanguage, base_of, language_of, rank, shown_in
 
 
 @dataclass(frozen=True)
@@ -79,12 +47,12 @@ class ManualPage:
     @property
     def language(self) -> ManualLanguage:
         """That it is written in."""
-        return next((each for each in LANGUAGES[1:] if self.name.endswith(each.ending)), LANGUAGES[0])
+        return language_of(self.name)
 
     @property
     def base(self) -> str:
         """Its name without what tells the language."""
-        return self.name.removesuffix(self.language.ending)
+        return base_of(self.name)
 
 
 def static_manual(files: Mapping[str, bytes]) -> dict[str, bytes]:
@@ -99,7 +67,7 @@ def static_manual(files: Mapping[str, bytes]) -> dict[str, bytes]:
         for name, data in files.items()
         if name.endswith(".md")
     ]
-    pages.sort(key=lambda page: (_rank(page.base), page.base))
+    pages.sort(key=lambda page: rank(page.base))
     site = {name: data for name, data in files.items() if not name.endswith(".md")}
     for language in LANGUAGES:
         shown = _shown(pages, language)
@@ -111,16 +79,10 @@ def static_manual(files: Mapping[str, bytes]) -> dict[str, bytes]:
     return site | {"manual.css": resource("web", "manual.css").read_bytes()}
 
 
-def _rank(base: str) -> int:
-    if base in FIRST:
-        return FIRST.index(base)
-    return len(FIRST) + 1 + _LAST.index(base) if base in _LAST else len(FIRST)
-
-
 def _shown(pages: Sequence[ManualPage], language: ManualLanguage) -> list[ManualPage]:
     """Return each page in a language, or in English where it is not written in that."""
-    own = {page.base: page for page in pages if page.language is language}
-    return [own.get(page.base, page) for page in pages if page.language is LANGUAGES[0]]
+    by_name = {page.name: page for page in pages}
+    return [by_name[name] for name in shown_in(language, by_name)]
 
 
 def _read(parser: MarkdownIt, name: str, text: str) -> ManualPage:
@@ -175,9 +137,9 @@ def linked(href: str, language: ManualLanguage) -> str:
         return f"index{language.ending}.html"
     if path.suffix != ".md":
         return path.name
-    written = next((each for each in LANGUAGES[1:] if path.stem.endswith(each.ending)), None)
-    stem = path.stem if written is None else path.stem.removesuffix(written.ending)
-    return f"{stem}{(written or language).ending}.html{mark}{anchor}"
+    written = language_of(path.stem)
+    ending = language.ending if written is LANGUAGES[0] else written.ending
+    return f"{base_of(path.stem)}{ending}.html{mark}{anchor}"
 
 
 def _index_html(shown: Sequence[ManualPage], language: ManualLanguage) -> bytes:

@@ -24,6 +24,7 @@ def told_apart(places, own, around, apart, told):
     count = 0
     for k in range(len(places)):
         alone = True
+        # Squares are as wide as the distance: what is nearer lies in the same square or in one that touches it.
         for c in range(9):
             square = around[own[k], c]
             other = last[square] if square >= 0 else -1

@@ -78,6 +78,8 @@ def _circle_circle(first, second):
     square = dx * dx + dy * dy
     if not square > 0.0:
         return math.nan, math.nan, math.nan, math.nan
+    # |p - c1| = r1 and |p - c2| = r2, subtracted: a line square to c1 c2, (d^2 + r1^2 - r2^2) / 2 d from c1; part is
+    # that as a share of d. The places lie on it, sqrt(r1^2 - (part d)^2) to either side.
     part = (square + first[6] * first[6] - second[6] * second[6]) / (2.0 * square)
     inside = first[6] * first[6] / square - part * part
     if not inside >= 0.0:
@@ -129,6 +131,8 @@ def pair_distances(first, second, one, other, distances, places):
         one, other: (n,) rows of both that make a pair. distances: (n,) out. places: (n, 2) out.
     """
     tried = np.empty((_MOST, 2))
+    # Where two curves are nearest, one of them ends, or they have one normal, or they cross: eight places of the first
+    # curve. Each is laid on both curves before it is measured, so one that is on neither is never too near.
     for k in range(len(one)):
         a, b = first[one[k]], second[other[k]]
         tried[0, 0], tried[0, 1], tried[1, 0], tried[1, 1] = a[0], a[1], a[2], a[3]

@@ -87,20 +87,23 @@ def _widths(
 
 def _goes_where_it_was(course: Course, rows: NDArray[np.intp]) -> Mask:
     """Return which rapids go upright over a place where their cutter has cut as deep before."""
-    motions, tools = course.motions, course.tool.tolist()
+    motions = course.motions
     upright = np.all(motions.start[:, :2] == motions.end[:, :2], axis=1)
     requested = rows[upright[rows]]
+    if not len(requested):
+        return np.zeros(len(rows), np.bool_)
     cuts = motions.kind != MotionKind.RAPID
     cuts[list(course.left_out)] = False
-    plunged = np.flatnonzero(cuts & (upright | np.concatenate([~cuts[1:], [True]])))
-    ends, low = motions.end.tolist(), np.minimum(motions.start[:, 2], motions.end[:, 2]).tolist()
+    cuts &= upright | np.append(~cuts[1:], True)
+    cuts[requested] = True
+    asked, looked_at = np.isin(np.arange(len(motions)), requested), np.flatnonzero(cuts)
     deepest: dict[tuple[int, float, float], float] = {}
-    clear: set[int] = set()
-    merged = sorted([(row, False) for row in plunged.tolist()] + [(row, True) for row in requested.tolist()])
-    for row, question in merged if len(requested) else ():
-        place = (tools[row], ends[row][0], ends[row][1])
+    clear: list[int] = []
+    low = np.minimum(motions.start[looked_at, 2], motions.end[looked_at, 2])
+    each = (looked_at, asked[looked_at], course.tool[looked_at], *motions.end[looked_at].T, low)
+    for row, question, tool, x, y, z, lower in zip(*(values.tolist() for values in each), strict=True):
         if not question:
-            deepest[place] = min(deepest.get(place, np.inf), ends[row][2])
-        elif deepest.get(place, np.inf) <= low[row]:
-            clear.add(row)
-    return np.isin(rows, list(clear))
+            deepest[tool, x, y] = min(deepest.get((tool, x, y), np.inf), z)
+        elif deepest.get((tool, x, y), np.inf) <= lower:
+            clear.append(row)
+    return np.isin(rows, clear)

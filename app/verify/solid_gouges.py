@@ -23,7 +23,7 @@ from .judgement import Spot, SpotKind
 from .parts import SolidPart
 from .places import MOST, CellPlace
 from .solid_depth import CutColumns, DepthInSolid
-from .wall_probe import Probe, WallProbe, metal_at
+from .wall_probe import Probe, WallProbe, stock_at
 
 ASKED = 4000
 """Cells of a place that the solid is asked at, half of them those that seem deepest, the others spread; of all places
@@ -94,7 +94,7 @@ class SolidGouges:
         cut = walls.cut_places(deep)
         if not len(cut):
             return []
-        columns, fine = CutColumns(cut.places, cut.heights, metal_at(self.before, cut.places)), self.part.tolerance / 10
+        columns, fine = CutColumns(cut.places, cut.heights, stock_at(self.before, cut.places)), self.part.tolerance / 10
         depth = self.depths().of(columns, fine=fine)
         self._measure(
             depth, columns, np.flatnonzero((depth <= self.part.tolerance) & (depth > self.part.tolerance - 2 * fine))
@@ -198,7 +198,7 @@ class SolidGouges:
             requested = (places[:, None] + around * reach).reshape(-1, 2)
             z, motion = self.lowest(requested)
             depth = self.depths().of(
-                CutColumns(requested, np.where(motion >= 0, z, np.inf), metal_at(self.before, requested))
+                CutColumns(requested, np.where(motion >= 0, z, np.inf), stock_at(self.before, requested))
             )
             deepest = np.argmax(depth.reshape(-1, each), axis=1) + np.arange(len(places)) * each
             better = depth[deepest] > best

@@ -138,11 +138,11 @@ class _WallPoints:
         places, part = self.points + self.inwards * depth[:, None], self.probe.part
         heights, motion = self.probe.lowest(places)
         target = self.tree.tops(self.points + self.inwards * np.maximum(depth, ASIDE)[:, None])
-        stock = np.minimum(target, metal_at(self.probe.before, places))
+        stock = np.minimum(target, stock_at(self.probe.before, places))
         return np.asarray((motion >= 0) & (heights < stock - part.tolerance) & (heights < target - over))
 
 
-def metal_at(workpiece: Workpiece, places: Floats) -> Floats:
+def stock_at(workpiece: Workpiece, places: Floats) -> Floats:
     """Return how high metal is at places (m, 2), mm; -infinite beside its grid."""
     grid, heights = workpiece.grid, workpiece.heights
     cols, rows = (

@@ -19,7 +19,11 @@ from app.model.job import Job
 from tests.generated_drawings import write_drawings
 
 ROOT = Path(__file__).parents[2]
-PAGES = (ROOT / "README.md", *sorted((ROOT / "resources/docs").glob("*.md")))
+PAGES = (
+    ROOT / "README.md",
+    *(page for page in sorted((ROOT / "resources/docs").glob("*.md")) if not page.stem.endswith("_ja")),
+)
+"""Pages in Japanese show no other commands: tests/usecases/test_static_manual.py."""
 OTHER = """G21 G90 G17 G94
 T1 M6
 S9000 M3

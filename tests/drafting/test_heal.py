@@ -11,14 +11,8 @@ from app.core.errors import InputError
 from app.drafting.commands.defects import DefectKind, curve_distance, find_defects
 from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Line
+from tests.drafting.documents import drawn
 from tests.examples import examples
-
-
-def drawn(*lines: str) -> Document:
-    document = Document()
-    for line in lines:
-        document.run(line)
-    return document
 
 
 def kinds(document: Document, tolerance: float = 0.01) -> list[tuple[DefectKind, tuple[int, ...]]]:

@@ -23,13 +23,7 @@ from app.geometry.sample import sample
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line
 from app.model.job import Job
 from app.model.part import Entity, Part
-
-
-def drawn(*lines: str) -> Document:
-    document = Document()
-    for line in lines:
-        document.run(line)
-    return document
+from tests.drafting.documents import drawn
 
 
 def curves(document: Document) -> dict[int, Curve]:

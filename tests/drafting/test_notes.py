@@ -9,15 +9,9 @@ from app.drafting.document import Document
 from app.drafting.language.write import draw_text
 from app.model.curves import Line
 from app.model.notes import Dimension, DimensionKind, Guide, Mark, Shape
+from tests.drafting.documents import drawn
 
 QUARTER = math.pi / 2
-
-
-def drawn(*lines: str) -> Document:
-    document = Document()
-    for line in lines:
-        document.run(line)
-    return document
 
 
 def shape(*lines: str) -> Shape:

@@ -9,13 +9,7 @@ from app.drafting.commands.grips import GripKind, grip_position, grips, pulled
 from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
 from app.model.notes import Dimension, DimensionKind, Guide, Mark
-
-
-def drawn(*lines: str) -> Document:
-    document = Document()
-    for line in lines:
-        document.run(line)
-    return document
+from tests.drafting.documents import drawn
 
 
 def curve_of(document: Document, number: int = 1) -> object:

@@ -1,5 +1,8 @@
 """Least-squares splines: few spans, proven in their tube, smooth inside, corners kept."""
 
+from dataclasses import replace
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -7,9 +10,10 @@ from scipy.interpolate import BSpline
 
 from app.fitting.point_curves.bspline import SplineFit, fit_spline
 from app.fitting.point_curves.proven_curve import SplineOptions, fit_splines
+from app.fitting.point_curves.smoothness import joints_of
 from app.fitting.point_curves.space_curve import curve_of_motions, curve_of_nurbs
 from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
-from app.model.motion import MotionKind
+from app.model.motion import MotionKind, Nurbs
 from tests.fitting.test_tube import off_chords
 
 Floats = NDArray[np.float64]
@@ -136,3 +140,31 @@ def test_a_dense_wave_is_one_spline_of_few_spans(tolerance: float) -> None:
     points = np.round(np.column_stack([r * np.cos(t), r * np.sin(t), 0 * t]), 4)
     curve = fitted(points, ToleranceTube(tolerance)).curve
     assert len(curve.points) <= {0.01: 200, 0.05: 150}[tolerance]
+
+
+def derivatives(curve: Nurbs, at: float) -> list[np.ndarray]:
+    """Place, unit tangent and curvature vector, by scipy."""
+    spline = BSpline(curve.knots, curve.points, curve.degree)
+    place, first, second = (spline(at, nu) for nu in range(3))
+    speed = np.linalg.norm(first)
+    return [place, first / speed, (second - first * (first @ second) / speed**2) / speed**2]
+
+
+@pytest.mark.parametrize("degree", [3, 5])
+@pytest.mark.parametrize("insist", [False, True])
+def test_a_long_run_is_fitted_in_pieces_that_join_with_one_direction_and_one_curvature(
+    degree: int, insist: bool
+) -> None:
+    turn = np.linspace(0.0, 9.0, 1501)
+    points = np.column_stack([40 * np.cos(turn), 25 * np.sin(turn), 3 * np.sin(2 * turn)])
+    options = SplineOptions(ToleranceTube(0.01), degree, insist=insist)
+    whole, made = fit_splines(points, options), fit_splines(points, replace(options, longest=400))
+    assert len(whole.motions) == 1 and len(made.motions) == 4 and made.last.tolist() == [375, 750, 1125, 1500]
+    curves = [made.motions.splines[k] for k in range(4)]
+    for before, behind in pairwise(curves):
+        ends = derivatives(before, before.knots[-1]), derivatives(behind, behind.knots[0])
+        for one, other, within in zip(*ends, (1e-12, 1e-9, 1e-7), strict=True):
+            assert np.linalg.norm(one - other) < within
+    assert all(joint.bend < 1e-6 and joint.curvature_step < 1e-6 for joint in joints_of(curve_of_motions(made.motions)))
+    assert judge(curve_of_motions(made.motions), points, options.tube).answer is TubeAnswer.INSIDE
+    assert sum(len(each.points) for each in curves) < 2 * len(whole.motions.splines[0].points)

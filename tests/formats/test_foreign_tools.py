@@ -299,3 +299,18 @@ def test_they_are_read_by_every_command_and_not_written(tmp_path: Path, capsys: 
     assert read_library("kept.toml", kept.read_bytes()).tools[0].stick_out == 25.0
     with pytest.raises(InputError, match=r"read alone; write them as \.toml, \.csv, \.tbl"):
         write_tools("x.json", read_library("kept.toml", kept.read_bytes()))
+
+
+@pytest.mark.parametrize("digits", [400, 5000])
+def test_whole_numbers_of_any_length_are_one_sentence(digits: int) -> None:
+    big = "9" * digits
+    fusion = fusion_json([fusion_tool(number=3), fusion_tool(number=4)]).replace(
+        b'"DC": 6.0', f'"DC": {big}'.encode(), 1
+    )
+    freecad = bit("endmill", Diameter="6 mm", Length="Z").replace(b'"Z"', big.encode())
+    for name, data in (("t.json", fusion), ("t.fctb", freecad)):
+        try:
+            said = " ".join(read_tools(name, data).left_out)
+        except InputError as error:
+            said = str(error)
+        assert said.startswith(name) and len(said) < 300, said

@@ -16,10 +16,15 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Shape:
-    """A cutter: its radius, mm, and how far its point falls from the rim to the axis, mm for each mm; 0 = flat."""
+    """A cutter: its radius, mm, and how far its point falls from the rim to the axis, mm for each mm; 0 = flat.
+
+    Attributes:
+        ball: its end is half a ball.
+    """
 
     radius: float
     fall: float = 0.0
+    ball: bool = False
 
 
 class DenseHeights:
@@ -56,12 +61,15 @@ class DenseHeights:
         length = math.hypot(x1 - x0, y1 - y0)
         if length < 1e-9:
             away = np.hypot(px, py)
-            made = min(z0, z1) + shape.fall * away
+            with np.errstate(invalid="ignore"):
+                over = shape.radius - np.sqrt(shape.radius**2 - away**2) if shape.ball else shape.fall * away
+            made = min(z0, z1) + over
             made = np.where(away <= shape.radius, made, np.inf)
         else:
             ux, uy, slope = (x1 - x0) / length, (y1 - y0) / length, (z1 - z0) / length
             along, beside = px * ux + py * uy, np.abs(py * ux - px * uy)
-            made = (_pointed if shape.fall else _flat)(along, beside, (length, z0, slope), shape)
+            closed = _round if shape.ball else _pointed if shape.fall else _flat
+            made = closed(along, beside, (length, z0, slope), shape)
         np.minimum(self.z[c:d, a:b], made, out=self.z[c:d, a:b])
 
 
@@ -86,3 +94,14 @@ def _pointed(along: Floats, beside: Floats, line: tuple[float, float, float], sh
     shift = math.copysign(1e9, slope) if steep else slope * beside / math.sqrt(shape.fall**2 - slope**2)
     at = np.clip(along - shift, first, last)
     return np.where(first <= last, z0 + slope * at + shape.fall * np.hypot(along - at, beside), np.inf)
+
+
+def _round(along: Floats, beside: Floats, line: tuple[float, float, float], shape: Shape) -> Floats:
+    """A ball over a point is lowest where its tangent plane has the slope of the line."""
+    length, z0, slope = line
+    first, last = _within(along, beside, length, shape.radius)
+    with np.errstate(invalid="ignore"):
+        half = np.sqrt(shape.radius**2 - beside**2)
+        at = np.clip(along - slope * half / math.sqrt(1 + slope**2), first, last)
+        low = np.sqrt(np.maximum(shape.radius**2 - beside**2 - (along - at) ** 2, 0.0))
+        return np.where(first <= last, z0 + slope * at + shape.radius - low, np.inf)

@@ -22,6 +22,7 @@ from app.formats.readers import read_drawing
 from app.formats.scene.edit import with_table, with_value
 from app.formats.scene.toml import read_scene
 from app.formats.tools.files import read_rows, read_tools
+from app.formats.tools.materials import read_materials
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
@@ -136,6 +137,7 @@ READERS: dict[str, tuple[Read, Callable[[], tuple[bytes, ...]]]] = {
     "stl": (_mesh("s.stl"), seeds.stl),
     "obj": (_mesh("s.obj"), seeds.obj),
     "ply": (_mesh("s.ply"), seeds.ply),
+    "3mf": (_mesh("s.3mf"), seeds.three_mf),
     "job": (lambda data: read_job("j.toml", data), seeds.jobs),
     "scene": (_scene, seeds.scenes),
     "machine": (lambda data: read_machine("m.toml", data), seeds.machines),
@@ -143,6 +145,11 @@ READERS: dict[str, tuple[Read, Callable[[], tuple[bytes, ...]]]] = {
     "tools toml": (_tools("t.toml"), seeds.libraries),
     "tools csv": (_tools("t.csv"), seeds.spreadsheets),
     "tools tbl": (_tools("t.tbl"), seeds.tables),
+    "tools fusion": (_tools("t.json"), lambda: seeds.fusion()[:1]),
+    "tools fusion archive": (_tools("t.tools"), lambda: seeds.fusion()[1:]),
+    "tools freecad": (_tools("t.fctb"), seeds.bits),
+    "tools vectric": (_tools("t.vtdb"), seeds.vectric),
+    "materials": (lambda data: read_materials("m.toml", data), seeds.materials),
     "settings": (_settings, seeds.settings),
     "examined": (_examined, seeds.programs),
     **{f"nc {each.value}": (_program(each), seeds.programs) for each in Dialect},

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import tempfile
 from dataclasses import asdict
 from functools import cache
 from itertools import islice
@@ -26,7 +27,9 @@ from app.formats.tools.files import read_tools, write_tools
 from app.formats.tools.library import ToolLibrary
 from app.model.job import Job
 from tests.conftest import ROOT
+from tests.formats import foreign_tools
 from tests.formats.test_svg_damage import RICH
+from tests.fuzz.any_solid import written
 from tests.gcode.interpreter.rs274_programs import PROGRAMS
 from tests.surfaces import solids
 
@@ -66,6 +69,10 @@ def _dxf_document(version: str) -> Any:
     edges.add_line((70, 20), (80, 20))
     edges.add_arc((75, 20), 5, 0, 180)
     space.add_point((1, 2))
+    space.add_lwpolyline([(0, 0, 1, 3, 0), (50, 10, 0, 2, 0)], format="xyseb")
+    if version >= "R2000":
+        look = {"char_height": 2, "flow_direction": 3}
+        space.add_mtext_dynamic_auto_height_columns("H e l l o", 9, 2, 7, 2, dxfattribs=look)
     space.add_solid([(90, 0), (95, 0), (90, 5), (95, 5)])
     return document
 
@@ -95,7 +102,13 @@ def binary_dxf() -> tuple[bytes, ...]:
 
 @cache
 def svg() -> tuple[bytes, ...]:
-    return (RICH.encode(), *_files(DATA / "svg", "*.svg"))
+    lengths = (
+        b'<svg xmlns="http://www.w3.org/2000/svg" width="calc(40mm + 2em)" viewBox="0 0 90 60" style="font-size:9px">'
+        b'<style>.a{width:calc((3em - 2px)*2);font:bold 120%/1 Arial}</style><g font-size="larger">'
+        b'<rect class="a" x="10%" y="1rem" height="2ex" rx="1ch"/><circle cx="50%" cy="3em" r="calc(5% + 1mm)"/>'
+        b"</g></svg>"
+    )
+    return (RICH.encode(), lengths, *_files(DATA / "svg", "*.svg"))
 
 
 @cache
@@ -209,8 +222,43 @@ def ply() -> tuple[bytes, ...]:
 
 
 @cache
+def three_mf() -> tuple[bytes, ...]:
+    triangles = solids.pocketed_block()
+    return written(triangles, "3mf"), written(triangles[:8], "3mf")
+
+
+@cache
+def fusion() -> tuple[bytes, ...]:
+    entries = [foreign_tools.fusion_tool("drill", 3, SIG=118), foreign_tools.fusion_tool("ball end mill", 4, "inches")]
+    rates = {"presets": [foreign_tools.preset("aluminium", 9000, 800, 200)]}
+    entries.append(foreign_tools.fusion_tool(number=5, start_values=rates))
+    return foreign_tools.fusion_json(entries), foreign_tools.fusion_archive(entries)
+
+
+@cache
+def bits() -> tuple[bytes, ...]:
+    return (
+        foreign_tools.bit("endmill", "six", {"Flutes": 2}, Diameter="6.00 mm", Length="50 mm"),
+        foreign_tools.bit("v-bit", "vee", Diameter="0.25 in", CuttingEdgeAngle="60 deg", TipDiameter="0.1 mm"),
+    )
+
+
+@cache
+def vectric() -> tuple[bytes, ...]:
+    cuts = [{"material": "Oak", "feed_rate": 900, "rate_units": 1, "spindle_speed": 12000}]
+    tools = [{"name": "mill", "tool_type": 1, "diameter": 6.0, "cuts": cuts}, {"tool_type": 3, "diameter": 6.0}]
+    with tempfile.TemporaryDirectory() as folder:
+        return (foreign_tools.vectric(tools, Path(folder) / "t.vtdb"),)
+
+
+@cache
+def materials() -> tuple[bytes, ...]:
+    return ((RESOURCES / "materials.toml").read_bytes(),)
+
+
+@cache
 def jobs() -> tuple[bytes, ...]:
-    return ((RESOURCES / "samples" / "job.toml").read_bytes(),)
+    return tuple((RESOURCES / "samples" / name).read_bytes() for name in ("job.toml", "layers.toml"))
 
 
 @cache

@@ -17,17 +17,27 @@ HAIR = 1e-6
 """mm; thinner metal than this is none."""
 
 
-def distances(points: Floats, row: Floats) -> Floats:
-    """Return how far points (n, 2) are from a line or an arc of any sweep (x0, y0, x1, y1, cx, cy, r, turn)."""
-    if row[7] == 0:
-        along = row[2:4] - row[:2]
-        share = np.clip(((points - row[:2]) @ along) / max(float(along @ along), 1e-300), 0, 1)
-        return np.hypot(*(points - row[:2] - share[:, None] * along).T)
-    arm = points - row[4:6]
-    first = math.atan2(row[1] - row[5], row[0] - row[4])
-    angle = ((np.arctan2(arm[:, 1], arm[:, 0]) - first) * row[7]) % math.tau
-    ends = np.minimum(np.hypot(*(points - row[:2]).T), np.hypot(*(points - row[2:4]).T))
-    return np.where(angle <= sweep(row), np.abs(np.hypot(*arm.T) - row[6]), ends)
+BLOCK = 100
+"""Rows that are asked about together."""
+
+
+def reached(x: Floats, y: Floats, rows: Floats, reach: float) -> NDArray[np.bool_]:
+    """Return which points (n,) are no farther than reach from lines and arcs (m, 8), whose columns are named here."""
+    x, y, square = x[:, None], y[:, None], reach * reach
+    x0, y0, x1, y1, cx, cy, r, turn = rows[rows[:, 7] == 0].T
+    wide, high = x1 - x0, y1 - y0
+    share = np.clip(((x - x0) * wide + (y - y0) * high) / np.maximum(wide * wide + high * high, 1e-300), 0, 1)
+    near = ((x - x0 - share * wide) ** 2 + (y - y0 - share * high) ** 2 <= square).any(axis=1)
+    x0, y0, x1, y1, cx, cy, r, turn = rows[rows[:, 7] != 0].T
+    near |= ((x - x0) ** 2 + (y - y0) ** 2 <= square).any(axis=1)
+    near |= ((x - x1) ** 2 + (y - y1) ** 2 <= square).any(axis=1)
+    away = (x - cx) ** 2 + (y - cy) ** 2
+    point, arc = np.nonzero((away <= (r + reach) ** 2) & (away >= np.maximum(r - reach, 0.0) ** 2) & ~near[:, None])
+    first = np.arctan2(y0 - cy, x0 - cx)
+    whole = (np.arctan2(y1 - cy, x1 - cx) - first) * turn % math.tau
+    angle = (np.arctan2(y[point, 0] - cy[arc], x[point, 0] - cx[arc]) - first[arc]) * turn[arc] % math.tau
+    near[point[angle <= np.where(whole > 1e-9, whole, math.tau)[arc]]] = True
+    return np.asarray(near)
 
 
 def sweep(row: Floats) -> float:
@@ -83,13 +93,12 @@ def _angles(before: Floats, places: Floats, ahead: Floats, cutter: tuple[float, 
     each = math.pi / rim
 
     def metal(place: NDArray[np.int64], angle: Floats) -> NDArray[np.bool_]:
-        points = places[place] + radius * np.column_stack([np.cos(angle), np.sin(angle)])
-        left = np.arange(len(points))
-        for row in before:
-            if not len(left):
-                break
-            left = left[distances(points[left], row) > radius - HAIR]
-        standing = np.zeros(len(points), np.bool_)
+        x, y = (places[place] + radius * np.column_stack([np.cos(angle), np.sin(angle)])).T
+        left = np.arange(len(x))
+        for first in range(0, len(before), BLOCK):
+            stays = ~reached(x, y, before[first : first + BLOCK], radius - HAIR)
+            x, y, left = x[stays], y[stays], left[stays]
+        standing = np.zeros(len(place), np.bool_)
         standing[left] = True
         return standing
 

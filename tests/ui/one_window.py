@@ -5,7 +5,8 @@ not.
 from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication, QEvent
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QApplication, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.core.settings import Settings, ThemeChoice
@@ -48,6 +49,7 @@ class OneWindow:
         self._new: dict[str, object] | None = None
         self._view = CanvasView()
         self._kept: list[tuple[object, dict[str, object]]] = []
+        self._kinds: list[tuple[QToolButton, QAction]] = []
 
     def lend(self, qtbot: QtBot) -> WindowController:
         """Return a window as it is when the program starts, shown and active."""
@@ -60,6 +62,7 @@ class OneWindow:
             if self._new is None:
                 self._view = window.canvas.view
             reset(self._wiring, self._view)
+            self._kinds = [(each, each.defaultAction()) for each in window.tool_strip.findChildren(QToolButton)]
             self._kept = [(owner, fixed_values(owner)) for owner in _prepared_when_shown(self._wiring)]
             if self._new is None:  # all new windows are alike
                 self._new = traces(self._wiring)
@@ -80,6 +83,9 @@ class OneWindow:
 
     def _put_back(self) -> None:
         """Let what is prepared anew whenever it is shown hold what it did in the beginning."""
+        for button, action in self._kinds:
+            if button.defaultAction() is not action:
+                button.setDefaultAction(action)
         for owner, values in self._kept:
             for name, value in values.items():
                 if getattr(owner, name) is not value:
@@ -169,8 +175,7 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     wiring.display_controller.show_view(View.DRAW)
     _forget_start(wiring)
     _forget_session(wiring)
-    wiring.language.help.hide()
-    wiring.language.help._laid_out.clear()
+    _close_what_stands_over(wiring)
     window.side.show_page("Drawing")  # it is filled while it is seen
     window.side.show_page("Job")
     window.panel.choose(Subject(SubjectKind.OPERATION, 0))
@@ -179,7 +184,6 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.status.show_message("Not computed")
     _empty_what_is_hidden(wiring)
     _settle()
-    window.canvas.mouse = None
     window.canvas.set_view(view)
     _forget_habits(wiring)
 
@@ -209,6 +213,15 @@ def _forget_session(wiring: WindowController) -> None:
         for each in (owner.tube, owner.session):
             each.deleteLater()
         owner.session, owner.tube = None, None
+
+
+def _close_what_stands_over(wiring: WindowController) -> None:
+    """Take the tour and the help from the window."""
+    wiring.tour.callout.hide()
+    wiring.tour._ring.hide()
+    wiring.tour.number = 0
+    wiring.language.help.hide()
+    wiring.language.help._laid_out.clear()
 
 
 def _forget_start(wiring: WindowController) -> None:
@@ -253,8 +266,6 @@ def _empty_what_is_hidden(wiring: WindowController) -> None:
     window.views.cut.legend.colour.set_choices(_COLOURS)
     _choose_nothing(window.cut_form.heights)
     window.plot_panel.paths.switch.setChecked(False)
-    window.views.legend.fold.setChecked(False)
-    window.views.legend._folded_for_room = False
     window.curves_panel.show_options(SmoothOptions(), {})
     window.curves_panel.points._fill()
     window.views.curves.comb.setChecked(False)
@@ -289,7 +300,11 @@ def _settle() -> None:
 
 
 def _forget_habits(wiring: WindowController) -> None:
-    """Let nobody remember what was typed and drawn last."""
+    """Let nobody remember what was typed and drawn last, and where the mouse was."""
+    legend = wiring.window_.views.legend
+    legend.fold.setChecked(False)
+    legend._folded_for_room = False
+    wiring.window_.canvas.mouse = None
     line, runner = wiring.window_.command_line, wiring.window_.canvas.runner
     line._typed.clear()
     line._at = 0

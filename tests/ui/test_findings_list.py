@@ -16,7 +16,7 @@ from tests.ui.conftest import WAIT_MS
 
 
 def compute(qtbot, wiring: WindowController) -> None:
-    wiring.compute()
+    wiring.computation.start()
     qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
 
 

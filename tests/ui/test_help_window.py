@@ -1,9 +1,10 @@
 """The manual: every page, a search through all of them, words of the language."""
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QUrl
 
 from app.core.resources import resource
+from app.ui.framework.catalogue import set_language
 from app.ui.framework.theme import DARK
 from app.ui.shell.help_pages import rendered
 from app.ui.shell.help_window import HelpWindow
@@ -19,10 +20,34 @@ def manual(qtbot):
 def test_every_page_of_the_manual_can_be_read(manual) -> None:
     manual.show_page()
     assert manual.page == "language"
-    assert {page.name for page in manual.pages} == {path.stem for path in resource("docs").glob("*.md")}
+    english = {path.stem for path in resource("docs").glob("*.md") if not path.stem.endswith("_ja")}
+    assert {page.name for page in manual.pages} == english and manual.pages[0].name == "first_part"
     for row, page in enumerate(manual.pages):
         manual.list.setCurrentRow(row)
         assert page.title in manual.browser.toPlainText() and not page.title.startswith("#")
+
+
+def test_the_pages_are_in_the_language_of_the_window(manual) -> None:
+    manual.show_page("first_part")
+    assert "First part" in manual.browser.toPlainText()
+    set_language("ja")
+    try:
+        manual.show_page("first_part")
+        assert "最初の部品" in manual.browser.toPlainText() and manual.page == "first_part"
+        assert manual.search.text() == "" and len(manual.pages) == manual.list.count()
+        manual.browser.anchorClicked.emit(QUrl("sign.md"))
+        assert manual.page == "sign" and "銘板" in manual.browser.toPlainText()
+        manual.browser.anchorClicked.emit(QUrl("mould_ja.md"))
+        assert manual.page == "mould"
+        manual.search.setText("段取り票")
+        manual.search.textEdited.emit("段取り票")
+        assert manual.browser.textCursor().selectedText() == "段取り票"
+        manual.show_page("changelog")
+        assert "Changes" in manual.browser.toPlainText()
+    finally:
+        set_language("en")
+    manual.show_page("sign")
+    assert "A sign" in manual.browser.toPlainText()
 
 
 def test_search_goes_on_through_all_pages(qtbot, manual) -> None:
@@ -64,3 +89,18 @@ def test_pictures_of_a_page_are_found_and_no_wider_than_it_is(manual) -> None:
         block = block.next()
     assert len(seen) == page.text.count("](figures/")
     assert all(0 < picture.width() <= 320 and 0 < picture.height() <= 400 for picture in seen)
+
+
+def test_pictures_of_the_window_are_as_wide_as_the_page(manual) -> None:
+    manual.show_page()
+    page = next(page for page in manual.pages if page.name == "first_part")
+    document = rendered(page, DARK)
+    block, widths = document.begin(), []
+    while block.isValid():
+        widths += [
+            piece.fragment().charFormat().toImageFormat().width()
+            for piece in block
+            if piece.fragment().charFormat().isImageFormat()
+        ]
+        block = block.next()
+    assert widths == [580] * 4

@@ -23,6 +23,7 @@ from app.ui.framework.theme import LIGHT, TEXT_PX, text_font
 from app.ui.panels.changes import Subject, SubjectKind, with_tool
 from app.ui.panels.lists import OperationTimes
 from app.ui.panels.side_panel import WIDTH, SidePanel
+from tests.ui.fields_typed import enter
 
 SCROLL_BAR_PX = 8
 
@@ -38,14 +39,6 @@ def panel(qtbot, document):
     qtbot.addWidget(made)
     made.show()
     return made
-
-
-def enter(qtbot, field, text: str) -> None:
-    """Replace what stands in a field, as a person does."""
-    field.edit.setFocus()
-    field.edit.selectAll()
-    qtbot.keyClicks(field.edit, text)
-    qtbot.keyClick(field.edit, Qt.Key.Key_Return)
 
 
 def test_notes_for_the_sheet_are_written_and_undone(qtbot, document, panel):

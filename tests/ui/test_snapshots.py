@@ -10,7 +10,8 @@ from app.core.settings import ThemeChoice
 from app.ui.shell.start import build
 from app.ui.shell.window_controller import WindowController
 from tests.ui.one_window import end
-from tests.ui.snapshots import FOLDER, KINDS, kept, letters, seen, share_changed, small, states, wait
+from tests.ui.snapshots import FOLDER, KINDS, kept, letters, share_changed, small, states, wait
+from tests.ui.window_picture import seen
 
 SAME, OTHER = 0.06, 0.30
 """Share of a picture that may differ: where the fonts are those of the pictures, and where they are not. A panel is a

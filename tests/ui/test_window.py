@@ -288,6 +288,7 @@ def test_legend_switches_layers(qtbot, computed):
 
 def test_legend_tells_of_left_material_only_when_there_is_some(qtbot, wiring):
     rows = wiring.window_.views.legend.rows
+    wiring.display_controller.show_view(View.PATHS)
 
     def compute():
         wiring.computation.start()
@@ -399,4 +400,5 @@ def test_words_of_the_window_can_be_typed(qtbot, wiring):
     for words in ("rect 0,0 40,30", "compute"):
         qtbot.keyClicks(line, words)
         qtbot.keyClick(line, Qt.Key.Key_Return)
+        qtbot.waitUntil(lambda: bool(wiring.document.part.entities), timeout=WAIT_MS)
     qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.RUNNING, timeout=WAIT_MS)

@@ -20,7 +20,7 @@ from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import Floats, MotionKind
 from app.usecases.better.improve import better
-from app.usecases.better.metal import metal_picture, streaks
+from app.usecases.better.picture import stock_picture, streaks
 from app.usecases.better.raster import raster_of
 from app.usecases.better.report import findings, gains, lines, report
 from app.usecases.better.result import BetterOptions, BetterProgram
@@ -240,4 +240,4 @@ def test_light_shows_fewer_facets() -> None:
 
 
 def picture_of(done: BetterProgram) -> bytes:
-    return metal_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed)
+    return stock_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed)

@@ -3,6 +3,7 @@ limits are told.
 """
 
 import math
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -11,8 +12,9 @@ import pytest
 from app.core.errors import GeometryError, ParameterError
 from app.fitting.corner_smoothing.smooth import CornerSmoothingOptions
 from app.geometry.distance import DistanceField
-from app.geometry.primitives import points_at
+from app.geometry.primitives import curve_rows, points_at
 from app.model.contour_operation import ContourOperation
+from app.model.curves import Arc
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.moves import Moves, Purpose
@@ -203,3 +205,14 @@ def test_a_bitmap_of_a_given_pitch_lies_on_whole_pixels() -> None:
     assert x0 <= 1 - 0.6 and y0 <= 2 - 0.6 and x1 >= 40 + 0.6 and y1 >= 12.6
     with pytest.raises(ParameterError, match="8192 px are the most"):
         BitmapSize(16, 0.001).frame((0, 0, 100, 100))
+
+
+def test_an_arc_of_a_kilometre_is_measured_in_a_moment_and_no_more_is_promised_than_it_keeps() -> None:
+    """A path that was moved too far has had one: at a hundredth of a millimetre that are 10^8 places."""
+    field = DistanceField.of(np.array([[1000.0, -1.0, 1000.0, 1.0, 0, 0, 0, 0]]))
+    radius = 1e6 / (2 * math.pi)
+    arc = curve_rows(Arc((0.0, 0.0), (0.0, 1e-3), (-radius, 5e-4)))
+    began = time.process_time()
+    (told,) = clearance(np.array(arc), field, 0.01, 2000.0)
+    assert time.process_time() - began < 2.0
+    assert 1000.0 - 25.0 <= told <= 1000.0

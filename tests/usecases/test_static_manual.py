@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
 from html.parser import HTMLParser
 from pathlib import Path
+from urllib.parse import unquote
 
 import pytest
 
 from app.cli.main import main
-from app.usecases.static_manual import LANGUAGES, linked, static_manual
+from app.usecases.manual_pages import FIRST, LANGUAGES, LAST
+from app.usecases.static_manual import linked, static_manual
+from tests.ui.manual_tour import OPERATION_PAGES
 
 DOCS = Path(__file__).resolve().parents[2] / "resources/docs"
 
@@ -57,7 +61,7 @@ def sections(site: dict[str, bytes], name: str) -> list[list[str]]:
 def broken(refers: list[str], site: dict[str, bytes], pages: dict[str, Page], on: str) -> list[str]:
     found = []
     for href in refers:
-        target, _, anchor = href.partition("#")
+        target, _, anchor = unquote(href).partition("#")
         if href.startswith(("https://", "http://", "mailto:")):
             continue
         if (target or on) not in site or (anchor and anchor not in pages[target or on].anchors):
@@ -94,8 +98,46 @@ def test_both_languages_have_every_page(site: dict[str, bytes], pages: dict[str,
     english = {path.stem for path in DOCS.glob("*.md") if not path.stem.endswith("_ja")}
     for language in LANGUAGES:
         assert {f"{name}{language.ending}.html" for name in (*english, "index")} <= set(pages)
-    assert b'<main lang="ja">' in site["texts_ja.html"] and b'<main lang="en">' in site["manual_ja.html"]
+    assert b'<main lang="ja">' in site["texts_ja.html"] and b'<main lang="en">' in site["changelog_ja.html"]
     assert "texts.html" in pages["texts_ja.html"].refers and "texts_ja.html" in pages["texts.html"].refers
+
+
+def test_every_page_that_a_user_reads_is_written_in_both_languages() -> None:
+    pages = {path.stem for path in DOCS.glob("*.md")}
+    english = {name for name in pages if not name.endswith("_ja")}
+    assert {name for name in english - {"architecture", "changelog"} if f"{name}_ja" not in pages} == set()
+    assert set(FIRST) | set(LAST) >= english
+
+
+def pictures_of(page: Path) -> list[str]:
+    return re.findall(r"!\[[^]]+\]\(([^)]+)\)", page.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("page", sorted(DOCS.glob("*_ja.md")), ids=lambda page: page.stem)
+def test_both_languages_of_a_page_show_the_same(page: Path) -> None:
+    """The same pictures, in the same order; no command that the English page does not have."""
+    english = page.with_name(page.name.replace("_ja", ""))
+    assert pictures_of(page) == pictures_of(english)
+    assert command_lines(page) <= command_lines(english)
+
+
+def command_lines(page: Path) -> set[str]:
+    lines = page.read_text(encoding="utf-8").splitlines()
+    return {line.partition("  #")[0].strip() for line in lines if line.startswith("    ./hitofude ")}
+
+
+def test_every_operation_s_page_and_every_tutorial_has_a_picture_of_the_window() -> None:
+    tutorials = ("first_part", "sign", "mould", "foreign_program", "lesson")
+    operations = [each[0] for each in OPERATION_PAGES]
+    shown = {name: pictures_of(DOCS / f"{name}.md") for name in (*tutorials, *operations, "lettering")}
+    assert all(any(each.startswith("pictures/") for each in found) for found in shown.values()), shown
+    taken = {f"pictures/{path.name}" for path in (DOCS / "pictures").iterdir()}
+    assert taken == {each for found in shown.values() for each in found}
+
+
+def test_the_pictures_are_small() -> None:
+    sizes = {path.name: path.stat().st_size for path in DOCS.rglob("*.png")}
+    assert sum(sizes.values()) < 3_000_000 and max(sizes.values()) < 400_000
 
 
 def test_headings_of_one_name_have_anchors_of_their_own() -> None:

@@ -7,7 +7,7 @@ import argparse
 from ...core.input_file import read_input
 from ...formats.scene.write import scene_text
 from ...usecases.better.improve import better
-from ...usecases.better.metal import metal_picture
+from ...usecases.better.picture import stock_picture
 from ...usecases.better.report import findings, lines, report_text
 from ..better_options import EPILOG, add_better_options, better_options, better_setup
 from ..command import CliCommand
@@ -29,7 +29,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
         files[outputs["scene"]] = scene_text(done.scene).encode()
     if "image" in outputs:
         pair = done.old_cut.cut.workpiece, done.new_cut.cut.workpiece
-        files[outputs["image"]] = metal_picture(*pair, done.smoothed)
+        files[outputs["image"]] = stock_picture(*pair, done.smoothed)
     if "report" in outputs:
         files[outputs["report"]] = report_text(done).encode()
     found = findings(done)

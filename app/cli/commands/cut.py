@@ -10,13 +10,24 @@ from ...usecases.cut import cut
 from ...usecases.cut_files import cut_texts
 from ...usecases.cut_report import cut_report
 from ...usecases.setup import setup_of
-from ..command import CliCommand
+from ..command import CliCommand, OptionParser
 from ..cut_options import EPILOG, add_cut_options, check_cut_arguments
 from ..cut_request import cut_files, ensure_window, examined_programs, requested_look, setup_request
+from ..cut_tiles import add_tile_options, check_tile_arguments, cut_by_tiles
 from ..files import shown_progress
 from ..outcome import CommandOutcome, by_path
 from ..output import REMARKS, finding_lines
 from ..signals import StopFlag
+
+
+def _add_options(parser: OptionParser) -> None:
+    add_cut_options(parser)
+    add_tile_options(parser)
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    check_cut_arguments(arguments)
+    check_tile_arguments(arguments)
 
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
@@ -25,6 +36,10 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     progress = shown_progress(arguments.quiet, stopped)
     request = setup_request(arguments)
     ready = setup_of(examined_programs(arguments, progress.part(0.0, 0.2)), request, progress.part(0.2, 0.25))
+    if arguments.tiles:
+        return CommandOutcome({}, [cut_by_tiles(arguments, ready.setup, progress.part(0.25, 1.0))], False).delivered(
+            arguments, progress
+        )
     ensure_window(arguments.window, ready)
     done = cut(ready.setup, requested_look(arguments), progress.part(0.25, 0.95))
     report = cut_report(done, ready)
@@ -48,8 +63,8 @@ COMMAND = CliCommand(
     "Cut any NC program out of its stock, exactly, and tell what is left, what went wrong, and how near it is to the "
     "part.",
     EPILOG,
-    add_cut_options,
+    _add_options,
     _run,
     intermixed=True,
-    check=check_cut_arguments,
+    check=_check,
 )

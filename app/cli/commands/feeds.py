@@ -13,10 +13,10 @@ from ..command import CliCommand
 from ..feeds_options import (
     EPILOG,
     add_feeds_options,
-    asked_engagement,
-    asked_tools,
     check_feeds_options,
     feeds_options,
+    requested_engagement,
+    requested_tools,
 )
 from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome
@@ -27,8 +27,8 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 where chips are too thin."""
     outputs = named_files(arguments, "write", "report")
     check_outputs(outputs, [*named_files(arguments, "tools").values()])
-    library, options = asked_tools(arguments), feeds_options(arguments)
-    engagement = asked_engagement(arguments)
+    library, options = requested_tools(arguments), feeds_options(arguments)
+    engagement = requested_engagement(arguments)
     made = tuple(proposed_feeds(tool, arguments.material, engagement, options.machine) for tool in library.tools)
     files = {}
     if "write" in outputs:

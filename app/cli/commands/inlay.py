@@ -28,8 +28,8 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     check_outputs(outputs, [arguments.drawing, arguments.job])
     progress = shown_progress(arguments.quiet, stopped)
     job = read_job(arguments.job.name, read_input(arguments.job))
-    wished = InlayOptions(arguments.glue, arguments.gap, arguments.saw)
-    pair = inlay(arguments.drawing.name, read_input(arguments.drawing), MakeOptions(job=job.job), wished, progress)
+    sizes = InlayOptions(arguments.glue, arguments.gap, arguments.saw)
+    pair = inlay(arguments.drawing.name, read_input(arguments.drawing), MakeOptions(job=job.job), sizes, progress)
     files = pair.files(arguments.output)
     lines = []
     for word, made in (("_pocket", pair.pocket), ("_plug", pair.plug)):

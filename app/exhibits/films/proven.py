@@ -12,6 +12,7 @@ import numpy as np
 from ...core.progress import NO_PROGRESS, Progress
 from ...fitting.point_curves.bspline import FitRound, SplineFit, fit_spline
 from ...fitting.point_curves.corners import corners
+from ...fitting.point_curves.proven_curve import LONGEST
 from ...fitting.point_curves.region_profile import RegionProfile, judge_in_profile, profile_of_formula
 from ...fitting.point_curves.space_curve import SpaceCurve, curve_of_nurbs
 from ...fitting.point_curves.spheroid import portion_of
@@ -380,9 +381,9 @@ class _ProvenSteps:
             "figure 4, end",
             "The curve",
             "The curve that is in the region is put out; a long program is cut into pieces that join smoothly.",
-            "Afterwards control points are taken away again as far as the proof holds. One spline goes from corner "
-            "to corner, "
-            "so its pieces join with one curvature; `smooth --report` lists every joint of what was written.",
+            f"Afterwards control points are taken away again as far as the proof holds. A run of more than {LONGEST:,} "
+            "points is fitted in pieces, each of which goes on with the direction and the curvature of the one before; "
+            "`smooth --report` lists every joint of what was written.",
             sketch.page(),
             (
                 FilmFigure("Bézier pieces", len(self.final)),

@@ -168,7 +168,7 @@ def _joined(
     carriers, joined, worst = _carriers(rounds, ends, kinds), pinned.copy(), np.empty((len(kinds), 2))
     joint_kernels.make_tangent(rounds, ends, carriers, joined, options.tolerance)
     joint_kernels.let_arcs_touch(rounds, ends, carriers, joined, options.tolerance)
-    rows = _rows(rounds, ends, (carriers, joined), options.tolerance)
+    rows = _rows(rounds, ends, carriers, joined, options.tolerance)
     joined[(joined == joint_kernels.TANGENT) & (turns(rows, np.arange(-1, len(rows) - 1)) > NO_BEND)] = (
         joint_kernels.CROSSING
     )
@@ -197,11 +197,10 @@ def circle_rows(carrier: Floats) -> Rows:
     return np.array([[cx + r, cy, cx + r, cy, cx, cy, r, turn]])
 
 
-def _rows(rounds: Floats, ends: Ints, fitted: tuple[Floats, NDArray[np.uint8]], tolerance: float) -> Rows:
+def _rows(rounds: Floats, ends: Ints, carriers: Floats, joined: NDArray[np.uint8], tolerance: float) -> Rows:
     """Return the rows along carriers that begin as told."""
     from . import joint_kernels
 
-    carriers, joined = fitted
     joints, rows = np.empty((len(carriers), 2)), np.empty((len(carriers), 8))
     joint_kernels.join(np.ascontiguousarray(rounds[ends[:-1]]), carriers, joined, tolerance, joints)
     joint_kernels.rows_between(carriers, joints, rows)
@@ -254,7 +253,7 @@ def moved(path: SmoothedPath, points: Floats, right: Floats, tolerance: float) -
         return replace(path, rows=circle_rows(carriers[0]), carriers=carriers)
     alike = (right == np.roll(right, 1)) & ((path.joined == joint_kernels.TANGENT) | (right == 0))
     joined = np.where(alike, path.joined, joint_kernels.CROSSING).astype(np.uint8)
-    rows = _rows(_rounds(points), path.ends, (carriers, joined), tolerance + float(np.abs(right).max()))
+    rows = _rows(_rounds(points), path.ends, carriers, joined, tolerance + float(np.abs(right).max()))
     return replace(path, rows=rows, carriers=carriers)
 
 

@@ -67,6 +67,38 @@ class FitRound:
 
 
 @dataclass(frozen=True, eq=False)
+class SplineEnd:
+    """How a spline ends, for another one that goes on from it with the same direction and curvature.
+
+    Attributes:
+        slope, second: (3,) first and second derivative by a parameter that runs as the length along the points, mm.
+    """
+
+    slope: Floats
+    second: Floats
+
+    def lead(self, start: Floats, knots: Floats, degree: int) -> Floats:
+        """Return the first three control points (3, 3) of a spline that begins so.
+
+        Args:
+            start: (3,) where. knots: with clamped ends, mm along the points. degree: of it, >= 2.
+        """
+        p, first, next_ = degree, knots[degree + 1] - knots[degree], knots[degree + 2] - knots[degree]
+        turned = self.slope + self.second * first / (p - 1)  # of the derivative, the second control point
+        second = start + self.slope * first / p
+        return np.ascontiguousarray([start, second, second + turned * next_ / p])
+
+    @staticmethod
+    def of(control: Floats, knots: Floats, degree: int) -> SplineEnd:
+        """Return how a spline with clamped ends, knots in mm, ends."""
+        p, last = degree, knots[-1]
+        first, next_ = last - knots[-p - 2], last - knots[-p - 3]
+        slope = p * (control[-1] - control[-2]) / first
+        before = p * (control[-2] - control[-3]) / next_
+        return SplineEnd(slope, (p - 1) * (slope - before) / first)
+
+
+@dataclass(frozen=True, eq=False)
 class SplineFit:
     """A B-spline in the tube round its points.
 
@@ -74,10 +106,12 @@ class SplineFit:
         curve: its ends are the outer points; smooth of the second order (degree 3) or the fourth (degree 5) within. Its
             knots are whole numbers.
         feet: (n,) places on its Bézier pieces that answer to the points, in [0, number of pieces].
+        end: how it ends.
     """
 
     curve: Nurbs
     feet: Floats
+    end: SplineEnd
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,13 +166,16 @@ def fit_spline(
         progress: told of rounds; may cancel.
         observer: is shown every round.
     """
-    work = _FitStretch(points, tube, degree, progress, observer)
-    state = work.halved()
-    if not isinstance(state, _SplineState):
-        return state
-    state = work.spread(state)
-    knots = work.knots(np.rint(state.breaks / work.unit))
-    return SplineFit(Nurbs(state.control, np.ones(len(state.control)), knots, degree), state.feet)
+    return _FitStretch(points, tube, degree, progress, observer).fitted()
+
+
+def fit_spline_behind(
+    before: SplineEnd, points: Floats, tube: ToleranceTube, degree: int = 3, progress: Progress = NO_PROGRESS
+) -> SplineFit | Ints:
+    """Return a spline as `fit_spline` does that begins as another one has ended, or where it needs corners."""
+    work = _FitStretch(points, tube, degree, progress, None)
+    work.before = before
+    return work.fitted()
 
 
 class _FitStretch:
@@ -153,6 +190,7 @@ class _FitStretch:
         observer: Callable[[FitRound], None] | None,
     ) -> None:
         self._observer, self._spreads = observer, False
+        self.before: SplineEnd | None = None
         self._points = np.ascontiguousarray(points, np.float64)
         self._samples, self._degree, self._progress = _Samples(self._points), degree, progress
         self._tube, self._squares = tube, tube.squares(1e-9)
@@ -161,6 +199,16 @@ class _FitStretch:
     def knots(self, breaks: Floats) -> Floats:
         """Return the knots of spans that end at breaks."""
         return np.concatenate([np.repeat(breaks[0], self._degree), breaks, np.repeat(breaks[-1], self._degree)])
+
+    def fitted(self) -> SplineFit | Ints:
+        """Return a proven spline with few spans; or where corners are needed."""
+        state = self.halved()
+        if not isinstance(state, _SplineState):
+            return state
+        state = self.spread(state)
+        knots = self.knots(np.rint(state.breaks / self.unit))
+        curve = Nurbs(state.control, np.ones(len(state.control)), knots, self._degree)
+        return SplineFit(curve, state.feet, SplineEnd.of(state.control, self.knots(state.breaks), self._degree))
 
     def halved(self) -> _SplineState | Ints:
         """Return a proven spline, made by halving spans that fail; or where corners are needed."""
@@ -224,7 +272,8 @@ class _FitStretch:
         from . import bspline_kernels
 
         breaks = np.unique(np.rint(breaks / self.unit)) * self.unit
-        samples, spans = self._samples, len(breaks) - 1
+        samples, spans, start = self._samples, len(breaks) - 1, self._points[0]
+        lead = start[None] if self.before is None else self.before.lead(start, self.knots(breaks), self._degree)
         control, pieces = np.empty((spans + self._degree, 3)), np.empty((spans, DEGREE + 1, 3))
         feet, moved, bad = np.empty(len(self._points)), np.empty(len(places)), np.empty(len(self._points) - 1, np.bool_)
         bspline_kernels.tried(
@@ -235,6 +284,7 @@ class _FitStretch:
             samples.weights,
             samples.every,
             *self._squares,
+            lead,
             control,
             pieces,
             feet,

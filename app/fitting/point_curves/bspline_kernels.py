@@ -70,12 +70,13 @@ def _cholesky(band, right):  # type: ignore[no-untyped-def]
     return True
 
 
-@kernel("boolean(float64[::1], int64, float64[:, ::1], float64[::1], float64[::1], float64[:, ::1])")
-def solve(knots, degree, points, places, weights, control):  # type: ignore[no-untyped-def]
-    """Write the control points (k, 3) of least squares; the first and the last are the outer points. False: singular.
+@kernel("boolean(float64[::1], int64, float64[:, ::1], float64[::1], float64[::1], float64[:, ::1], float64[:, ::1])")
+def solve(knots, degree, points, places, weights, lead, control):  # type: ignore[no-untyped-def]
+    """Write the control points (k, 3) of least squares; the last is the last point. False: singular.
 
     Args:
         places: (n,) parameters of the points, never falling.
+        lead: (h, 3) the first control points, which are given, h < k.
     """
     count, p = len(control), degree
     band, values = np.zeros((count, p + 1)), np.empty(p + 1)
@@ -101,8 +102,10 @@ def solve(knots, degree, points, places, weights, control):  # type: ignore[no-u
         band[row, 1] -= stiff * 2.0
         band[row + 1, 1] -= stiff * 2.0
         band[row + 1, 2] += stiff
-    for end in (0, count - 1):  # fixed: their columns go to the right side
-        place = points[0] if end == 0 else points[len(points) - 1]
+    held = len(lead)
+    for number in range(held + 1):  # fixed: their columns go to the right side
+        end = number if number < held else count - 1
+        place = lead[number] if number < held else points[len(points) - 1]
         for other in range(max(0, end - p), min(count, end + p + 1)):
             low, off = max(end, other), abs(end - other)
             if other != end:
@@ -166,9 +169,9 @@ def cut(knots, degree, control, pieces):  # type: ignore[no-untyped-def]
 
 @kernel(
     "void(float64[::1], int64, float64[:, ::1], float64[::1], float64[::1], int64, float64, float64, "
-    "float64[:, ::1], float64[:, :, ::1], float64[::1], float64[::1], boolean[::1])"
+    "float64[:, ::1], float64[:, ::1], float64[:, :, ::1], float64[::1], float64[::1], boolean[::1])"
 )
-def tried(breaks, degree, samples, places, weights, every, end, swell, control, pieces, feet, moved, bad):  # type: ignore[no-untyped-def]
+def tried(breaks, degree, samples, places, weights, every, end, swell, lead, control, pieces, feet, moved, bad):  # type: ignore[no-untyped-def]
     """Fit a spline over breaks to samples and see where it is proven.
 
     Args:
@@ -176,6 +179,7 @@ def tried(breaks, degree, samples, places, weights, every, end, swell, control, 
         samples: (s, 3). places, weights: of each.
         every: each so many samples is a point; what lies between is on chords.
         end, swell: region, as in `holds_point`.
+        lead: (h, 3) the first control points, h < m + p.
         control: (m + p, 3) out. pieces: (m, 6, 3) out. feet: (n,) out: of the points, on the pieces.
         moved: (s,) out: places nearer to the samples. bad: (n - 1,) out: chords that are not proven.
     """
@@ -183,7 +187,7 @@ def tried(breaks, degree, samples, places, weights, every, end, swell, control, 
     knots = np.empty(count + 2 * degree)
     knots[:degree], knots[degree + count :] = breaks[0], breaks[count - 1]
     knots[degree : degree + count] = breaks
-    solve(knots, degree, samples, places, weights, control)
+    solve(knots, degree, samples, places, weights, lead, control)
     cut(knots, degree, control, pieces)
     on, span = np.empty(len(samples)), 0
     for i in range(len(samples)):

@@ -61,14 +61,17 @@ def formula_bounds(text: str, edges: Floats) -> IntervalArray:
     low, high = np.broadcast_to(found.low, len(edges) - 1), np.broadcast_to(found.high, len(edges) - 1)
     wrong = np.flatnonzero(~(np.isfinite(low) & np.isfinite(high)))
     if len(wrong):
-        raise ParameterError(f"'{text}' is not surely a number for z between {edges[wrong[0]]:g} and 1.")
+        raise ParameterError(
+            f"'{text}' is not surely a number for z between {edges[wrong[0]]:g} and "
+            f"{edges[wrong[0] + 1]:g}; change the formula so that it is."
+        )
     return IntervalArray(low.astype(np.float64), high.astype(np.float64))
 
 
 def _bounds(node: ast.expr, z: IntervalArray) -> IntervalArray:
     """Return the bounds of a part of a formula."""
     if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
-        return _constant(float(node.value))
+        return _constant(_number(node.value))
     if isinstance(node, ast.Name) and node.id in ("z", "pi"):
         return z if node.id == "z" else _constant(math.pi).widened()
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
@@ -79,6 +82,15 @@ def _bounds(node: ast.expr, z: IntervalArray) -> IntervalArray:
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.keywords:
         return _call(node.func.id, [_bounds(each, z) for each in node.args]).widened()
     raise ParameterError(f"'{ast.unparse(node)}' is nothing that a formula in z may hold; {_USE}.")
+
+
+def _number(value: int | float) -> float:
+    try:
+        return float(value)
+    except OverflowError as error:
+        raise ParameterError(
+            "a number of more than 300 digits is none of a formula in z; write a smaller one."
+        ) from error
 
 
 def _constant(value: float) -> IntervalArray:
@@ -98,7 +110,7 @@ def _operation(node: ast.BinOp, z: IntervalArray) -> IntervalArray:
         return _product(one, other)
     if isinstance(node.op, ast.Div):
         if bool(np.any((other.low <= 0) & (other.high >= 0))):
-            raise ParameterError(f"'{ast.unparse(node)}' may divide by 0.")
+            raise ParameterError(f"'{ast.unparse(node)}' may divide by 0; change the formula so that it cannot.")
         return _product(one, IntervalArray(1 / other.high, 1 / other.low))
     raise ParameterError(f"'{ast.unparse(node)}' is nothing that a formula in z may hold; {_USE}.")
 
@@ -112,10 +124,10 @@ def _power(base: IntervalArray, node: ast.expr) -> IntervalArray:
     """Return a whole power, or one of a base that is nowhere negative."""
     value = node.value if isinstance(node, ast.Constant) else None
     if not (isinstance(value, int | float) and not isinstance(value, bool) and 0 <= value <= 100):
-        raise ParameterError(f"the power '{ast.unparse(node)}'; use a number from 0 to 100.")
+        raise ParameterError(f"a power is '{ast.unparse(node)}'; use a number from 0 to 100.")
     power = float(value)
     if not power.is_integer() and bool(np.any(base.low < 0)):
-        raise ParameterError(f"the power {power:g} of something that may be below 0; use a whole one.")
+        raise ParameterError(f"a power is {power:g}, of something that may be below 0; use a whole one.")
     ends = base.low**power, base.high**power
     low, high = np.minimum(*ends), np.maximum(*ends)
     if power.is_integer() and power % 2 == 0 and power > 0:

@@ -11,7 +11,7 @@ import numpy as np
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats, Nurbs
 from ..fitted import FittedPath, Ints, RefusalReason, SplineRefusal, chained, lines_between, spline_motion
-from .bspline import FitRound, fit_spline
+from .bspline import FitRound, SplineFit, fit_spline, fit_spline_behind
 from .corners import corners
 from .cubic_approximation import cubic_near
 from .smoothness import of_curve, of_points
@@ -23,6 +23,11 @@ _REACH = 4.0
 
 _ASTRAY = 0.5
 """Cosine of the angle that a spline may set out away from its points."""
+
+LONGEST = 20_000
+"""Points that are fitted at a time: a longer run is cut into pieces, as the text has it, each of which begins with the
+direction and the curvature that the one before it ends with.
+"""
 
 _DENSER, _BESIDE = 24, 2
 """Where a spline has to be, so often so many chords on either side of a bend are halved that none holds yet."""
@@ -43,7 +48,8 @@ class SplineOptions:
             would take no fewer blocks than chords; chords unless said otherwise.
         insist: one spline from corner to corner, however many blocks it takes; the rest stands only where the control
             cannot be told of one.
-        observer: is shown every round of every spline that is fitted.
+        observer: is shown every round of every spline that is fitted, of a run in pieces those of the first.
+        longest: points that are fitted at a time, >= 100.
     """
 
     tube: ToleranceTube
@@ -55,6 +61,7 @@ class SplineOptions:
     rest: Callable[[Floats, Progress], FittedPath] = lambda points, _: _chords(points)
     insist: bool = False
     observer: Callable[[FitRound], None] | None = None
+    longest: int = LONGEST
 
 
 def fit_splines(points: Floats, options: SplineOptions, progress: Progress = NO_PROGRESS) -> FittedPath:
@@ -109,17 +116,53 @@ def _fitted(points: Floats, options: SplineOptions, progress: Progress) -> list[
         return [_rest(points, options, progress, RefusalReason.LEVEL)]
     if len(points) <= options.degree + 1:
         return [_rest(points, options, progress, RefusalReason.SHORT)]
-    made = fit_spline(points, options.tube, options.degree, progress, options.observer)
+    made = _in_pieces(points, options.tube, options, progress)
     if isinstance(made, np.ndarray):
         edges = [0, *made.tolist(), len(points) - 1]
         parts = [part for a, b in pairwise(edges) for part in _fitted(points[a : b + 1], options, progress)]
     else:
-        curve = cubic_near(made.curve, options.cubic) if options.cubic else made.curve
-        parts = [FittedPath(spline_motion(curve), np.array([len(points) - 1]))]
-        if _hooked(curve, points, _REACH * options.tube.widest):
-            return [_rest(points, options, progress, RefusalReason.HOOKED, _blocks(parts[0], options))]
+        parts = _written(made, options)
+        curves = [curve for part in parts for curve in part.motions.splines.values()]
+        ends = [0, *(int(part.last[-1]) for part in parts)]
+        runs = zip(curves, pairwise(np.cumsum(ends)), strict=True)
+        if any(_hooked(curve, points[a : b + 1], _REACH * options.tube.widest) for curve, (a, b) in runs):
+            blocks = sum(_blocks(part, options) for part in parts)
+            return [_rest(points, options, progress, RefusalReason.HOOKED, blocks)]
     blocks = sum(_blocks(part, options) for part in parts)
     return parts if blocks < len(points) - 1 else [_rest(points, options, progress, RefusalReason.BLOCKS, blocks)]
+
+
+def _in_pieces(
+    points: Floats, tube: ToleranceTube, options: SplineOptions, progress: Progress
+) -> list[SplineFit] | Ints:
+    """Return one spline for a run of points, or for a long one several that join with one direction and one curvature;
+    where there are none, the numbers of the points at which they need corners.
+
+    Splines that are given as cubic ones near them keep no curvature where they join, so that these runs stay whole.
+    """
+    count = 1 if options.cubic else -(-(len(points) - 1) // options.longest)
+    edges = np.linspace(0, len(points) - 1, count + 1).astype(int).tolist()
+    made: list[SplineFit] = []
+    for number, (a, b) in enumerate(pairwise(edges)):
+        mine, far = points[a : b + 1], progress.part(number / count, (number + 1) / count)
+        piece = (
+            fit_spline_behind(made[-1].end, mine, tube, options.degree, far)
+            if made
+            else fit_spline(mine, tube, options.degree, far, options.observer)
+        )
+        if isinstance(piece, np.ndarray):
+            return np.asarray(piece + a)
+        made.append(piece)
+    return made
+
+
+def _written(made: list[SplineFit], options: SplineOptions) -> list[FittedPath]:
+    """Return a motion for each spline; `last` counts its own points."""
+    curves = [cubic_near(each.curve, options.cubic) if options.cubic else each.curve for each in made]
+    return [
+        FittedPath(spline_motion(curve), np.array([len(each.feet) - 1]))
+        for curve, each in zip(curves, made, strict=True)
+    ]
 
 
 def _insisted(points: Floats, options: SplineOptions, progress: Progress) -> FittedPath:
@@ -131,16 +174,17 @@ def _insisted(points: Floats, options: SplineOptions, progress: Progress) -> Fit
     """
     if options.level and np.ptp(points[:, 2]) > 0:
         return _rest(points, options, progress, RefusalReason.LEVEL)
-    dense, tube = points, options.tube
+    dense, tube, own = points, options.tube, np.arange(len(points))
     while len(dense) <= options.degree + 1:
-        dense, tube = _with_middles(dense, np.arange(len(dense) - 1)), ToleranceTube(tube.radius)
+        chords = np.arange(len(dense) - 1)
+        dense, own, tube = _with_middles(dense, chords), own + np.searchsorted(chords, own), ToleranceTube(tube.radius)
     for _ in range(_DENSER):
-        made = fit_spline(dense, tube, options.degree, progress, options.observer)
+        made = _in_pieces(dense, tube, options, progress)
         if not isinstance(made, np.ndarray):
-            curve = cubic_near(made.curve, options.cubic) if options.cubic else made.curve
-            return FittedPath(spline_motion(curve), np.array([len(points) - 1]))
+            path = chained(_written(made, options))
+            return replace(path, last=np.searchsorted(own, path.last))
         beside = np.unique(np.clip(made[:, None] + np.arange(-_BESIDE, _BESIDE), 0, len(dense) - 2))
-        dense, tube = _with_middles(dense, beside), ToleranceTube(tube.radius)
+        dense, own, tube = _with_middles(dense, beside), own + np.searchsorted(beside, own), ToleranceTube(tube.radius)
     return _rest(points, options, progress, RefusalReason.UNPROVEN)
 
 

@@ -138,11 +138,11 @@ def judge(curve: SpaceCurve, points: Floats, tube: ToleranceTube, feet: Floats |
         ways, counts, left = np.empty((len(points), kernels.MOST, 2)), np.zeros(len(points), np.int64), np.zeros(1)
         state, chord = kernels.reach(curve.control, points, end, swell, ways, counts, left)
         if state != INSIDE:
-            return _refused(curve, points, (end, swell), (chord, float(left[0])))
+            return _refused(curve, points, (end, swell), chord, float(left[0]))
         feet = np.zeros(len(points))
         kernels.step_back(curve.control, points, end, swell, ways, counts, feet)
         if kernels.proven(curve.control, points, feet, end, swell)[0] != INSIDE:
-            return _refused(curve, points, (end, swell), (0, 0.0))
+            return _refused(curve, points, (end, swell), 0, 0.0)
     return _proven(curve, points, feet, tube.widest)
 
 
@@ -167,13 +167,14 @@ def _proven(curve: SpaceCurve, points: Floats, feet: Floats, widest: float) -> T
     return TubeJudgement(TubeAnswer.INSIDE, bound, found, back, at, _place(curve, at), chord, feet)
 
 
-def _refused(curve: SpaceCurve, points: Floats, squares: tuple[float, float], left: tuple[int, float]) -> TubeJudgement:
+def _refused(
+    curve: SpaceCurve, points: Floats, squares: tuple[float, float], chord: int, until: float
+) -> TubeJudgement:
     """Return the witness: where the curve is farthest from the chord whose region it leaves, before it comes back to
-    it.
+    it, at a parameter `until`.
     """
     from . import tube_feet_kernels as kernels
 
-    chord, until = left
     for at, end in ((0.0, 0), (float(len(curve)), len(points) - 1)):
         off = math.dist(_place(curve, at), points[end])
         if off > math.sqrt(squares[0]):

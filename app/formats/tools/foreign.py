@@ -96,6 +96,14 @@ def label_of(name: Any, number: int) -> str:
     return brief(text, QUOTED) or (f"T{number}" if number else "a tool without a name")
 
 
+def is_number(value: Any) -> bool:
+    """Tell whether a value of a file is a number that a float may be; whole numbers may have any number of digits."""
+    try:
+        return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:
+        return False
+
+
 def number_in(table: Mapping[str, Any], key: str) -> float:
     """Return a number of a table; 0 where it has none.
 
@@ -105,7 +113,7 @@ def number_in(table: Mapping[str, Any], key: str) -> float:
     value = table.get(key)
     if value is None or value == "":
         return 0.0
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+    if not is_number(value):
         raise NotUnderstoodError(f"its {key} is {brief(repr(value), QUOTED)}, which is no number")
     return float(value)
 
@@ -131,7 +139,7 @@ def quantity(value: Any, what: str, angle: bool = False) -> float:
     match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
     unit = match[2] if match else None
     units: Mapping[str | None, float] = _ANGLES if angle else _LENGTHS
-    if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
+    if is_number(value):
         return float(value) * units[None]
     if match is None or unit not in units:
         raise NotUnderstoodError(

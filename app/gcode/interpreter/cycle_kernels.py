@@ -48,6 +48,7 @@ def _rounded(value):
     """Return a value to nine decimals, NaN where it lies half way between two."""
     scaled = value * _FINEST
     whole = math.floor(scaled + 0.5) if abs(scaled) < 1e13 else math.nan
+    # Half way between two decimals the reader in Python could round the other way, so that is left to it.
     return whole / _FINEST if abs(scaled - whole) < 0.49 else math.nan
 
 
@@ -100,6 +101,7 @@ def _bored(ints, reals, columns, events, hole):
     """
     first, second, r, bottom, clear = hole
     code, peck = ints[CYCLE], reals[CYCLE_Q]
+    # G73 and G83 go down a peck at a time: G73 lifts by the clearance alone to break the chip, G83 to R and back again.
     depth = r - peck if code == 73 or code == 83 else bottom
     while depth > bottom:
         above = depth + CHIP_CLEARANCE_MM / reals[SCALE]
@@ -193,6 +195,7 @@ def bore(ints, reals, code, words, given, columns, events):
     pecks = (code == 73 or code == 83) and r - bottom > _MOST_PECKS * reals[CYCLE_Q]
     if r < bottom or pecks:
         return False
+    # A cycle that begins below R lifts to R first, and returns to R, whatever G98 says.
     if initial < r:
         height = initial = r
         if not _go(ints, reals, columns, _RAPID, first, second, r):

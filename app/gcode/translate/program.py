@@ -27,7 +27,7 @@ from ..interpreter.text import ProgramBuffer
 from ..posts.post import Post
 from ..rework.compare import DifferenceKind, ProgramDifference, compare
 from .moves import MotionWriter
-from .subprograms import NUMBER, Subprogram, code, told, uncalled
+from .subprograms import NUMBER, Subprogram, code, uncalled, uncalled_remarks
 from .taps import LeftAtR, left_at_r
 from .translatable import NO_SWITCH, SPLINES, TranslationSource, check_step
 from .translated_text import TranslatedText
@@ -94,19 +94,18 @@ def translated(
     program, steps = read_steps(data, written, progress.part(0.0, 0.3))
     if program.error is not None:
         raise InputError(f"{program.error.message(name)} Mend it there; check tells more.")
-    made = _written(source, program, steps, (optional, progress.part(0.3, 0.5)))
+    made = _written(source, program, steps, optional, progress.part(0.3, 0.5))
     own = ReadOptions(post.dialect, block_delete=written.block_delete, limits=read.limits)
-    after = read_program(made, own, progress.part(0.5, 0.6))
-    left = left_at_r(program, steps)
-    done = _proven(source, (left, after), made, (own, progress.part(0.6, 0.8 if optional else 1.0)))
+    back = _ReadBack(made, own, read_program(made, own, progress.part(0.5, 0.6)))
+    done = _proven(source, left_at_r(program, steps), back, progress.part(0.6, 0.8 if optional else 1.0))
     if not optional:
         return done
     left_out, steps = read_steps(data, replace(read, block_delete=True), progress.part(0.8, 0.85))
     if left_out.error is not None:
         raise InputError(f"{left_out.error.message(name)} That is so where the blocks with a slash are left out.")
     own = replace(own, block_delete=True)
-    after = read_program(made, own, progress.part(0.85, 0.9))
-    other = _proven(source, (left_at_r(left_out, steps), after), made, (own, progress.part(0.9, 1.0)))
+    back = _ReadBack(made, own, read_program(made, own, progress.part(0.85, 0.9)))
+    other = _proven(source, left_at_r(left_out, steps), back, progress.part(0.9, 1.0))
     return other if read.block_delete else done
 
 
@@ -134,18 +133,21 @@ def _optional(source: TranslationSource) -> frozenset[int]:
 
 
 def _written(
-    source: TranslationSource, program: NcProgram, steps: tuple[BlockStep, ...], how: tuple[frozenset[int], Progress]
+    source: TranslationSource,
+    program: NcProgram,
+    steps: tuple[BlockStep, ...],
+    optional: frozenset[int],
+    progress: Progress,
 ) -> bytes:
     """Return the text: every line of the first one in its order, or, where it jumps, every block in the order of
-    doing; `how` is which lines may be left out, and the progress.
+    doing; `optional` are the lines that may be left out.
     """
-    optional, progress = how
     jumps = _jumps(source, steps)
     units = program.states[0].units
     output = TranslatedText(source, units if units is Units.INCH else Units.MM, _number(source))
     output.comment(f"Hitofude for {source.post.title}, out of a program for {DIALECT_RULES[source.dialect].title}")
     never = uncalled(source, steps)
-    for remark in _remarks(jumps, steps, (never, left_at_r(program, steps).holes)):
+    for remark in _remarks(jumps, steps, never, left_at_r(program, steps).holes):
         output.comment(remark)
     writer = _Translator(source, output, MotionWriter(output, program), _passed(source, jumps, never))
     for k, step in enumerate(steps):
@@ -230,11 +232,12 @@ def _passed(source: TranslationSource, jumps: bool, never: tuple[Subprogram, ...
     return range(len(source.lines) + 1) if jumps else frozenset(line for each in never for line in each.lines)
 
 
-def _remarks(jumps: bool, steps: tuple[BlockStep, ...], others: tuple[tuple[Subprogram, ...], int]) -> list[str]:
-    """Return what the head has to say of how the program was written anew; `others`: the subprograms that nothing
-    calls, and how many tapped holes are left otherwise.
+def _remarks(jumps: bool, steps: tuple[BlockStep, ...], never: tuple[Subprogram, ...], tapped: int) -> list[str]:
+    """Return what the head has to say of how the program was written anew.
+
+    Args:
+        never: subprograms that nothing calls. tapped: how many tapped holes are left otherwise.
     """
-    never, tapped = others
     computed = any(
         step.parsed.settings or any(not isinstance(word.value, float) for word in step.parsed.words) for step in steps
     )
@@ -250,7 +253,7 @@ def _remarks(jumps: bool, steps: tuple[BlockStep, ...], others: tuple[tuple[Subp
             else []
         ),
         *(["Out of tapped holes the tool goes at feed to R and at rapid rate from there"] if tapped else []),
-        *told(never),
+        *uncalled_remarks(never),
     ]
 
 
@@ -297,24 +300,29 @@ def _stop(output: TranslatedText, step: BlockStep) -> None:
         output.emit(code)
 
 
-def _proven(
-    source: TranslationSource, programs: tuple[LeftAtR, NcProgram], made: bytes, how: tuple[ReadOptions, Progress]
-) -> TranslatedProgram:
-    """Return the new program if both controls do the same; `how` it is read by the other one, and the progress.
+@dataclass(frozen=True, eq=False)
+class _ReadBack:
+    """What was written, how it is read, and what the other control reads."""
+
+    data: bytes
+    read: ReadOptions
+    program: NcProgram
+
+
+def _proven(source: TranslationSource, left: LeftAtR, back: _ReadBack, progress: Progress) -> TranslatedProgram:
+    """Return the new program if both controls do the same.
 
     Raises:
         InputError: they do not, or it cannot be read.
     """
-    left, after = programs
-    before = left.program
-    read, progress = how
+    before, after = left.program, back.program
     title = source.post.title
     if after.error is not None:
         raise InputError(
             f"{source.name} cannot be written for {title}: as written, {after.error.message('line')} Keep the program "
             f"for {DIALECT_RULES[source.dialect].title}."
         )
-    _check_modes(source, after, made, replace(read, limits=PATIENT))
+    _check_modes(source, after, back.data, replace(back.read, limits=PATIENT))
     units = {before.states[k].units for k in np.unique(before.motions.state).tolist()} or {Units.MM}
     off = _STEPS * max(10.0 ** -source.post.digits(unit).X * unit.value for unit in units)
     (first, kept), (second, others) = _moving(before), _moving(after)
@@ -329,7 +337,7 @@ def _proven(
     rows = np.full(len(after.motions), -1, np.int64)
     for run in found.runs:
         rows[others[run.b : run.b + run.count]] = left.rows[kept[run.a : run.a + run.count]]
-    return TranslatedProgram(made, after, off, rows)
+    return TranslatedProgram(back.data, after, off, rows)
 
 
 def _check_modes(source: TranslationSource, after: NcProgram, made: bytes, read: ReadOptions) -> None:

@@ -72,7 +72,7 @@ def _named(heads: list[tuple[int, str]]) -> Iterator[Subprogram]:
             yield Subprogram(match[1], range(begun.pop(match[1]), line + 1))
 
 
-def told(never: tuple[Subprogram, ...]) -> list[str]:
+def uncalled_remarks(never: tuple[Subprogram, ...]) -> list[str]:
     """Return what to say of subprograms that nothing calls, as no or one sentence without its end."""
     if not never:
         return []

@@ -25,6 +25,9 @@ def meeting(start, leaving, end, arriving):
         Bolton (1975), "Biarc curves".
     """
     vx, vy = end[0] - start[0], end[1] - start[1]
+    # Tangents of one length d from both ends have tips 2 d apart, as both tangents of an arc are equally long:
+    # |v - d (t1 + t2)|^2 = 4 d^2, that is d^2 spread + 2 d lean - |v|^2 = 0. Its positive root is reach, written as
+    # |v|^2 / (lean + sqrt(...)), where nothing cancels.
     chord2 = vx * vx + vy * vy
     lean = vx * (leaving[0] + arriving[0]) + vy * (leaving[1] + arriving[1])
     spread = 2 * (1 - leaving[0] * arriving[0] - leaving[1] * arriving[1])
@@ -51,5 +54,7 @@ def from_tangent(start, direction, end):
         return NONE, 0.0, 0.0, 0.0
     if abs(side) / 4 < _STRAIGHT:
         return LINE, 0.0, 0.0, 0.0
+    # The centre lies on the chord's bisector, where the radius is square to the direction: half the chord times the
+    # cotangent of the angle between chord and direction.
     height = ahead / side / 2
     return ARC, (start[0] + end[0]) / 2 - vy * height, (start[1] + end[1]) / 2 + vx * height, math.copysign(1.0, side)

@@ -5,6 +5,7 @@ meets.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,19 @@ tell in the last digits.
 
 _WORTH_TWO_CORES = 500
 """Upright lines from which a second core is worth its start."""
+
+
+class UprightMeetings(NamedTuple):
+    """Where upright lines meet triangles, n times.
+
+    Attributes:
+        point: (n,) number of the point that each line goes through. height: (n,) mm.
+        up: (n,) 1 where the triangle looks up, -1 where it looks down.
+    """
+
+    point: NDArray[np.int64]
+    height: Floats
+    up: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,9 +88,8 @@ class TriangleTree:
         in_bands(lambda band: tops(self.boxes, self.triangles, points[band], out[band]), len(points), _WORTH_TWO_CORES)
         return out
 
-    def met(self, points: Floats) -> tuple[NDArray[np.int64], Floats, Floats]:
-        """Return where upright lines through points (m, 2) meet triangles, each meeting of n: point, height in mm, 1 =
-        up, -1 = down.
+    def met(self, points: Floats) -> UprightMeetings:
+        """Return where upright lines through points (m, 2) meet triangles.
 
         A line through an edge meets one of its two triangles, so that what is met going up is left again in a closed
         solid, whatever edges and corners the line goes through; upright triangles are met by none.
@@ -99,4 +112,4 @@ class TriangleTree:
                 met(self.boxes, self.triangles, places[band], counts[band], mine)
 
         in_bands(find, len(points), _WORTH_TWO_CORES)
-        return np.repeat(np.arange(len(points)), counts), found[:, 0].copy(), found[:, 1].copy()
+        return UprightMeetings(np.repeat(np.arange(len(points)), counts), found[:, 0].copy(), found[:, 1].copy())

@@ -82,6 +82,7 @@ def put(quads, kinds, at, kind, corners, view):
     x, y = c[0] - a[0], c[1] - a[1]
     first = (b[0] - a[0]) * y - (b[1] - a[1]) * x
     second = x * (d[1] - a[1]) - y * (d[0] - a[0])
+    # first, second: twice the area of each triangle as seen from above, > 0 where it looks down.
     side = view[4]
     if side != 0.0 and max(side * first, side * second) <= SPECK:
         return at
@@ -160,6 +161,8 @@ def tube(quads, kinds, at, kind, axis, poles, radius, table, view):
     r, s = poles[1], cross(poles[1], u)
     count = len(table)
     step = 2.0 * math.pi / count
+    # Both circles have the same corners, but the second begins at its own pole, `angle` further. So the corner nearest
+    # to this end's first one lies `shift` whole steps back; what is left twists the strips by half a step at most.
     angle = math.atan2(dot(r, q), dot(r, p))
     shift = math.floor(angle / step + 0.5)
     ahead = angle >= shift * step
@@ -205,6 +208,7 @@ def strips_of(piece, way, joins, shape, half, wedges):
     if piece + 1 >= len(joins) or not joins[piece + 1]:
         return at_start, half
     turn = turn_of(u, row_of(way, piece + 1))
+    # Between two cylinders the sphere shows in a wedge as wide as the turn; its strips are no wider than a facet.
     return at_start, math.ceil(turn * shape[0] / shape[1] - 1e-9) if wedges and turn > STRAIGHT else 0
 
 
@@ -215,6 +219,7 @@ def cylinder(quads, kinds, at, piece, start, end, way, joins, shape, table, view
     if dot(u, u) == 0.0 or unseen(a, b, shape[0], view):
         return at
     over = overlap_of(u, shape)
+    # A circle of this radius, `over` beyond the end, lies on the sphere of the end: longer, and nowhere outside.
     radius = math.sqrt(shape[0] * shape[0] - over * over)
     first = pole_of(row_of(way, piece - 1), u) if joins[piece] else level_pole(u)
     last = pole_of(u, row_of(way, piece + 1)) if piece + 1 < len(joins) and joins[piece + 1] else level_pole(u)

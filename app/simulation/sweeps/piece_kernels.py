@@ -40,6 +40,7 @@ def _level_arc(arcs, k, part, count, start, end, row):
     row[0], row[1], row[2] = cx, cy, radius
     row[3], row[4] = min(start[0], end[0]), min(start[1], end[1])
     row[5], row[6] = max(start[0], end[0]), max(start[1], end[1])
+    # An arc bulges beyond its ends where it goes through a quarter of the circle: right, top, left, bottom.
     for quarter in range(4):
         if (quarter * _QUARTER - low) % (2 * math.pi) <= high - low:
             side = 5 + quarter if quarter < 2 else 1 + quarter
@@ -67,6 +68,7 @@ def split(begins, finishes, arc_of, arcs, counts, whole, places, levels, first, 
         for part in range(count):
             at = places[row] + part
             motion[at], arc[at] = row, -1
+            # Of a motion of which not all pieces are wanted the first and the last one stand for it.
             step = whole[row] - 1 if part == 1 and count < whole[row] else part
             if k >= 0 and arcs[8][k]:
                 arc[at] = levels[row] + part

@@ -18,6 +18,9 @@ Floats = NDArray[np.float64]
 _UPRIGHT = 1e-6
 """Sine of the angle to the vertical up to which a triangle stands upright on its open edge."""
 
+_LEAST_OUTSIDE = 0.1
+"""Share of a ring that has to have its triangles outside, so that a flaw in the rim of a cup makes no hole of it."""
+
 _FLAT = 1e-12
 """mm; edges that are no longer than that, seen from above, stand upright."""
 
@@ -44,8 +47,9 @@ class MeshHole:
 def holes(triangles: Floats) -> tuple[MeshHole, ...]:
     """Return the holes in the surface of triangles (n, 3, 3), the largest first.
 
-    A ring of open edges is a hole where most of its length has its triangles outside of the ring, or upright above it,
-    as where a pocket's floor is missing; the rim of a sheet has them inside, that of a cup below.
+    A ring of open edges is a hole where more of its length has its triangles outside of the ring than inside. Those
+    upright above it are outside, as where a pocket's floor is missing; those upright below it are on neither side, as
+    at the rim of a cup, and where a hole comes to the edge of a block. The rim of a sheet has them inside.
     """
     some = doubled_areas(triangles) > 0
     corners = triangles if some.all() else triangles[some]
@@ -85,7 +89,9 @@ def _hole(
     places = shapely.get_coordinates(shapely.orient_polygons(ring).exterior)
     keys = [(*p, *q) for p, q in zip(places[:-1].tolist(), places[1:].tolist(), strict=True)]
     long = np.hypot(*np.diff(places, axis=0).T)
-    if not float(np.sum(long[[sides.get(key, 0.0) < 0 for key in keys]])) > 0.5 * float(long.sum()):
+    side = np.array([sides.get(key, 0.0) for key in keys])
+    outside, inside = float(long[side < 0].sum()), float(long[side > 0].sum())
+    if not (outside > inside and outside > _LEAST_OUTSIDE * float(long.sum())):
         return None
     disc = shapely.maximum_inscribed_circle(ring, tolerance=max(1e-6, 1e-3 * float(long.max())))
     x, y = shapely.get_coordinates(disc)[0].tolist()

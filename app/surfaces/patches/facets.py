@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any
 
 import numpy as np
@@ -191,7 +191,7 @@ class FacetTree:
 
 def _tree(facets: SurfaceFacets) -> FacetTree:
     error = facets.error
-    low, high = facets.triangles.min(axis=1) - error[:, None], facets.triangles.max(axis=1) + error[:, None]
+    low, high = _lowest(facets.triangles) - error[:, None], _highest(facets.triangles) + error[:, None]
     order = np.argsort(_interleaved((low + high) / 2), kind="stable")
     leaves = _padded(len(order)) // LEAF
     boxes = np.full((leaves * LEAF, 5), np.inf)
@@ -227,7 +227,19 @@ def _taken(values: Floats, order: Ints) -> Floats:
 
 def _merged(boxes: Floats) -> Floats:
     """Return the boxes (k, 5) round groups (k, m, 5) of them."""
-    return np.concatenate([boxes[:, :, :2].min(axis=1), boxes[:, :, 2:].max(axis=1)], axis=1)
+    return np.concatenate([_lowest(boxes[:, :, :2]), _highest(boxes[:, :, 2:])], axis=1)
+
+
+def _lowest(groups: Floats) -> Floats:
+    """Return the least of each group's values, (k, ...) of (k, m, ...): of small groups many times as quick as numpy's
+    own reduction.
+    """
+    return reduce(np.minimum, np.moveaxis(groups, 1, 0))
+
+
+def _highest(groups: Floats) -> Floats:
+    """Return the greatest of each group's values, (k, ...) of (k, m, ...)."""
+    return reduce(np.maximum, np.moveaxis(groups, 1, 0))
 
 
 def _planes(triangles: Floats, error: Floats, slopes: Floats, nodes: int) -> Floats:
@@ -247,7 +259,7 @@ def _planes(triangles: Floats, error: Floats, slopes: Floats, nodes: int) -> Flo
     for first in range(0, len(triangles), _PART):
         some = slice(first, first + _PART)
         own = mean[np.arange(first, min(first + _PART, len(triangles))) // share]
-        over = (triangles[some, :, 2] - np.einsum("nc,nkc->nk", own, triangles[some, :, :2])).max(axis=1)
+        over = _highest(triangles[some, :, 2] - np.einsum("nc,nkc->nk", own, triangles[some, :, :2]))
         above[some] = over + error[some] * np.sqrt(1 + (own**2).sum(axis=1))
     planes[: len(starts), 2] = np.maximum.reduceat(above, starts)
     return planes

@@ -11,6 +11,7 @@ asked of the heights over each triangle alone: that bounds how far the surface b
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +39,7 @@ def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGR
         Cancelled: the job was asked to stop.
     """
     control, number, box, counts = _divided(patches, tolerance, progress)
-    made: list[tuple[Floats, Ints, Floats, Floats, Floats]] = []
+    made: list[_FacetRows] = []
     bounds = second_derivatives(control)
     for nu, nv in np.unique(counts, axis=0).tolist():
         rows = np.flatnonzero((counts == (nu, nv)).all(axis=1))
@@ -52,7 +53,7 @@ def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGR
             for at, part in _batches(rows, each)
         ]
         bulges = np.minimum(np.concatenate(bulge), np.repeat(error, each)[:, None])
-        made.append((triangles, np.repeat(number[rows], each), corners, np.repeat(error, each), bulges))
+        made.append(_FacetRows(triangles, np.repeat(number[rows], each), corners, np.repeat(error, each), bulges))
     triangles, patch, corners, error, bulges = (np.concatenate(column) for column in zip(*made, strict=True))
     return SurfaceFacets(triangles, patches.owner[patch], patch, corners, error, bulges, patches)
 
@@ -89,17 +90,41 @@ def _from_chord(places: Floats) -> Floats:
     )
 
 
-def _divided(patches: Patches, tolerance: float, progress: Progress) -> tuple[Floats, Ints, Floats, Ints]:
-    """Return sub-patches (control points, patch, u0 v0 u1 v1) and how many facets each wants along u and v."""
+class _FacetRows(NamedTuple):
+    """Some facets, n of them: as the columns of `SurfaceFacets`, and the number of each one's patch."""
+
+    triangles: Floats
+    patch: Ints
+    corners: Floats
+    error: Floats
+    bulges: Floats
+
+
+class _SubPatches(NamedTuple):
+    """Parts of patches, n of them.
+
+    Attributes:
+        control: their control points. patch: (n,) of which each is a part. box: (n, 4) u0, v0, u1, v1 there.
+        counts: (n, 2) how many facets each wants along u and v.
+    """
+
+    control: Floats
+    patch: Ints
+    box: Floats
+    counts: Ints
+
+
+def _divided(patches: Patches, tolerance: float, progress: Progress) -> _SubPatches:
+    """Return patches in parts that want no more facets than a grid has."""
     control, number = patches.control, np.arange(len(patches))
     box = np.tile([0.0, 0.0, 1.0, 1.0], (len(patches), 1))
-    done: list[tuple[Floats, Ints, Floats, Ints]] = []
+    done: list[_SubPatches] = []
     total = 0
     while len(control):
         progress.step(0.0, "Making facets")
         counts = _counts(second_derivatives(control), tolerance)
         fine = (counts <= _GRID).all(axis=1)
-        done.append((control[fine], number[fine], box[fine], counts[fine]))
+        done.append(_SubPatches(control[fine], number[fine], box[fine], counts[fine]))
         total += 2 * int(np.minimum(counts, _GRID).prod(axis=1).sum())
         if total > MOST_FACETS:
             raise GeometryError(
@@ -116,8 +141,7 @@ def _divided(patches: Patches, tolerance: float, progress: Progress) -> tuple[Fl
             number = np.concatenate([number[~wanting], number[wanting], number[wanting]])
             box = np.concatenate([box[~wanting], below, above])
             counts = np.concatenate([counts[~wanting], counts[wanting], counts[wanting]])
-    columns = list(zip(*done, strict=True))
-    return tuple(np.concatenate(column) for column in columns)  # type: ignore[return-value]
+    return _SubPatches(*(np.concatenate(column) for column in zip(*done, strict=True)))
 
 
 def _counts(bounds: Floats, tolerance: float) -> Ints:

@@ -21,6 +21,13 @@ _AWAY = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0)
 
 _DIRECTIONS = 8
 
+_AROUND = [
+    (part, math.cos(angle), math.sin(angle))
+    for part in _AWAY
+    for angle in (math.tau * k / _DIRECTIONS for k in range(_DIRECTIONS))
+]
+"""A distance and a direction (x, y) each: the same round every beginning."""
+
 
 def from_cleared(stroke: Stroke, z: float, ground: EntryContext) -> Stroke:
     """Return a stroke that begins on ground cut down to z near by and goes straight to where it began before.
@@ -48,10 +55,7 @@ def _places(start: Point, z: float, ground: EntryContext) -> list[Point]:
     gap, row = ground.cleared.nearest(start, z)
     if row is None or gap > (_AWAY[-1] - 1) * radius:
         return []
-    angles = [math.tau * k / _DIRECTIONS for k in range(_DIRECTIONS)]
     x, y = start
-    places = [
-        (x + part * radius * math.cos(angle), y + part * radius * math.sin(angle)) for part in _AWAY for angle in angles
-    ]
+    places = [(x + part * radius * cos, y + part * radius * sin) for part, cos, sin in _AROUND]
     nearest = row.tolist()
     return sorted([*places, point_on(nearest, fraction_on(nearest, start))], key=lambda place: math.dist(place, start))

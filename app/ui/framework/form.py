@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from PySide6.QtCore import QSize, Qt, Signal
@@ -97,15 +98,29 @@ class SwitchField(QWidget):
         self.switch.setChecked(on)
 
 
+@dataclass(frozen=True, eq=False)
+class JobEdit:
+    """What the user wants of a job.
+
+    Attributes:
+        name: for the undo list. make: gives the job as it shall be.
+        field: where it was typed, which says what the job does not allow; None = that is said elsewhere.
+    """
+
+    name: str
+    make: Callable[[Job], Job]
+    field: NumberField | None = None
+
+
 class FormSection(PanelSection):
     """A section of fields.
 
     Signals:
-        edited(name, (field, make)): the user wants `make(job)` instead of the job; `name` is for the undo list.
+        edited(JobEdit): the user wants another job.
         removed(): the user wants what the form shows gone.
     """
 
-    edited = Signal(str, object)
+    edited = Signal(object)
     removed = Signal()
 
     def __init__(self, title: str, removable: str = "") -> None:
@@ -141,10 +156,7 @@ class FormSection(PanelSection):
         empty.
         """
         field = NumberField(spec, read)
-        field.committed.connect(
-            lambda value: self.edited.emit(f"Change {spec.name.lower()}", (field, lambda job: edit(job, value)))
-        )
-        self.add(field)
+        self._add_number(spec.name, field, edit)
         return field
 
     def add_field(
@@ -152,21 +164,23 @@ class FormSection(PanelSection):
     ) -> None:
         """Add a field of any sort; `edit(job, value)` gives the job with that value."""
         if isinstance(field, NumberField):
-            field.committed.connect(
-                lambda value: self.edited.emit(f"Change {name.lower()}", (field, lambda job: edit(job, value)))
-            )
-            self.add(field)
+            self._add_number(name, field, edit)
         else:
             self.add_choice(name, field, edit)
+
+    def _add_number(self, name: str, field: NumberField, edit: Callable[[Job, Any], Job]) -> None:
+        field.committed.connect(lambda value: self._ask(name, lambda job: edit(job, value), field))
+        self.add(field)
 
     def add_choice(
         self, name: str, field: ChoiceField | ListField | SwitchField | TextField, edit: Callable[[Job, object], Job]
     ) -> None:
         """Add a choice; `edit(job, value)` gives the job with that value."""
-        field.chosen.connect(
-            lambda value: self.edited.emit(f"Change {name.lower()}", (None, lambda job: edit(job, value)))
-        )
+        field.chosen.connect(lambda value: self._ask(name, lambda job: edit(job, value)))
         self.add(field)
+
+    def _ask(self, name: str, make: Callable[[Job], Job], field: NumberField | None = None) -> None:
+        self.edited.emit(JobEdit(f"Change {name.lower()}", make, field))
 
     def add_picture(self, picture: QWidget, *beside: QWidget) -> QWidget:
         """Add a drawing with a few words beside it."""

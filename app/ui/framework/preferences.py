@@ -33,8 +33,8 @@ class Preferences(QObject):
         return Path(self.settings.last_folder or Path.home())
 
     def add_recent(self, path: Path) -> None:
-        """Put a file at the head of those that were opened lately."""
-        self.settings = self.settings.with_recent_file(path)
+        """Put a file at the head of those that were opened lately, at once: whoever is killed offers it next time."""
+        self.keep(self.settings.with_recent_file(path))
 
     def keep(self, settings: Settings) -> None:
         """Take other settings over and save them."""

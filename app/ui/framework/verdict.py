@@ -116,7 +116,7 @@ def figures(data: Mapping[str, Any]) -> str:
         parts.append("0 left" if area < 5e-4 else f"{area:.3f} mm² left")
         if beyond := left.get("out_of_reach_places"):
             parts.append(f"{counted(beyond, 'place')} out of reach")
-    if data.get("strokes") is not None:
+    if data.get("strokes"):  # a job without a pocket has none to count
         parts.append(counted(data["strokes"], "stroke"))
     if data.get("time_s") is not None:
         parts.append(clock(data["time_s"]))

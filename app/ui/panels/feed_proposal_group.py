@@ -17,7 +17,7 @@ from ...toolpath.feeds.proposal import FeedProposal
 from ...usecases.feeds import feeds_of_job
 from ..framework.catalogue import tr
 from ..framework.fields import ListField
-from ..framework.form import FormSection
+from ..framework.form import FormSection, JobEdit
 from ..framework.labels import muted
 from .changes import with_tool
 
@@ -42,7 +42,7 @@ class FeedProposalGroup:
         self.machine.show_value("")
         form.add(self.machine)
         self.button = QPushButton("Propose feeds")
-        self.button.clicked.connect(lambda: form.edited.emit("Propose feeds", (None, self._proposed)))
+        self.button.clicked.connect(lambda: form.edited.emit(JobEdit("Propose feeds", self._proposed)))
         form.add(self.button)
         self.limits = muted()
         self.limits.setWordWrap(True)

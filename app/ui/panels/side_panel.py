@@ -14,7 +14,7 @@ from ...drafting.document import Document, DocumentChange
 from ...formats.tools.library import load_libraries
 from ...model.job import Job
 from ...model.tool import Tool
-from ..framework.fields import NumberField
+from ..framework.form import JobEdit
 from ..framework.section import hairline
 from . import changes
 from .advice import AdviceSection
@@ -97,7 +97,7 @@ class SidePanel(QScrollArea):
         self.advice.closed.connect(self.switch_advice)
         self.library.added.connect(self._add_from_library)
         self.library.put.connect(self._put_from_library)
-        self._unsubscribe = self._document.subscribe(self._on_change)
+        self._document.subscribe(self._on_change)
 
     def choose(self, subject: Subject) -> None:
         """Show the properties of a subject; the library stays open beside tools alone."""
@@ -175,15 +175,19 @@ class SidePanel(QScrollArea):
         )
         self.job.show_job(job, self._size)
 
-    def change(self, name: str, make: Callable[[Job], Job], field: NumberField | None = None) -> None:
+    def change(self, name: str, make: Callable[[Job], Job]) -> None:
+        """Change the job, undoably; what it does not allow is said by `refused`."""
+        self._change(JobEdit(name, make))
+
+    def _change(self, edit: JobEdit) -> None:
         """Change the job, undoably; what it does not allow is said at the field, or by `refused`."""
         try:
-            job = make(self._document.job)
+            job = edit.make(self._document.job)
             if job != self._document.job:
-                self._document.change_job(name, job)
+                self._document.change_job(edit.name, job)
         except HitofudeError as wrong:
-            if field is not None:
-                field.refuse(str(wrong))
+            if edit.field is not None:
+                edit.field.refuse(str(wrong))
             else:
                 self.refused.emit(str(wrong))
 
@@ -217,13 +221,12 @@ class SidePanel(QScrollArea):
         if change & DocumentChange.JOB:
             self.refresh()
 
-    def _on_edited(self, name: str, edit: tuple[NumberField | None, Callable[[Job], Job]]) -> None:
-        field, make = edit
+    def _on_edited(self, edit: JobEdit) -> None:
         before = self.subject
-        if field is self.tool_form.number:
-            self.subject = Subject(SubjectKind.TOOL, int(field.value or 0))
+        if edit.field is self.tool_form.number:
+            self.subject = Subject(SubjectKind.TOOL, int(edit.field.value or 0))
         revision = self._document.revision
-        self.change(name, make, field)
+        self._change(edit)
         if self._document.revision == revision:
             self.subject = before
 

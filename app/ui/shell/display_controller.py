@@ -186,8 +186,9 @@ class DisplayController(QObject):
         drawn = bool(document.part.entities)
         actions["select_all"].setEnabled(drawn)
         in_surfaces, surfaces = self.view is View.SURFACES, self._window.views.surfaces
-        actions["export"].setEnabled(surfaces.shown is not None if in_surfaces else drawn)
-        actions["compute"].setEnabled(scene.open if in_surfaces else drawn)
+        open_now = not self._window.views.starting
+        actions["export"].setEnabled(open_now and (surfaces.shown is not None if in_surfaces else drawn))
+        actions["compute"].setEnabled(open_now and (scene.open if in_surfaces else drawn))
 
     def show_state(self) -> None:
         """Show where the view at the front stands."""
@@ -225,7 +226,8 @@ class DisplayController(QObject):
 
     def _show_standing(self) -> None:
         """Show what the status bar says when nothing else is to be said; why a run failed is said above the view."""
-        self._window.status.show_message(self.page.summary() or self._computation.state.value)
+        standing = "" if self._window.views.starting else self.page.summary() or self._computation.state.value
+        self._window.status.show_message(standing)
 
     def _on_computation(self) -> None:
         made, state = self._computation.made, self._computation.state

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 from PySide6.QtCore import QUrl
 from PySide6.QtGui import (
@@ -22,32 +21,30 @@ from PySide6.QtGui import (
 )
 
 from ...core.resources import resource
+from ...usecases.manual_pages import LANGUAGES, base_of, shown_in
 from ..framework.theme import HEADING_PX, TEXT_PX, Theme, mono_font, text_font
 
-_FIRST = ("language", "project", "posts", "texts", "texts_ja")
-_MARGIN_PX, _CELL_PX, _PICTURE_PX = 24, 5, 320
+_MARGIN_PX, _CELL_PX, _PICTURE_PX, _WINDOW_PX = 24, 5, 320, 580
+_OF_THE_WINDOW = "pictures/"
 _PROPORTIONAL = 1  # QTextBlockFormat.LineHeightTypes
 _HEADINGS_PX = {1: 20, 2: HEADING_PX, 3: TEXT_PX}
 
 
 @dataclass(frozen=True, slots=True)
 class HelpPage:
-    """One page: its file's stem, its heading, its text in Markdown."""
+    """One page: its name in every language, its heading, its text in Markdown."""
 
     name: str
     title: str
     text: str
 
 
-def pages() -> tuple[HelpPage, ...]:
-    """Return the pages of the manual, those for users first."""
-    paths = sorted(resource("docs").glob("*.md"), key=lambda path: (_rank(path), path.stem))
-    texts = [(path.stem, path.read_text(encoding="utf-8")) for path in paths]
-    return tuple(HelpPage(name, text.partition("\n")[0].lstrip("# ").replace("`", ""), text) for name, text in texts)
-
-
-def _rank(path: Path) -> int:
-    return _FIRST.index(path.stem) if path.stem in _FIRST else len(_FIRST)
+def pages(code: str = "en") -> tuple[HelpPage, ...]:
+    """Return the pages of the manual in a language by its code, in English where it has none, those for users first."""
+    language = next(each for each in LANGUAGES if each.code == code)
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in resource("docs").glob("*.md")}
+    shown = [(base_of(name), texts[name]) for name in shown_in(language, texts)]
+    return tuple(HelpPage(name, text.partition("\n")[0].lstrip("# ").replace("`", ""), text) for name, text in shown)
 
 
 def rendered(page: HelpPage, theme: Theme) -> QTextDocument:
@@ -75,8 +72,9 @@ def _fit_pictures(document: QTextDocument) -> None:
             form = fragment.charFormat().toImageFormat()
             if fragment.isValid() and form.isValid():
                 size = QImage(document.baseUrl().resolved(QUrl(form.name())).toLocalFile()).size()
-                form.setWidth(min(size.width(), _PICTURE_PX))
-                form.setHeight(min(size.width(), _PICTURE_PX) * size.height() / max(size.width(), 1))
+                widest = _WINDOW_PX if form.name().startswith(_OF_THE_WINDOW) else _PICTURE_PX
+                form.setWidth(min(size.width(), widest))
+                form.setHeight(min(size.width(), widest) * size.height() / max(size.width(), 1))
                 cursor.setPosition(fragment.position())
                 cursor.setPosition(fragment.position() + fragment.length(), QTextCursor.MoveMode.KeepAnchor)
                 cursor.setCharFormat(form)

@@ -8,6 +8,8 @@ from PySide6.QtCore import QEvent, QObject, Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QKeyEvent, QTextCursor, QTextDocument
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QListWidget, QTextBrowser, QTextEdit, QVBoxLayout, QWidget
 
+from ...usecases.manual_pages import base_of
+from ..framework.catalogue import active_language
 from ..framework.fields import restyle
 from ..framework.labels import muted
 from ..framework.theme import LIGHT, Theme, mixed
@@ -31,6 +33,7 @@ class HelpWindow(QWidget):
         self.setWindowTitle("Hitofude: manual")
         self.resize(*_SIZE)
         self.pages: tuple[HelpPage, ...] = ()
+        self._code = ""
         self._theme, self._laid_out = LIGHT, dict[str, QTextDocument]()
         self.search, self.count, self.list, self.browser = QLineEdit(), muted(), QListWidget(), QTextBrowser()
         self.search.setPlaceholderText("Search the manual")
@@ -64,13 +67,19 @@ class HelpWindow(QWidget):
 
     def show_page(self, name: str = LANGUAGE) -> None:
         """Open the window with a page."""
-        if not self.pages:
-            self.pages = pages()
-            self.list.addItems([page.title for page in self.pages])
+        if self._code != active_language():
+            self._read(active_language())
         self.list.setCurrentRow(next((row for row, page in enumerate(self.pages) if page.name == name), 0))
         self.show()
         self.raise_()
         self.activateWindow()
+
+    def _read(self, code: str) -> None:
+        """Take the pages of the language that the window speaks."""
+        self._code, self.pages = code, pages(code)
+        self._laid_out.clear()
+        self.list.clear()
+        self.list.addItems([page.title for page in self.pages])
 
     def show_word(self, word: str, function: bool = False) -> None:
         """Open the page of the shape language where a word is explained; what is no word of it is looked for.
@@ -191,7 +200,7 @@ class HelpWindow(QWidget):
         self.browser.setExtraSelections(marks)
 
     def _on_link(self, link: QUrl) -> None:
-        name = link.path().rpartition("/")[2].removesuffix(".md")
+        name = base_of(link.path().rpartition("/")[2].removesuffix(".md"))
         if any(page.name == name for page in self.pages):
             self.show_page(name)
         elif link.scheme() in ("http", "https"):

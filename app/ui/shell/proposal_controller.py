@@ -7,6 +7,7 @@ keeps the rule of its text.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
@@ -20,7 +21,7 @@ from ...model.job import Job
 from ...model.operation import Operation, Order
 from ...model.part import Part
 from ..framework.commands import Commands, on_trigger
-from ..framework.figures import counted
+from ..framework.figures import TIMES, counted
 from ..framework.workspace import Workspace
 from ..panels.changes import Subject, SubjectKind, operation_name, with_cut
 from ..panels.side_panel import SidePanel
@@ -107,7 +108,7 @@ class ProposalController(OperationsController):
         self._commands = commands
         self._begun_with: tuple[Operation, ...] | None = Job(Part()).operations
         self._then: Callable[[], None] | None = None
-        self._unsubscribe = workspace.document.subscribe(self._on_change)
+        workspace.document.subscribe(self._on_change)
         self.worker.failed.connect(lambda _: self._forget())
         self.worker.cancelled.connect(lambda _: self._forget())
         on_trigger(commands, "propose", lambda: self.propose(nesting=True))
@@ -279,11 +280,12 @@ class ProposalController(OperationsController):
 
     def _ask_on(self, proposal: Proposal, nesting: bool, changed: bool, goes_on: bool) -> None:
         """Say what there is now, and offer what comes next; to undo only where something was changed."""
-        names = ", ".join(operation_name(each.operation).lower() for each in proposal.operations)
+        many = Counter(operation_name(each.operation).lower() for each in proposal.operations)
+        names = ", ".join(name if count == 1 else f"{count} {TIMES} {name}" for name, count in many.items())
         left = f" {counted(len(proposal.findings), 'gap')} to close: see the log." if proposal.findings else ""
         other = ("As in 1986", "propose_1986") if nesting else ("By the drawing", "propose")
         answers = [*([] if goes_on else [("Compute", "compute")]), other, *([("Undo", "undo")] if changed else [])]
         self._workspace.notice.ask(
-            f"Proposed: {names}.{left}", [(text, self._commands[name].trigger) for text, name in answers]
+            f"Proposed: {names}.{left}", [(text, self._commands[name].trigger) for text, name in answers], of_job=True
         )
         self.said.emit(f"{counted(len(proposal.operations), 'operation')} proposed; the log says why.")

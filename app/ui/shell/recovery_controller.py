@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -119,18 +120,19 @@ class RecoveryController(QObject):
             self._timer.start(round(WAIT_S * 1000))
 
     def _on_done(self, answer: JobOutcome) -> None:
-        if isinstance(answer.value, tuple):
-            self._on_loaded(*answer.value)
+        if isinstance(answer.value, _LoadedWork):
+            self._on_loaded(answer.value)
             return
         for found in self._taken:
             found.discard()
         self._taken = []
         self.kept.emit()
 
-    def _on_loaded(self, found: RecoveredWork, project: Project | None, reason: str) -> None:
+    def _on_loaded(self, loaded: _LoadedWork) -> None:
+        found, project = loaded.found, loaded.project
         if project is None:
             aside = found.set_aside()
-            self._log.note("recover", f"{reason} It stays as {aside}.", error=True)
+            self._log.note("recover", f"{loaded.reason} It stays as {aside}.", error=True)
             self._workspace.notice.ask(
                 f"The kept state is damaged and cannot be recovered. It stays as {aside}.", error=True
             )
@@ -164,11 +166,20 @@ class RecoveryController(QObject):
             self._file.close()
 
 
-def _loaded(found: RecoveredWork) -> tuple[RecoveredWork, Project | None, str]:
+@dataclass(frozen=True, eq=False)
+class _LoadedWork:
+    """What was found, and the project in it; None where it cannot be read, for a reason."""
+
+    found: RecoveredWork
+    project: Project | None
+    reason: str = ""
+
+
+def _loaded(found: RecoveredWork) -> _LoadedWork:
     try:
-        return found, found.load(), ""
+        return _LoadedWork(found, found.load())
     except InputError as error:
-        return found, None, str(error)
+        return _LoadedWork(found, None, str(error))
 
 
 def _clock(when: float) -> str:

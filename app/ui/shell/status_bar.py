@@ -9,6 +9,9 @@ from ..framework.icons import IconButton
 from ..framework.labels import Elided, muted
 from .badge import Badge
 
+_STEP_PX = 180
+"""So much of what a running job tells is shown whole; the message gives way first."""
+
 
 def _separator() -> QFrame:
     made = QFrame()
@@ -126,3 +129,4 @@ class StatusBar(QWidget):
         self.bar.setValue(round(1000 * (fraction or 0.0)))
         self.step.setText(text)
         self.step.setToolTip(text)
+        self.step.setMinimumWidth(min(self.step.fontMetrics().horizontalAdvance(text) + 2, _STEP_PX))

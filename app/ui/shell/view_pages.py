@@ -90,7 +90,7 @@ def _drawing_pages(window: MainWindow, told: WindowState) -> dict[View, ViewPage
         asked = window.cut_form.asked
         shows = window.views.cut.model.picture is not None or bool(window.views.cut.sentence.text())
         if asked is not None and not shows:
-            return MissingHint(asked.reason)
+            return MissingHint(f"{asked.foreign.source.name} is not cut yet: say at the right what cuts, and of what.")
         return _of_job(window, shows, none_drawn, NO_CUT)
 
     def beside_cut() -> QWidget | None:

@@ -14,13 +14,13 @@ from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from time import monotonic
-from typing import Protocol
+from typing import Any, Protocol
 
 from ...core.progress import Progress
-from .task import BatchResult, BatchTask
+from .task import BatchResult, NamedTask
 from .work import work
 
-Work = Callable[[BatchTask, Progress], BatchResult]
+Work = Callable[[Any, Progress], BatchResult]
 
 _EVERY = 0.2
 """Seconds between two words of a worker about how far it is."""
@@ -41,7 +41,7 @@ class LaneNews:
 class Lane(Protocol):
     """What does one part at a time."""
 
-    def submit(self, task: BatchTask) -> Future[BatchResult]:
+    def submit(self, task: NamedTask) -> Future[BatchResult]:
         """Begin with a part; the future raises BrokenExecutor, or whatever the executor says, where the process of the
         part has died.
         """
@@ -87,7 +87,7 @@ class ProcessLane:
         """Whether its process has begun."""
         return self.pid != 0
 
-    def submit(self, task: BatchTask) -> Future[BatchResult]:
+    def submit(self, task: NamedTask) -> Future[BatchResult]:
         """Begin with a part."""
         self._news = LaneNews()
         try:
@@ -155,7 +155,7 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def _told_work(work: Work, task: BatchTask) -> BatchResult:
+def _told_work(work: Work, task: NamedTask) -> BatchResult:
     """Do a part and say on the way how far it is."""
     said = 0.0
 
@@ -184,7 +184,7 @@ class ExecutorLane:
         self._executor, self._work = executor, work
         self._futures: set[Future[BatchResult]] = set()
 
-    def submit(self, task: BatchTask) -> Future[BatchResult]:
+    def submit(self, task: NamedTask) -> Future[BatchResult]:
         """Begin with a part."""
         future = self._executor.submit(self._work, task)  # type: ignore[call-arg]  # its progress has a default
         self._futures = {future}

@@ -11,7 +11,7 @@ from time import monotonic
 from ...core.durations import minutes_words
 from ...core.progress import NO_PROGRESS, Progress
 from .lanes import Lane
-from .task import BatchResult, BatchRow, BatchTask, BatchVerdict
+from .task import BatchResult, BatchRow, BatchVerdict, NamedTask
 
 TRIES = 4
 """So often a part is begun whose process is killed: whoever kills at random seldom meets the same part again."""
@@ -37,7 +37,7 @@ class BatchRun:
     """The parts of a batch on their way through the lanes."""
 
     def __init__(
-        self, tasks: Sequence[BatchTask], lanes: Sequence[Lane], finished: Finished, limit_s: float = LIMIT_S
+        self, tasks: Sequence[NamedTask], lanes: Sequence[Lane], finished: Finished, limit_s: float = LIMIT_S
     ) -> None:
         """Make ready.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from enum import Enum
-from typing import Any
+from typing import Any, Protocol
 
 from ..examine import ExamineOptions
 from ..options import MakeOptions
@@ -62,6 +62,14 @@ class BatchExtras:
     report: bool = False
     image: str = ""
     sheet: str = ""
+
+
+class NamedTask(Protocol):
+    """Anything that a lane does: a part of a batch, a tile of a cut."""
+
+    @property
+    def name(self) -> str:
+        """What people are told that it is."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from typing import Any
 from ...model.finding import Finding, FindingKind
 from ..smoothing.report import certificate
 from ..smoothing.report import findings as smooth_findings
-from .metal import streaks
+from .picture import streaks
 from .result import BetterProgram, ProgramFigures
 
 Json = dict[str, Any]

@@ -79,6 +79,7 @@ def judged_apart(texts: list[bytes], dialect: Dialect, seconds: int = 60) -> str
     """Judge texts in a process that may grow by 500 MB only, and take so many seconds of the processor; return what
     went wrong, or "".
     """
+    read_program(b"G0 X1\n")  # the compiled lane is loaded once, not in each process
     ours, theirs = multiprocessing.get_context("fork").Pipe()
     child = multiprocessing.get_context("fork").Process(target=_judge_all, args=(theirs, texts, dialect, seconds))
     child.start()
@@ -98,7 +99,6 @@ def _told_in_time(ours: Connection, seconds: float) -> str:
 
 def _judge_all(answer: Connection, texts: list[bytes], dialect: Dialect, seconds: int) -> None:
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))  # which ends it
-    read_program(b"G0 X1\n")  # the compiled lane is loaded before memory is counted
     with open("/proc/self/statm") as file:
         size = int(file.read().split()[0]) * resource.getpagesize()
     resource.setrlimit(resource.RLIMIT_AS, (size + MEGABYTES * 2**20,) * 2)

@@ -15,17 +15,9 @@ from app.ui.views.cut.relief import REACH, relief, relief_part
 from app.ui.views.cut.rendering.cut_frame import CutFrame
 from app.ui.views.cut.rendering.cut_scene import CutScene
 from tests.examples import examples
-from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE
 
 CHANGED = (slice(90, 150), slice(40, 200))
-
-
-@pytest.fixture(scope="module")
-def context():
-    made = pictures.without_a_screen()
-    yield made
-    made.release()
 
 
 def wavy(rows=240, columns=280, seed=1):

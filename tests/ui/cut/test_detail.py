@@ -15,13 +15,6 @@ from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE, flat_picture, seen
 
 
-@pytest.fixture(scope="module")
-def context():
-    made = pictures.without_a_screen()
-    yield made
-    made.release()
-
-
 def wave(cells, corner=(0.0, 0.0), side=10.0):
     """Heights of one and the same wave on a square, in as many cells as wanted."""
     x, y = (low + (np.arange(cells) + 0.5) * side / cells for low in corner)

@@ -10,18 +10,10 @@ from app.ui.views.cut.camera import Camera
 from app.ui.views.cut.cell_colours import CutColourBy, cell_colours
 from app.ui.views.cut.rendering.cut_frame import CutFrame
 from app.ui.views.cut.rendering.cut_scene import CutScene
-from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE, flat_picture
 
 CAMERA = Camera(target=(5.0, 5.0, 0.0), pitch=1.1, scale=18.0)
 METAL = flat_picture(np.full((32, 32), -6.0))
-
-
-@pytest.fixture(scope="module")
-def context():
-    made = pictures.without_a_screen()
-    yield made
-    made.release()
 
 
 def trough(kind=(0, 1), z=0.0, across=6, along=5):

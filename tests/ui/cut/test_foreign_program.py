@@ -48,7 +48,9 @@ def test_an_unknown_tool_is_asked_for(qtbot, opened):
     form, own = wiring.window_.cut_form, wiring.cut_controller.cut
     assert form.isVisible() and "T1 cuts, and slot.ngc does not tell what it is" in form.reason.text()
     assert own is None, "another cut is shown under the program's name"
-    assert "slot.ngc does not tell" in wiring.window_.views.empty.sentence.text()
+    assert "slot.ngc is not cut yet" in wiring.window_.views.empty.sentence.text()
+    surface = wiring.window_.views.cut.render_scheduler.surface
+    assert surface is None or surface.isHidden()
     fields = form.tools[1]
     fields.kind.chosen.emit(ToolKind.BALL)
     fields.fields["diameter"].committed.emit(3.0)

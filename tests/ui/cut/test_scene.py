@@ -37,13 +37,6 @@ N = 64
 GROUND = np.round(np.array(CANVAS) * 255).astype(np.uint8)
 
 
-@pytest.fixture(scope="module")
-def context():
-    made = pictures.without_a_screen()
-    yield made
-    made.release()
-
-
 def cells(n=N):
     """X and Y of the cells' centres on a square of 10 mm."""
     at = (np.arange(n) + 0.5) * 10.0 / n
@@ -227,6 +220,37 @@ def test_painting_piece_by_piece_gives_the_same_and_shows_nothing_half_done(cont
         assert np.array_equal(scene.pixels(), in_pieces)
         scene.release()
     assert np.any(in_pieces != coarse)
+
+
+def test_a_picture_at_rest_is_seen_at_once_with_a_line_of_sight_in_each_pixel(context):
+    x, _ = cells(512)
+    picture = flat_picture(-1.0 + 0.5 * np.sin(x))
+    camera = Camera().fitted(picture.low, picture.high, (800, 600))
+    with context:
+        scene = CutScene(context)
+        scene.show_picture(picture)
+        scene.draw(CutFrame(camera, (800, 600), LOOK, budget=1 << 14))
+        coarse = scene.pixels().astype(int)
+        shown = [scene.pixels().astype(int) for new in scene.draw_in_steps(CutFrame(camera, (800, 600), LOOK)) if new]
+        scene.release()
+    first, last = shown
+
+    def off(seen):
+        return (np.abs(seen - last).max(axis=2) > 12).mean()
+
+    assert 0 < 3 * off(first) < off(coarse), (off(first), off(coarse))
+
+
+@pytest.mark.parametrize("view", [StandardView.TOP, StandardView.ISOMETRIC])
+@pytest.mark.parametrize(("budget", "near"), [(0, 1.5), (1 << 12, 5.0)])
+def test_metal_is_painted_right_up_to_its_outline(context, view, budget, near):
+    picture = flat_picture(np.full((N, N), -1.0))
+    camera = seen(picture, view).zoomed(0.5, (SIZE[0] / 2, SIZE[1] / 2), SIZE)
+    corners = np.array(np.meshgrid(*zip(picture.low, (*picture.high[:2], -1.0), strict=True))).reshape(3, -1).T
+    outline = camera.project(corners, SIZE)[:, :2]
+    rows, columns = np.nonzero(np.any(painted(context, picture, camera, budget=budget) != GROUND, axis=2))
+    assert np.abs(outline.min(axis=0) - (columns.min(), rows.min())).max() < near
+    assert np.abs(outline.max(axis=0) - (columns.max() + 1, rows.max() + 1)).max() < near
 
 
 def test_a_closer_look_has_no_gaps(context):

@@ -13,7 +13,6 @@ from app.ui.views.cut.cell_picking import SectionPlane
 from app.ui.views.cut.rendering.cut_frame import CutFrame
 from app.ui.views.cut.rendering.cut_scene import CutScene
 from app.ui.views.cut.tool_outline import DrawnTool, ToolPart, outline_of
-from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE, flat_picture, seen
 
 TOOLS = [
@@ -24,13 +23,6 @@ TOOLS = [
     Tool(1, 3.0, ToolKind.DRILL),
     Tool(1, 3.0, ToolKind.TAPER, tip_angle=0.4, tip_diameter=1.0),
 ]
-
-
-@pytest.fixture(scope="module")
-def context():
-    made = pictures.without_a_screen()
-    yield made
-    made.release()
 
 
 def painted(context, picture, camera, tool=None, tips=((0.0, 0.0, 0.0),), **more):

@@ -16,6 +16,7 @@ from app.ui.framework.theme import DARK, LIGHT
 from app.ui.panels.drawing_page import DrawingPage
 from app.ui.panels.side_panel import WIDTH
 from app.ui.panels.swatch import HUES, ColourPalette
+from tests.ui.fields_typed import enter
 
 SCROLL_BAR_PX = 8
 
@@ -40,14 +41,6 @@ def select(page: DrawingPage, document: Document, *ids: int) -> None:
     document.select(ids)
     page.refresh()
     QApplication.processEvents()
-
-
-def enter(qtbot, field, text: str) -> None:
-    """Replace what stands in a field, as a person does."""
-    field.edit.setFocus()
-    field.edit.selectAll()
-    qtbot.keyClicks(field.edit, text)
-    qtbot.keyClick(field.edit, Qt.Key.Key_Return)
 
 
 def last(document: Document) -> str:

@@ -46,7 +46,7 @@ def test_the_fields_are_those_of_the_kind(form, kind):
 
 def test_a_kind_from_outside_is_set_in_the_form(form):
     document = Document(job_of(EngraveOperation))
-    form.edited.connect(lambda name, wish: document.change_job(name, wish[1](document.job)))
+    form.edited.connect(lambda edit: document.change_job(edit.name, edit.make(document.job)))
     form.show_operation(document.job, 0, None)
     fields = {key: form.fields[key].field for key in ASKED}
     assert [type(field) for field in fields.values()] == [NumberField, ChoiceField, NumberField, SwitchField]

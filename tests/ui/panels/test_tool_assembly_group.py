@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
 from app.drafting.document import Document
@@ -14,6 +13,7 @@ from app.model.part import Part
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.tool_assembly_group import OWN, UNKNOWN, ToolAssemblyGroup
+from tests.ui.fields_typed import enter
 
 
 @pytest.fixture
@@ -29,13 +29,6 @@ def group(qtbot, document) -> ToolAssemblyGroup:
     panel.choose(Subject(SubjectKind.TOOL, 1))
     panel.tool_form.hold.group.fold.setChecked(True)
     return panel.tool_form.hold
-
-
-def enter(qtbot, field, text: str) -> None:
-    field.edit.setFocus()
-    field.edit.selectAll()
-    qtbot.keyClicks(field.edit, text)
-    qtbot.keyClick(field.edit, Qt.Key.Key_Return)
 
 
 def choose(group: ToolAssemblyGroup, text: str) -> None:

@@ -19,6 +19,7 @@ from app.ui.views.stages.painting.pixel_painter import LETTER_PX, RASTER_PX
 from app.ui.views.stages.panel import FillRules
 from app.ui.views.stages.step_notes import note
 from tests.ui.conftest import WAIT_MS
+from tests.ui.fields_typed import enter
 from tests.ui.stages.conftest import show_stages
 
 LEFT = Qt.MouseButton.LeftButton
@@ -32,13 +33,6 @@ def screen(view, row, col):
     """Where a pixel's middle lies on the screen."""
     x, y = view.pixels.pixels.frame.to_mm(np.array([(col + 0.5, row + 0.5)]))[0].tolist()
     return view.pixels.view.to_screen((x, y)).toPoint()
-
-
-def type_value(qtbot, field, text):
-    field.edit.setFocus()
-    field.edit.selectAll()
-    qtbot.keyClicks(field.edit, text)
-    qtbot.keyClick(field.edit, Qt.Key.Key_Return)
 
 
 def test_an_empty_drawing_says_what_is_missing(wiring):
@@ -221,7 +215,7 @@ def test_published_rules_are_marked_where_they_err_and_counted(qtbot, wiring):
 def test_the_first_step_says_how_large_this_memory_is(qtbot, staged):
     panel, view = staged.window_.stages_panel, staged.window_.views.stages
     assert "The screen has 400 by 400 points. " in panel.notes.text()
-    type_value(qtbot, panel.points, "200")
+    enter(qtbot, panel.points, "200")
     qtbot.waitUntil(lambda: view.film is not None and view.film.shape == (200, 200), timeout=WAIT_MS)
     assert "The screen has 200 by 200 points; in 1986 it had 400 by 400. " in panel.notes.text()
     panel.show_still(view.still)
@@ -264,26 +258,26 @@ def test_chain_code_is_seen_without_scrolling_in_the_smallest_window(staged):
 def test_resolution_and_pitch_and_what_they_cost(qtbot, staged):
     panel, view = staged.window_.stages_panel, staged.window_.views.stages
     assert "mm at the walls, " in panel.given_up.text() and panel.points.edit.text() == "400"
-    type_value(qtbot, panel.points, "200")
+    enter(qtbot, panel.points, "200")
     qtbot.waitUntil(lambda: view.film is not None and view.film.shape == (200, 200), timeout=WAIT_MS)
     assert float(panel.pitch.edit.text()) == pytest.approx(52 / 196, abs=1e-4)
-    type_value(qtbot, panel.pitch, "0.4")
+    enter(qtbot, panel.pitch, "0.4")
     qtbot.waitUntil(
         lambda: staged.stages_controller.reel is not None and staged.stages_controller.reel.part.frame.pitch == 0.4,
         timeout=WAIT_MS,
     )
     assert panel.points.value == view.film.shape[0] == 134
-    type_value(qtbot, panel.points, "50")
+    enter(qtbot, panel.points, "50")
     assert panel.points.reason.isVisible() and "100 to 2000" in panel.points.reason.text()
 
 
 def test_what_cannot_be_computed_says_why_and_is_computed_when_it_can(qtbot, staged):
     window, panel = staged.window_, staged.window_.stages_panel
-    type_value(qtbot, panel.pitch, "3")
+    enter(qtbot, panel.pitch, "3")
     empty = window.views.empty
     qtbot.waitUntil(lambda: empty.isVisible() and "not wider than two pixels" in empty.sentence.text(), timeout=WAIT_MS)
     assert window.views.stages.film is None and panel.isVisible() and not panel.chains.isVisible()
-    type_value(qtbot, panel.points, "150")
+    enter(qtbot, panel.points, "150")
     show_stages(qtbot, staged)
     assert not window.views.empty.isVisible() and panel.chains.isVisible()
 
@@ -306,7 +300,7 @@ def test_stages_follow_the_drawing_and_are_never_of_another_one(qtbot, staged):
 
 
 def test_cancelling_leaves_no_stages_of_an_earlier_job(qtbot, staged):
-    type_value(qtbot, staged.window_.stages_panel.points, "2000")
+    enter(qtbot, staged.window_.stages_panel.points, "2000")
     assert staged.stages_controller.worker.busy and staged.window_.actions_["cancel"].isEnabled()
     staged.window_.actions_["cancel"].trigger()
     assert not staged.stages_controller.worker.busy and staged.window_.views.stages.film is None

@@ -10,7 +10,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from distributed import Client, LocalCluster
 
 from app.core.errors import Cancelled
 from app.core.progress import NO_PROGRESS, Progress
@@ -112,12 +111,3 @@ def test_work_makes_a_verdict_of_every_failure() -> None:
     broken = replace(TASK, options="no options")  # type: ignore[arg-type]  # a fault of the program itself
     assert work(broken).row.verdict is BatchVerdict.FAILED
     assert "should not have happened" in work(broken).row.findings[0]
-
-
-def test_a_local_cluster_does_the_same_although_a_worker_is_killed() -> None:
-    local = LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
-    with local as cluster, Client(cluster) as client:
-        executor = client.get_executor(pure=False)
-        next(iter(cluster.workers.values())).process.process.kill()
-        rows = run([f"part {k}" for k in range(8)], [ExecutorLane(executor), ExecutorLane(executor)])
-    assert [row.verdict for row in rows.values()] == [BatchVerdict.CLEAN] * 8

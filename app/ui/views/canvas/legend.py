@@ -113,13 +113,13 @@ class Legend(LegendSheet):
         self.fit_contents()
 
     def show_job(self, job: Job) -> None:
-        """Name the tools of the paths, and have entries for rest machining and keep-out areas only when there are
-        any.
+        """Name the tools of the paths, and have entries for pockets, rest machining, contours and keep-out areas only
+        when there are any.
         """
         for sample in (PathLineKind.POCKET, PathLineKind.REST, PathLineKind.CONTOUR):
             numbers = _tools(job.operations, sample)
             self.rows[sample].show_names(sample.value, numbers, WIDTH)
-        self.rows[PathLineKind.REST].setVisible(bool(_tools(job.operations, PathLineKind.REST)))
+            self.rows[sample].setVisible(bool(numbers))
         self.rows[PathLineKind.CLAMP].setVisible(bool(job.keep_out_layers))
         self.fit_contents()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -128,19 +129,27 @@ class SmoothingController(ProgramController):
         if self._followed is not None and not self.reading.worker.busy:
             self.reading.start(partial(_drawn, self._view.curves, self._followed, side), self._on_drawn)
 
-    def _on_drawn(self, made: tuple[CurvesModel | None, ShownProgram, ViewSide, CurveLayers | MotionLayer]) -> None:
-        curves, shown, side, picture = made
-        if curves is not None and isinstance(picture, CurveLayers):
-            curves.layers[side] = picture
-        elif isinstance(picture, MotionLayer):
-            shown.pictures[side] = picture
-        if curves is self._view.curves and shown is self._followed:
+    def _on_drawn(self, drawn: _DrawnSide) -> None:
+        if drawn.curves is not None and isinstance(drawn.picture, CurveLayers):
+            drawn.curves.layers[drawn.side] = drawn.picture
+        elif isinstance(drawn.picture, MotionLayer):
+            drawn.shown.pictures[drawn.side] = drawn.picture
+        if drawn.curves is self._view.curves and drawn.shown is self._followed:
             self._view.set_side(self._view.side)
 
 
-def _drawn(
-    curves: CurvesModel | None, shown: ShownProgram, side: ViewSide, progress: Progress
-) -> tuple[CurvesModel | None, ShownProgram, ViewSide, CurveLayers | MotionLayer]:
-    """Return what is seen from another side, and of what."""
+@dataclass(frozen=True, eq=False)
+class _DrawnSide:
+    """What is seen from a side: of the curves, or of the program where there are none."""
+
+    curves: CurvesModel | None
+    shown: ShownProgram
+    side: ViewSide
+    picture: CurveLayers | MotionLayer
+
+
+def _drawn(curves: CurvesModel | None, shown: ShownProgram, side: ViewSide, progress: Progress) -> _DrawnSide:
+    """Return what is seen from another side."""
     progress.step(0.0, "Preparing the picture")
-    return curves, shown, side, layers(curves, side, progress) if curves is not None else picture_of(shown, side)
+    picture = picture_of(shown, side) if curves is None else layers(curves, side, progress)
+    return _DrawnSide(curves, shown, side, picture)

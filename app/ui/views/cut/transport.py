@@ -152,6 +152,7 @@ class Transport(QWidget):
     def show_place(self) -> None:
         """Show the moment that the cut is at."""
         player, timeline = self._player, self._player.timeline
+        self.clock.setVisible(timeline is not None and player.at is not None)
         if timeline is None or player.at is None:
             self.clock.setText("")
             self.place.setText(player.failure or ("Preparing playback…" if player.preparing else ""))

@@ -126,8 +126,9 @@ class CutView(QWidget):
         self.overlay.show_way(None)
         self.show_line(None)
         self.model.hit = None
-        self.overlay.setVisible(picture is not None)
-        self.legend.setVisible(picture is not None)
+        for widget in (self.overlay, self.legend, self.render_scheduler.surface):
+            if widget is not None:
+                widget.setVisible(picture is not None)
         if picture is None:
             self.update()
             return

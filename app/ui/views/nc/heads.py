@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from ....gcode.interpreter.dialect import DIALECT_RULES, Dialect
 from ...framework.fields import ChoiceField
@@ -16,6 +16,7 @@ from .painting.motion_layer import MotionColourBy
 BAR_PX = 36
 _ROOM_PX = 420
 _GAP_PX, _BUTTON_PX = 8, 44
+_LEAST_CHOICE_PX, _LEAST_PX = 72, 360
 
 
 def bar(widget: QWidget, spacing: int = 8) -> QHBoxLayout:
@@ -54,6 +55,8 @@ class TextHead(QWidget):
         self.dialect.setAccessibleName("Control that the program is for")
         self.dialect.setToolTip("How the program is read")
         self.dialect.setFixedHeight(24)
+        self.dialect.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
+        self.dialect.setMinimumWidth(_LEAST_CHOICE_PX)
         self.dialect.activated.connect(lambda at: self.dialect_chosen.emit(self.dialect.itemData(at)))
         self._offer("as it looks")
         self._buttons = _BUTTON_PX * (2 if closable else 1)
@@ -87,6 +90,7 @@ class TextHead(QWidget):
         beside = sum(each.sizeHint().width() + _GAP_PX for each in (self.detail, *shown))
         name = self.name.sizeHint().width() if not self.name.isHidden() else 0
         self.detail.setVisible(bool(self.detail.text()) and name + beside + self._buttons <= self.width())
+        self.name.setMinimumWidth(min(name, max(0, self.width() - self._buttons - _LEAST_CHOICE_PX - 2 * _GAP_PX)))
 
     def show_files(self, names: list[str], current: int) -> None:
         """Offer the files of a program that has several; one alone is only named."""
@@ -201,3 +205,4 @@ class PathHead(QWidget):
         """Leave out what explains itself where there is no room for it."""
         super().resizeEvent(event)
         self.key.setVisible(event.size().width() >= _ROOM_PX)
+        self.colour.setVisible(event.size().width() >= _LEAST_PX)

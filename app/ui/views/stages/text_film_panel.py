@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
+from ...framework.catalogue import tr
 from ...framework.fields import ChoiceField
 from ...framework.labels import muted
 from ...framework.section import EDGE, hairline, heading
@@ -115,12 +116,12 @@ class TextFilmPanel(QScrollArea):
 
 
 def _table(rows: tuple[tuple[str, ...], ...]) -> str:
-    """Return a table as rich text, its first row as heads."""
+    """Return a table as rich text, its first row as heads; the window translates no text with marks in it."""
     from html import escape
 
     if not rows:
         return ""
     head, *body = rows
-    lines = ["<tr>" + "".join(f"<th align='left'>{escape(cell)}&nbsp;</th>" for cell in head) + "</tr>"]
-    lines += ["<tr>" + "".join(f"<td>{escape(cell)}&nbsp;</td>" for cell in row) + "</tr>" for row in body]
+    lines = ["<tr>" + "".join(f"<th align='left'>{escape(tr(cell))}&nbsp;</th>" for cell in head) + "</tr>"]
+    lines += ["<tr>" + "".join(f"<td>{escape(tr(cell))}&nbsp;</td>" for cell in row) + "</tr>" for row in body]
     return "<table cellspacing='0' cellpadding='1'>" + "".join(lines) + "</table>"

@@ -211,12 +211,15 @@ def paint_plunges(
 
 
 def _roles(styles: list[MoveStyle]) -> dict[tuple[int, int], str]:
-    """Return the theme's colour name for each (operation, tool): first pocket tool, first contour tool, then rest."""
+    """Return the theme's colour name for each (operation, tool), as legend and list have them: contours, the first
+    pocket tool, then rest.
+    """
     roles: dict[tuple[int, int], str] = {}
-    first: dict[Purpose, int] = {}
+    first: int | None = None
     for style in sorted(styles, key=lambda s: s.operation):
-        if style.purpose in (Purpose.POCKET, Purpose.CONTOUR):
-            own = first.setdefault(style.purpose, style.tool) == style.tool
-            name = "pocket" if style.purpose is Purpose.POCKET else "contour"
-            roles[style.operation, style.tool] = name if own else "rest"
+        if style.purpose is Purpose.POCKET:
+            first = style.tool if first is None else first
+            roles[style.operation, style.tool] = "pocket" if style.tool == first else "rest"
+        elif style.purpose is Purpose.CONTOUR:
+            roles[style.operation, style.tool] = "contour"
     return roles

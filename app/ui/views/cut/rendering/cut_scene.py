@@ -149,7 +149,7 @@ class CutScene:
             reach = self._reach(frame, self.picture)
             back.scissor = self._seen_area(frame, self.picture)
             self._put_over(frame.size, metal, finer)
-            back.scissor = None
+            back.scissor = (0, 0, *frame.size)
             for plane in CLIP_PLANES:
                 self.ctx.enable_direct(plane)
             self._paths.draw(

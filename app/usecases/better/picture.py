@@ -36,7 +36,7 @@ def streaks(workpiece: Workpiece, smoothed: SmoothedSurface) -> float:
     return float(np.sqrt(np.mean(bends[over] ** 2))) if over.any() else 0.0
 
 
-def metal_picture(old: Workpiece, new: Workpiece, smoothed: SmoothedSurface) -> bytes:
+def stock_picture(old: Workpiece, new: Workpiece, smoothed: SmoothedSurface) -> bytes:
     """Return both cuts beside one another as a PNG picture, the old one at the left, lit from low along the passes."""
     import cv2
 
