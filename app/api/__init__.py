@@ -24,14 +24,15 @@ from ..model.vcarve_operation import VcarveOperation
 from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
 from ..usecases.cut import CutOptions
 from ..usecases.examine import ExamineOptions
+from ..usecases.inlay import InlayFit, InlayOptions
 from ..usecases.machining import MachiningOptions
 from ..usecases.options import MakeOptions, Stepover
 from ..usecases.proposal.propose import ProposalOptions
 from ..usecases.setup import SetupRequest
 from ..usecases.setup_stock import box_stock
 from ..usecases.smoothing.result import OutputForm, SmoothOptions
-from .calls import BatchPart, batch, check, cut, make, read, smooth, surface
-from .results import CheckedProgram, CutMetal, MadeProgram, MadeSurface, SmoothedText
+from .calls import BatchPart, batch, check, cut, inlay, make, read, smooth, surface
+from .results import CheckedProgram, CutMetal, MadeInlay, MadeProgram, MadeSurface, SmoothedText
 
 __all__ = [
     "AdaptiveOperation",
@@ -55,8 +56,11 @@ __all__ = [
     "Finding",
     "FindingKind",
     "HitofudeError",
+    "InlayFit",
+    "InlayOptions",
     "Job",
     "MachiningOptions",
+    "MadeInlay",
     "MadeProgram",
     "MadeSurface",
     "MakeOptions",
@@ -83,6 +87,7 @@ __all__ = [
     "box_stock",
     "check",
     "cut",
+    "inlay",
     "make",
     "read",
     "read_selectors",

@@ -25,12 +25,14 @@ from ..usecases.cut import CutOptions
 from ..usecases.cut import cut as cut_programs
 from ..usecases.cut_report import cut_report
 from ..usecases.examine import ExamineOptions, examine
+from ..usecases.inlay import InlayOptions, inlay_of
+from ..usecases.inlay import inlay as inlay_drawing
 from ..usecases.options import MakeOptions
 from ..usecases.setup import SetupRequest, setup_of
 from ..usecases.setup_tools import ToolSource
 from ..usecases.smoothing.result import SmoothOptions
 from ..usecases.smoothing.smooth import smooth as smooth_text
-from .results import CheckedProgram, CutMetal, MadeProgram, MadeSurface, SmoothedText
+from .results import CheckedProgram, CutMetal, MadeInlay, MadeProgram, MadeSurface, SmoothedText
 
 FilePath = str | os.PathLike[str]
 
@@ -67,6 +69,30 @@ def make(what: FilePath | Job, options: MakeOptions | None = None, progress: Pro
         return MadeProgram(usecase.export(what, progress, machine=options.machine if options else None))
     path = Path(what)
     return MadeProgram(usecase.make(path.name, read_input(path), options or MakeOptions(), progress))
+
+
+def inlay(
+    what: FilePath | Job,
+    options: MakeOptions | None = None,
+    wished: InlayOptions | None = None,
+    progress: Progress = NO_PROGRESS,
+) -> MadeInlay:
+    """Return the programs of a V-carved pocket and of the plug that fits into it, and how they fit.
+
+    Args:
+        what: a drawing, or a job with its part.
+        options: of a drawing, with a job of one operation, a V-carving with its flat tool.
+        wished: glue, gap, and how far the plug stands out.
+
+    Raises:
+        HitofudeError: it cannot be used.
+        Cancelled: by progress.
+    """
+    fitting = wished or InlayOptions()
+    if isinstance(what, Job):
+        return MadeInlay(inlay_of(what, fitting, progress))
+    path = Path(what)
+    return MadeInlay(inlay_drawing(path.name, read_input(path), options or MakeOptions(), fitting, progress))
 
 
 def check(program: FilePath, options: ExamineOptions | None = None, progress: Progress = NO_PROGRESS) -> CheckedProgram:

@@ -4,6 +4,7 @@ in a notebook.
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +23,7 @@ from ..simulation.field.workpiece import Heights
 from ..usecases.cut import CutProgram
 from ..usecases.cut_report import CutReport
 from ..usecases.examine import ExaminedProgram
+from ..usecases.inlay import InlayFit, InlayPair
 from ..usecases.make import MakeResult
 from ..usecases.smoothing.result import SmoothedProgram
 from ..usecases.surface_nc import WrittenScene
@@ -112,6 +114,61 @@ class MadeProgram:
 
     def __str__(self) -> str:
         return self.result.report.summary(self.job.part.name)
+
+
+@dataclass(frozen=True, eq=False)
+class MadeInlay:
+    """A pocket and the plug that fits into it, read back, proven, and laid into one another.
+
+    Attributes:
+        result: all that is known of them.
+    """
+
+    result: InlayPair
+
+    @property
+    def pocket(self) -> MadeProgram:
+        """The program of the pocket."""
+        return MadeProgram(self.result.pocket)
+
+    @property
+    def plug(self) -> MadeProgram:
+        """The program of the plug; its drawing is mirrored, x to -x."""
+        return MadeProgram(self.result.plug)
+
+    @property
+    def fit(self) -> InlayFit:
+        """How they fit, mm of height."""
+        return self.result.fit
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong with the fit; each program has its own."""
+        return self.result.findings
+
+    @property
+    def clean(self) -> bool:
+        """True when no finding counts, of the fit and of both programs."""
+        return self.result.clean
+
+    @property
+    def report(self) -> Report:
+        """Every measured number, by the keys of `inlay --report`."""
+        told: Report = json.loads(self.result.report())
+        return told
+
+    def save(self, path: str | os.PathLike[str]) -> tuple[Path, ...]:
+        """Write both programs, all files whole or none; return their paths: `path` with _pocket and _plug behind it.
+
+        Raises:
+            InputError: one cannot be written.
+        """
+        files = self.result.files(Path(path))
+        write_together(files)
+        return tuple(files)
+
+    def __str__(self) -> str:
+        return "\n".join([str(self.pocket), str(self.plug), self.fit.summary()])
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ from ..simulation.field.workpiece import Grid
 from ..usecases.batch.lanes import ProcessLane
 from ..usecases.batch.run import BatchRun
 from ..usecases.batch.task import BatchResult, BatchVerdict
-from ..usecases.cut import CutSetup
+from ..usecases.cut_setup import CutSetup
 from ..usecases.cut_tiles import CutTile, CutTileTask, cut_tile, tiled_grid, tiles_of
 from .batch_options import jobs_given
 from .command import OptionParser

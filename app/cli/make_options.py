@@ -207,6 +207,12 @@ def _tool_options(group: argparse._ArgumentGroup) -> None:
         help="proposed: speed and feeds for the material, tools, engagement and machine; --speed, --feed and --plunge "
         "go before them (default: as the job says, else those of the tools)",
     )
+    group.add_argument(
+        "--depths",
+        choices=["operations", "drawing"],
+        help="drawing: each shape as deep as the elevation or thickness of its curves says, or a text beside it, such "
+        "as t=4; what tells no depth is as deep as its operation (default: as the job says, else operations)",
+    )
     side = group.add_mutually_exclusive_group()
     side.add_argument(
         "--climb", action="store_const", dest="direction", const=Direction.CLIMB, help="metal right of travel (default)"
@@ -287,6 +293,7 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         propose=_proposal_from(arguments) if arguments.propose else None,
         material=arguments.material,
         propose_feeds=arguments.feeds == "proposed",
+        drawn_depths=arguments.depths == "drawing",
     )
 
 
@@ -299,7 +306,8 @@ def read_make_options(arguments: argparse.Namespace) -> MakeOptions:
     options = _with_tools(_with_job(make_options(arguments), arguments.job or arguments.template), arguments.tools)
     if arguments.template is not None and not options.rules:
         raise InputError(f"--template {arguments.template} has no [[layer]], so it is a job file; name it with --job")
-    return replace(options, propose_feeds=False) if arguments.feeds == "tools" else options
+    options = replace(options, propose_feeds=False) if arguments.feeds == "tools" else options
+    return replace(options, drawn_depths=False) if arguments.depths == "operations" else options
 
 
 def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
@@ -314,6 +322,7 @@ def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
         job=file.job,
         units=options.units or file.units,
         propose_feeds=options.propose_feeds or file.proposes_feeds,
+        drawn_depths=options.drawn_depths or file.drawn_depths,
         rules=file.rules,
     )
 

@@ -17,6 +17,7 @@ from ..geometry.chaining.pieces import FARTHEST, straightened, within_reach
 from ..geometry.sample import bounds, union
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from ..model.finding import Finding, FindingKind
+from ..model.notes import Mark
 from ..model.part import Entity, Part, Units
 from ..model.reading import ReadingOptions
 from .reading_question import ReadingQuestion, Size, strays_question
@@ -34,11 +35,31 @@ _COUNTABLE = 1e10
 """mm; beyond, neighbouring doubles are further apart than WELD, so that no shape is left to be moved."""
 
 
+class CurveHeights(NamedTuple):
+    """Where along Z a curve is drawn, drawing units.
+
+    Attributes:
+        low, high: of its points. thickness: how far it is drawn out from there, upwards.
+    """
+
+    low: float
+    high: float
+    thickness: float = 0.0
+
+    def lifted(self, z: float) -> CurveHeights:
+        """Return it in a block that is inserted at this height."""
+        return CurveHeights(self.low + z, self.high + z, self.thickness)
+
+
+LEVEL_ZERO = CurveHeights(0.0, 0.0)
+
+
 class LayeredCurve(NamedTuple):
-    """A curve as it was read, and the name of its layer."""
+    """A curve as it was read, the name of its layer, and where along Z it lies."""
 
     curve: Curve
     layer: str
+    heights: CurveHeights = LEVEL_ZERO
 
 
 class FarCurve(NamedTuple):
@@ -57,6 +78,7 @@ class UsableCurves:
         nothing: places of curves without length, None where there is no place.
         far: curves that lie beyond 1 km. placeless: how many have no place at all.
         moved: how far everything was moved, mm; None = not.
+        sources: the index of each entity among the curves that were read.
     """
 
     entities: tuple[Entity, ...]
@@ -64,6 +86,7 @@ class UsableCurves:
     far: list[FarCurve]
     placeless: int = 0
     moved: Point | None = None
+    sources: tuple[int, ...] = ()
 
     @property
     def missing(self) -> Counter[str]:
@@ -84,13 +107,14 @@ def usable_curves(
         anchors: tells whether a layer counts for where the drawing lies, which is then moved to zero; None: it stays.
         strokes: so many of the last ones are strokes of letters.
     """
-    placed = [(transformed(curve, to_mm) if to_mm is not None else curve, layer) for curve, layer in curves]
+    placed = [(transformed(curve, to_mm) if to_mm is not None else curve, layer) for curve, layer, _ in curves]
     moved = (
         None if anchors is None else _shift([curve for curve, layer in placed if curve is not None and anchors(layer)])
     )
     shift = None if moved is None else Affine(x0=moved[0], y0=moved[1])
     found = UsableCurves((), [], [], 0, moved)
     entities: list[Entity] = []
+    sources: list[int] = []
     lost = 0
     for left, (curve, layer) in zip(range(len(placed), 0, -1), placed, strict=True):
         drawn = (
@@ -100,11 +124,12 @@ def usable_curves(
             found.nothing.append(None if drawn is None else drawn.start)
         elif within_reach(drawn):
             entities.append(Entity(len(entities) + 1, drawn, layer, left <= strokes))
+            sources.append(len(placed) - left)
         elif all(map(math.isfinite, (*drawn.start, *drawn.end))):
             found.far.append(FarCurve(drawn.start, layer))
         else:
             lost += 1
-    return replace(found, entities=tuple(entities), placeless=lost)
+    return replace(found, entities=tuple(entities), placeless=lost, sources=tuple(sources))
 
 
 def strays_or_none(
@@ -222,10 +247,10 @@ def on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:
         )
     requested = {layer.casefold() for layer in layers}
     kept = tuple(entity for entity in part.entities if entity.layer.casefold() in requested)
-    if not kept:
-        raise InputError(f"{name}: layer {', '.join(layers)} has no lines, arcs or curves; choose another.")
     notes = tuple(note for note in part.notes if note.layer.casefold() in requested)
-    return Part(kept, part.layers, part.units, part.name, notes=notes)
+    if not kept and not any(isinstance(each.shape, Mark) for each in notes):
+        raise InputError(f"{name}: layer {', '.join(layers)} has no lines, arcs or curves; choose another.")
+    return Part(kept, part.layers, part.units, part.name, notes=notes, depths=part.depths)
 
 
 def remark(text: str, amount: float | None = None) -> Finding:

@@ -17,6 +17,12 @@ _DIAMETER = (
     Unit.LENGTH,
 )
 _THREAD = ("thread", "Thread", "its name in drawings, such as M6, 1/4-20 UNC or G1/4", Unit.CHOICE)
+LEFT_HAND = (
+    "left_hand",
+    "Left-handed",
+    "the thread turns to the left: it goes down as a helix that is turned counter-clockwise",
+    Unit.FLAG,
+)
 _SAME = 1e-6
 
 
@@ -44,11 +50,18 @@ class TapOperation(HoleOperation):
     thread: ThreadSize = parameter(ThreadSize.M6, *_THREAD, option=True)
     through: float = parameter(0.0, *THROUGH, high=1000.0, option=True)
 
+    left_hand: bool = parameter(False, *LEFT_HAND, option=True, choices=("Right", "Left"), short="Hand")
+
     WORD = "tap"
     TOOL = "tap"
     DRILLS = True
     TAPS = True
     UNUSED = STRAIGHT_DOWN
+
+    @property
+    def turns_left(self) -> bool:
+        """Whether its tool turns counter-clockwise on its way in."""
+        return self.left_hand
 
     @property
     def beyond(self) -> float:
@@ -171,16 +184,7 @@ class ThreadOperation(HoleOperation):
         short="Where",
     )
 
-    left_hand: bool = parameter(
-        False,
-        "left_hand",
-        "Left-handed",
-        "the thread turns to the left: it goes down as a helix that is turned counter-clockwise",
-        Unit.FLAG,
-        option=True,
-        choices=("Right", "Left"),
-        short="Hand",
-    )
+    left_hand: bool = parameter(False, *LEFT_HAND, option=True, choices=("Right", "Left"), short="Hand")
 
     WORD = "thread"
     TOOL = "thread-mill"

@@ -306,16 +306,16 @@ class Job:
         return None
 
     def same_paths(self, other: Job) -> bool:
-        """Return whether another job comes to the same paths: layers that hold nothing, colours, locks and what the
-        stock is made of make none.
+        """Return whether another job comes to the same paths: layers that hold nothing, colours, locks, depths that
+        the drawing tells, and what the stock is made of make none.
         """
         if self is other:
             return True
         mine, theirs = self.part, other.part
         stock = replace(self.stock, material=other.stock.material)
         return replace(self, part=theirs, stock=stock) == other and replace(
-            mine, layers=mine.machined_layers
-        ) == replace(theirs, layers=theirs.machined_layers)
+            mine, layers=mine.machined_layers, depths=()
+        ) == replace(theirs, layers=theirs.machined_layers, depths=())
 
     def check_operations(self) -> None:
         """Refuse a job that cannot be computed, whichever way.
@@ -333,6 +333,21 @@ class Job:
         for operation in self.operations:
             if operation.cut.enabled:
                 self.cutter(operation)
+                self.turns_left(operation.cut.tool)
+
+    def turns_left(self, number: int) -> bool:
+        """Return whether a tool turns counter-clockwise (M4).
+
+        Raises:
+            ParameterError: some operations want it to, and others do not.
+        """
+        ways = {each.turns_left for each in self.operations if each.cut.enabled and each.cut.tool == number}
+        if len(ways) > 1:
+            raise ParameterError(
+                f"T{number} is to cut left-handed threads and others too; a tap turns one way alone: give each its own "
+                "tool."
+            )
+        return True in ways
 
 
 def _alike(wanted: Operation, operation: Operation) -> bool:

@@ -292,6 +292,11 @@ class Operation:
         return 0.0
 
     @property
+    def turns_left(self) -> bool:
+        """Whether its tool turns counter-clockwise on its way in (M4)."""
+        return False
+
+    @property
     def takes_points(self) -> bool:
         """Whether drawn points are holes for it, as wide as its tool."""
         return False

@@ -8,6 +8,7 @@ from enum import Enum
 from typing import Any
 
 from .curves import Curve, Primitive
+from .drawn_depths import DrawnDepth
 from .notes import Note, Shape
 from .read_options import AS_DRAWN, DrawingOptions
 
@@ -66,6 +67,7 @@ class Part:
         used_id: the highest entity id that was ever given, where it is known; 0: the highest there is.
         notes: points, construction lines and dimensions, in the order of drawing; their ids are of the same count.
         reading: how it was read from a file of others, so that it can be read so again.
+        depths: that the drawing tells of its own; nothing is cut by them until somebody asks for it.
     """
 
     entities: tuple[Entity, ...] = ()
@@ -75,6 +77,7 @@ class Part:
     used_id: int = field(default=0, compare=False)
     notes: tuple[Note, ...] = ()
     reading: DrawingOptions = field(default=AS_DRAWN, compare=False)
+    depths: tuple[DrawnDepth, ...] = ()
 
     @property
     def machined_layers(self) -> tuple[Layer, ...]:

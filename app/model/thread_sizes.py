@@ -23,7 +23,7 @@ class ThreadForm(Enum):
 
 
 class ThreadSize(Enum):
-    """A thread by its name in drawings; all are right-handed.
+    """A thread by its name in drawings, to the right; operations say where one turns to the left.
 
     Attributes:
         major: diameter over the crests of the bolt, mm.

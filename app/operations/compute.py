@@ -17,6 +17,7 @@ from ..model.job import Job
 from ..model.moves import Program
 from ..model.operation import Order, Side
 from ..model.part import Contour, Region
+from ..model.stock_box import stock_box, work_origin
 from ..raster.fill import Observer
 from ..toolpath.bitmap_check import BitmapCheck
 from ..toolpath.coverage.flat import region_shapes
@@ -24,7 +25,7 @@ from ..toolpath.coverage.floor_target import CHORD
 from ..toolpath.drawn_contours import DrawnContours, drawn_contours
 from ..toolpath.drill_holes import across_holes
 from ..toolpath.machining_areas import MachiningAreas
-from ..toolpath.operation_context import OperationContext
+from ..toolpath.operation_context import OperationContext, ProgramDigits
 from ..toolpath.selected import selected, selection_findings
 from ..toolpath.witness import region_findings
 from . import builtin  # noqa: F401 (registers the kinds)
@@ -32,10 +33,11 @@ from .preparing import carry_out
 from .reckoning import job_effort
 
 
-def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | None = None) -> Program:
+def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | None = None, step: float = 0.0) -> Program:
     """Return every move of a job.
 
     Args:
+        step: of the digits that it is written with, mm; 0 = fine enough not to matter.
         observer: is shown the numbered steps of the bitmap fill (201-208); costs nothing when there is none.
 
     Raises:
@@ -50,6 +52,9 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     context = OperationContext(job, made.regions, MachiningAreas(job, parts), findings=about, observer=observer)
     if not context.regions and not lines:
         return Program(context.builder.moves(), findings=tuple(context.findings))
+    if step:
+        x, y, _ = work_origin(job, stock_box(job, made.regions, lines))
+        context.digits = ProgramDigits(step, (x, y))
     announce(job_effort(job, context.regions), progress)
     context.findings.extend(under_clamps(job, parts, context.regions))
     operations = in_order(job)

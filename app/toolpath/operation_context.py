@@ -12,6 +12,7 @@ from ..core.progress import Progress
 from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import OffsetLevel
 from ..geometry.primitives import contour_rows
+from ..model.curves import Point
 from ..model.entry import EntryKind
 from ..model.finding import Finding
 from ..model.job import Job
@@ -30,6 +31,21 @@ from .open_edges import BoxSides
 from .ordering.depth_order import in_order
 
 
+@dataclass(frozen=True, slots=True)
+class ProgramDigits:
+    """Places that the program can say to which paths are written.
+
+    Attributes:
+        step: of X and Y, mm; 0 = nobody knows, or it does not matter. zero: of the program, part coordinates, mm.
+    """
+
+    step: float = 0.0
+    zero: Point = (0.0, 0.0)
+
+
+ANY_DIGITS = ProgramDigits()
+
+
 @dataclass
 class OperationContext:
     """What all operations of one computation share.
@@ -42,6 +58,7 @@ class OperationContext:
         cleared: ground that was cut.
         observer: is shown the numbered steps of the fill.
         at: where the tool is, mm.
+        digits: of the program that is written.
     """
 
     job: Job
@@ -58,12 +75,13 @@ class OperationContext:
     tabs: list[Tab] = field(default_factory=list)
     dog_bones: list[DogBone] = field(default_factory=list)
     at: tuple[float, float] = (0.0, 0.0)
+    digits: ProgramDigits = ANY_DIGITS
 
     def apart(self) -> OperationContext:
         """Return a context of the same job that collects for itself, for an operation that is prepared beside
         others.
         """
-        return OperationContext(self.job, self.regions, self.areas, observer=self.observer)
+        return OperationContext(self.job, self.regions, self.areas, observer=self.observer, digits=self.digits)
 
     def take(self, prepared: OperationContext) -> None:
         """Put what was collected apart behind what there is."""

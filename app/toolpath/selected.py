@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from enum import Enum
 
 from ..geometry.as_circle import as_circle
 from ..model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer, Selector
+from ..model.fields import parameters_of
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.operation import Operation, Side
@@ -72,6 +74,12 @@ def selection_findings(job: Job, drawn: DrawnContours) -> list[Finding]:
     ]
 
 
+def _not_taken(operation: Operation) -> tuple[Enum, ...]:
+    """Return the sides that an operation refuses."""
+    side = parameters_of(type(operation)).get("side")
+    return () if side is None else side.parameter.not_taken
+
+
 def _usable(operation: Operation, found: SelectedCurves) -> bool:
     """Tell whether an operation can machine something of what was found."""
     if operation.wall_side is Side.ON:
@@ -89,7 +97,8 @@ def _about(operation: Operation, selector: Selector, drawn: DrawnContours, job: 
     if found.closed:
         why = "which is no circle to drill"
     elif found.open:
-        why = f"which is open, beginning at ({x:.3f}, {y:.3f}): close it, or follow it with side = on"
+        on = Side.ON not in _not_taken(operation)
+        why = f"which is open, beginning at ({x:.3f}, {y:.3f}): close it{', or follow it with side = on' if on else ''}"
     else:
         why = f"and there is none; {_there(selector, drawn, job)}"
     return Finding(FindingKind.LEFT_OUT, f"{who}, {why}.", x, y, entity_ids=ids)

@@ -19,7 +19,8 @@ from ..simulation.sweeps.course import TrimOptions
 from ..simulation.sweeps.trim import trim
 from ..verify.course import course_of
 from .batch.task import BatchResult, BatchRow, BatchVerdict
-from .cut import TRIM_BYTES_A_CELL, CutSetup
+from .cut_context import TRIM_BYTES_A_CELL
+from .cut_setup import CutSetup
 
 SIDE = 2048
 """Cells along a tile: 75 MB while it is cut. A multiple of the 256 that the kernels cut at a time, so that these are

@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 
 from ..core.errors import ParameterError
 from ..core.progress import NO_PROGRESS, Progress
+from ..gcode.posts.posts import load_post
 from ..geometry.distance import DistanceField
 from ..geometry.primitives import contour_rows
 from ..geometry.region import polygon_contour
@@ -116,6 +118,14 @@ class InlayPair:
         """True where neither program has a finding that counts, and they fit."""
         return self.pocket.clean and self.plug.clean and not self.findings
 
+    def files(self, base: Path) -> dict[Path, bytes]:
+        """Return both programs by their files: the name of `base` with _pocket and _plug behind it."""
+        files: dict[Path, bytes] = {}
+        for word, made in (("pocket", self.pocket), ("plug", self.plug)):
+            named = base.with_name(f"{base.stem}_{word}{load_post(made.job.post).extension}")
+            files |= {file.named(named): file.nc.text.encode("ascii") for file in made.files}
+        return files
+
     def report(self) -> bytes:
         """Return everything that was measured, as JSON."""
         fit = self.fit
@@ -149,8 +159,18 @@ def inlay(
         Cancelled: the job was asked to stop.
     """
     drawing = read_for(name, data, options)
-    jobs = inlay_jobs(job_from_drawing(drawing, options), sizes)
-    pocket = export(jobs.pocket, progress.part(0.0, 0.4), drawing.findings)
+    return inlay_of(job_from_drawing(drawing, options), sizes, progress, drawing.findings)
+
+
+def inlay_of(
+    job: Job,
+    sizes: InlayOptions,
+    progress: Progress = NO_PROGRESS,
+    drawing_findings: tuple[Finding, ...] = (),
+) -> InlayPair:
+    """Return the pocket of a job and its plug, and how they fit; args and errors as `inlay`."""
+    jobs = inlay_jobs(job, sizes)
+    pocket = export(jobs.pocket, progress.part(0.0, 0.4), drawing_findings)
     plug = export(jobs.plug, progress.part(0.4, 0.8))
     fit = fit_of(pocket, plug, jobs, sizes, progress.part(0.8, 1.0))
     return InlayPair(pocket, plug, fit, tuple(_fit_findings(fit, jobs, sizes)))

@@ -43,6 +43,7 @@ from ..verify.verdict import (
 from .bitmap_options import is_picture
 from .cut import CutProgram
 from .cut_job import MeasuredMoves, cut_job, news
+from .drawn_depths import JobToDepths, with_drawn_depths
 from .feeds import JobWithFeeds
 from .layer_operations import with_layer_rules
 from .machining import check_order
@@ -86,6 +87,7 @@ class MakeResult:
         proposal: that the operations are of; None where none was asked for.
         feeds: the speeds and feeds that were proposed; None where they are those of the job.
         ruled: what rules for layers have made, a line a layer.
+        depths: what was read of the drawing's own depths; None where nobody asked.
     """
 
     job: Job
@@ -99,6 +101,7 @@ class MakeResult:
     proposal: Proposal | None = None
     feeds: JobWithFeeds | None = None
     ruled: tuple[str, ...] = ()
+    depths: JobToDepths | None = None
 
     @property
     def nc(self) -> NcText:
@@ -108,7 +111,8 @@ class MakeResult:
     def proposed(self) -> list[str]:
         """Return what was proposed for the drawing, and why: operations, rules for layers, speeds and feeds."""
         operations = [] if self.proposal is None else self.proposal.lines()
-        return [*operations, *self.ruled, *(() if self.feeds is None else self.feeds.lines())]
+        depths = [] if self.depths is None else self.depths.lines()
+        return [*operations, *self.ruled, *depths, *(() if self.feeds is None else self.feeds.lines())]
 
     def frame(self) -> str:
         """Return the NC text that goes round the cuts at clearance height with the first tool, spindle off.
@@ -164,6 +168,8 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     if (proposal := context.proposal) is not None:
         made = replace(made, report=made.report.with_proposal(proposal.report()), proposal=proposal)
     made = replace(made, ruled=context.ruled)
+    if (depths := context.depths) is not None:
+        made = replace(made, report=made.report.with_depths(depths.report()), depths=depths)
     if (feeds := context.feeds) is not None:
         made = replace(made, report=made.report.with_feeds(feeds.report()), feeds=feeds)
     if not len(made.program.moves):
@@ -185,6 +191,7 @@ class MakeContext:
         proposal: the operations that were proposed; None where they were given.
         feeds: the speeds and feeds that were proposed; None where they were given.
         ruled: what rules for layers have made, a line a layer.
+        depths: what was read of the drawing's own depths; None where nobody asked.
     """
 
     job: Job
@@ -196,6 +203,7 @@ class MakeContext:
     proposal: Proposal | None = None
     feeds: JobWithFeeds | None = None
     ruled: tuple[str, ...] = ()
+    depths: JobToDepths | None = None
 
 
 def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
@@ -207,10 +215,23 @@ def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -
         from .proposed_job import with_proposal
 
         options, proposal = with_proposal(drawing.part, options, progress)
-    found = (*ruled.findings, *(proposal.findings if proposal else ()), *drawing.findings)
-    fed = with_feeds(job_from_drawing(drawing, options), options)
+    job, depths = job_from_drawing(drawing, options), None
+    if options.drawn_depths:
+        depths = with_drawn_depths(job)
+        job = depths.job
+    found = (
+        *ruled.findings,
+        *(depths.findings if depths else ()),
+        *(proposal.findings if proposal else ()),
+        *drawing.findings,
+    )
+    fed = with_feeds(job, options)
     return replace(
-        _exact_context(fed.job, found, options.machine), proposal=proposal, feeds=_proposed(fed), ruled=ruled.lines
+        _exact_context(fed.job, found, options.machine),
+        proposal=proposal,
+        feeds=_proposed(fed),
+        ruled=ruled.lines,
+        depths=depths,
     )
 
 
@@ -224,7 +245,9 @@ def _exact_context(job: Job, findings: tuple[Finding, ...], machine: Machine | N
     job.check_operations()
     whole = job.prepared()
     whole.check_operations()
-    return MakeContext(whole, load_post(job.post), machine, findings, lambda progress: compute(whole, progress))
+    post = load_post(job.post)
+    step = job.out_units.value * 10.0 ** -post.digits(job.out_units).X
+    return MakeContext(whole, post, machine, findings, lambda progress: compute(whole, progress, step=step))
 
 
 def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
@@ -234,6 +257,8 @@ def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress)
 
     if options.rules:
         raise InputError("Rules for layers have no effect on pixels, which have none; leave the template away.")
+    if options.drawn_depths:
+        raise InputError("--depths drawing has no effect on pixels, which tell no depth; leave it away.")
     ready = bitmap_job(name, data, options)
     fed = with_feeds(ready.job, options)
     return MakeContext(

@@ -74,6 +74,7 @@ class MakeOptions:
         material: of the stock; None = as the job says.
         propose_feeds: give the tools the speed and the feeds that are proposed for the material; `feed`, `plunge` and
             `speed` go before that.
+        drawn_depths: cut shapes to the depths that the drawing tells of them.
     """
 
     job: Job | None = None
@@ -102,6 +103,7 @@ class MakeOptions:
     rules: tuple[LayerRule, ...] = ()
     material: str | None = None
     propose_feeds: bool = False
+    drawn_depths: bool = False
 
 
 def job_with_options(part: Part, options: MakeOptions) -> Job:

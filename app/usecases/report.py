@@ -98,6 +98,10 @@ class MakeReport:
         """Return it with what was proposed, and why."""
         return MakeReport({**self.data, "proposal": proposal})
 
+    def with_depths(self, depths: Json) -> MakeReport:
+        """Return it with the depths that were read of the drawing."""
+        return MakeReport({**self.data, "depths": depths})
+
     def with_feeds(self, feeds: Json) -> MakeReport:
         """Return it with the speeds and feeds that were proposed, and why."""
         return MakeReport({**self.data, "feeds": feeds})

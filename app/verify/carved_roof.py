@@ -14,11 +14,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.distance import DistanceField
 from ..geometry.primitives import CX, TURN, Primitives, R, lengths, points_at, sweeps
+from ..toolpath.linking.bridge import foot
 
 Floats = NDArray[np.float64]
 
@@ -34,11 +36,14 @@ _FAN = math.radians(2)
 _ROUNDS = 10
 """Times that discs are put between those that are farther apart than STEP."""
 
-_HALVINGS = 44
+_SHRINKS, _HALVINGS = 12, 44
 _EMPTY = 1e-9
-_PORTION = 256
+_PORTION = 96
 _NEAR = 0.25
-"""mm; motions farther than this from a portion's discs are left aside, and asked only where the others leave more."""
+"""mm; motions farther than this from a portion's discs are left aside, and asked where the others leave too much."""
+
+_TOO_MUCH = 4e-3
+"""mm; less than counts as left."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,11 +101,12 @@ def prove_roof(path: ConePath, walls: Primitives, reported: float, progress: Pro
     discs = _discs(elements, DistanceField.of(walls.rows), most, progress.part(0.0, 0.5))
     blunt = discs.radius < path.tip
     left = np.zeros(len(blunt))
+    carving = _Carving.of(path)
     chosen = np.flatnonzero(~blunt)
     for first in range(0, len(chosen), _PORTION):
         progress.step(0.5 + 0.5 * first / len(chosen), "Prove what is carved")
         some = chosen[first : first + _PORTION]
-        left[some] = _uncarved(path, discs.centres[some], discs.radius[some])
+        left[some] = _uncarved(carving, discs.centres[some], discs.radius[some])
     height = left / path.rate
     worst = int(np.argmax(height))
     x, y = discs.centres[worst].tolist()
@@ -215,34 +221,81 @@ def _discs(walls: _Elements, field: DistanceField, most: float, progress: Progre
 
 
 def _largest(field: DistanceField, feet: Floats, normals: Floats, most: float, progress: Progress) -> Floats:
-    """Return the radius of the largest disc behind each foot that holds no wall, up to so many mm: a smaller one in it
-    holds none either, so halving finds it.
+    """Return the radius of the largest disc behind each foot that holds no wall, up to so many mm.
+
+    None that is empty is larger than the one through the foot and any place of a wall, so the place that is nearest to
+    a disc's centre makes it smaller until it is empty. What takes longer, as where a wall bends as much as the disc, is
+    found by halving: a smaller disc in an empty one is empty.
     """
-    low, high = np.zeros(len(feet)), np.full(len(feet), most)
-    for k in range(_HALVINGS):
-        progress.step(k / _HALVINGS, "Prove what is carved")
-        radius = (low + high) / 2 if k else high
-        far = field.nearest(feet + normals * radius[:, None])[0]
-        empty = far >= radius - _EMPTY
+    found, left = np.full(len(feet), most), np.arange(len(feet))
+    for k in range(_SHRINKS):
+        progress.step(k / _SHRINKS, "Prove what is carved")
+        centres = feet[left] + normals[left] * found[left, None]
+        far, row = field.nearest(centres)
+        full = far < found[left] - _EMPTY
+        left, centres, row = left[full], centres[full], row[full]
+        if not len(left):
+            return found
+        across = foot(field.rows[row], centres) - feet[left]
+        ahead = np.einsum("ni,ni->n", across, normals[left])
+        through = np.einsum("ni,ni->n", across, across) / np.maximum(2 * ahead, 1e-300)
+        found[left] = np.where(ahead > 0, np.minimum(through, found[left]), found[left])
+    low, high = np.zeros(len(left)), found[left]
+    for _ in range(_HALVINGS):
+        radius = (low + high) / 2
+        empty = field.nearest(feet[left] + normals[left] * radius[:, None])[0] >= radius - _EMPTY
         low, high = np.where(empty, radius, low), np.where(empty, high, radius)
-    return low
+    found[left] = low
+    return found
 
 
-def _uncarved(path: ConePath, centres: Floats, radius: Floats) -> Floats:
+@dataclass(frozen=True, eq=False)
+class _Carving:
+    """Motions of a cone, found by where they are.
+
+    Attributes:
+        low, high: (n, 2) corners of their boxes. wide: (n,) radius of the cone at the surface, where it is deepest, mm.
+        tree: of the boxes.
+    """
+
+    path: ConePath
+    low: Floats
+    high: Floats
+    wide: Floats
+    tree: shapely.STRtree
+
+    @staticmethod
+    def of(path: ConePath) -> _Carving:
+        low, high = (pick(path.start[:, :2], path.end[:, :2]) for pick in (np.minimum, np.maximum))
+        wide = path.tip - np.minimum(path.start[:, 2], path.end[:, 2]) * path.rate
+        return _Carving(path, low, high, wide, shapely.STRtree(shapely.box(*low.T, *high.T)))
+
+    def near(self, centres: Floats, radius: Floats, left: float, far: float) -> NDArray[np.int64]:
+        """Return the motions within a distance of some discs, mm, that may leave less of one of them than so much, mm.
+
+        A cone leaves at least the distance of its axis and the disc's radius, less its own at the surface.
+        """
+        first, last = centres.min(axis=0), centres.max(axis=0)
+        around = shapely.box(*(first - far), *(last + far))
+        found: NDArray[np.int64] = np.sort(self.tree.query(around))
+        beside = np.hypot(*np.maximum(np.maximum(first - self.high[found], self.low[found] - last), 0).T)
+        near: NDArray[np.int64] = found[(radius.min() - self.wide[found] + beside <= left) & (beside <= far)]
+        return near
+
+
+def _uncarved(carving: _Carving, centres: Floats, radius: Floats) -> Floats:
     """Return by how much cones are too narrow or too far from discs, mm, each by the motion that is best for it."""
-    wide = path.tip - np.minimum(path.start[:, 2], path.end[:, 2]) * path.rate
-    (x0, y0), (x1, y1) = centres.min(axis=0), centres.max(axis=0)
-    xs = np.sort(np.stack([path.start[:, 0], path.end[:, 0]]), axis=0)
-    ys = np.sort(np.stack([path.start[:, 1], path.end[:, 1]]), axis=0)
-    beside = np.hypot(
-        np.maximum(np.maximum(x0 - xs[1], xs[0] - x1), 0), np.maximum(np.maximum(y0 - ys[1], ys[0] - y1), 0)
-    )
-    useful = radius.min() - wide + beside <= _NEAR
-    near, rest = np.flatnonzero(useful & (beside <= _NEAR)), np.arange(len(wide))
-    found = _by_motions(path, near, centres, radius)
-    again = np.flatnonzero(found > _NEAR)
+    found = _by_motions(carving.path, carving.near(centres, radius, _NEAR, _NEAR), centres, radius)
+    again = np.flatnonzero(found > _TOO_MUCH)
     if len(again):
-        found[again] = _by_motions(path, rest, centres[again], radius[again])
+        near, small = centres[again], radius[again]
+        left = min(float(found[again].max()), float(small.max() + np.abs(carving.wide).max()))
+        far = max(_NEAR, float(carving.wide.max() - small.min()) + left)
+        more = _by_motions(carving.path, carving.near(near, small, left, far), near, small)
+        found[again] = np.minimum(found[again], more)
+    lost = np.flatnonzero(np.isinf(found))
+    if len(lost):
+        found[lost] = _by_motions(carving.path, np.arange(len(carving.wide)), centres[lost], radius[lost])
     return found
 
 

@@ -36,8 +36,9 @@ _STEEP = 5e-4
 _COARSE, _FINEST = 0.1, 1e-6
 """Length of the first pieces in radii of the cutter, and of the last ones, mm."""
 
-_CRACK = 1e-3
-"""mm by which a sector counts as wider than its arc: the cutter is round at both ends of the arc."""
+_CRACK = 4e-3
+"""mm by which a sector counts as wider than its arc: the cutter is round at both ends of the arc. Where an arc goes on
+in another one, as much may be between their centres: two of the coarsest digits each way."""
 
 _WHOLE = 1e-3
 """mm; a disc that is smaller by less than what its arcs sweep needs no sectors beside it."""

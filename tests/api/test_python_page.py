@@ -14,7 +14,7 @@ import app as hitofude
 from tests.conftest import ROOT
 
 PAGE = ROOT / "resources" / "docs" / "python.md"
-SAMPLES = ("fig2.dxf", "spheres.toml")
+SAMPLES = ("fig2.dxf", "inlay.draw", "spheres.toml")
 
 
 @pytest.fixture
@@ -34,11 +34,12 @@ def examples() -> list[str]:
 def test_the_examples_run(beside: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "hitofude", hitofude)
     names: dict[str, object] = {}
-    assert len(examples()) == 6
+    assert len(examples()) == 7
     for code in examples():
         exec(code, names)
     written = {path.name for path in beside.iterdir()} - set(SAMPLES)
-    assert written == {"fig2.ngc", "fig2.pdf", "job_1_T1.nc", "job_2_T2.nc", "smooth.ngc", "spheres.ngc"}
+    inlay = {"badge_pocket.ngc", "badge_plug.ngc"}
+    assert written == {"fig2.ngc", "fig2.pdf", "job_1_T1.nc", "job_2_T2.nc", "smooth.ngc", "spheres.ngc"} | inlay
 
 
 def test_its_program_is_that_of_the_command_line(beside: Path) -> None:

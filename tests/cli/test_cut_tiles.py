@@ -15,7 +15,7 @@ from app.core.progress import NO_PROGRESS
 from app.core.resources import resource
 from app.simulation.field.workpiece import Grid
 from app.simulation.heights_file import read_heights
-from app.usecases.cut import CutSetup
+from app.usecases.cut_setup import CutSetup
 from app.usecases.cut_tiles import heights_on, tiled_grid, tiles_of
 from app.usecases.setup import setup_of
 

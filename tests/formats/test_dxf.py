@@ -289,8 +289,13 @@ def test_entities_without_length_are_counted_and_located() -> None:
 
 
 def test_drawing_without_curves_is_refused_with_what_it_has() -> None:
-    with pytest.raises(InputError, match=r"part\.dxf: the drawing has no lines.*left out: 1 POINT"):
-        read(lambda space: space.add_point((1, 2)))
+    with pytest.raises(InputError, match=r"part\.dxf: the drawing has no lines.*left out: 1 3DFACE"):
+        read(lambda space: space.add_3dface([(0, 0), (1, 0), (1, 1)]))
+
+
+def test_a_drawing_of_points_alone_is_read_for_drills() -> None:
+    part = read(lambda space: space.add_point((1, 2))).part
+    assert not part.entities and [note.shape for note in part.notes] == [Mark((1.0, 2.0))]
 
 
 def test_other_kinds_of_files_are_refused_with_what_can_be_read() -> None:

@@ -106,10 +106,23 @@ def _tool(kind: str, diameter: float, angle: float = 0.0) -> tuple[str, Shape]:
     return text, Shape(diameter / 2, fall)
 
 
+def _some(rng: random.Random, *lines: str) -> str:
+    """Return some of the lines of a table, about half of them."""
+    return "".join(f"{line}\n" for line in lines if rng.random() < 0.5)
+
+
 def _clear(rng: random.Random, kind: str) -> Work:
     lines, shape = area(rng)
     diameter, depth = rng.choice([1.0, 2.0, 3.0, 3.175, 4.0]), rng.choice([1.0, 2.5])
     text = f'kind = "{kind}"\ndepth = {depth}\nstepdown = {rng.choice([1.0, 2.5])}\n'
+    entry = rng.choice(['entry = "ramp"', 'entry = "plunge"', "entry_angle = 8"])
+    text += _some(rng, 'direction = "conventional"', entry)
+    text += _some(rng, "finish_depth = 0.2")
+    if kind == "pocket":
+        text += _some(rng, "outside_in = true", f"stepover = {round(diameter * rng.uniform(0.2, 1), 3)}")
+    leave = rng.choice([0.0, 0.0, 0.25])
+    if leave:
+        text, shape = f"{text}stock_to_leave = {leave}\n", shape.buffer(-leave, ROUND)
     judge = _floor(shape, _opened(shape, diameter / 2), depth)
     return Work(kind, lines, [text], [_tool("flat", diameter)], judge)
 
@@ -125,7 +138,11 @@ def _rest(rng: random.Random) -> Work:
 def _contour(rng: random.Random) -> Work:
     lines, shape = area(rng)
     side, radius, depth = rng.choice(["inside", "outside", "on"]), rng.choice([0.5, 1.0, 1.5875]), 1.5
-    text = f'kind = "contour"\nside = "{side}"\ndepth = {depth}\n'
+    text = f'kind = "contour"\nside = "{side}"\ndepth = {depth}\nstepdown = {rng.choice([0.5, 1.5])}\n'
+    text += _some(rng, 'direction = "conventional"', f'lead = "{rng.choice(["line", "none"])}"', "spring_passes = 1")
+    if side != "on":
+        text += _some(rng, "finish_width = 0.15")
+        text += _some(rng, "finish_each_pass = true") if "finish_width" in text else ""
     path = shape.boundary if side == "on" else shape.buffer(radius * (1 if side == "outside" else -1), ROUND).boundary
     swept = path.buffer(radius - 1e-3, ROUND)
     everywhere = shapely.box(-100, -100, 100, 100)
@@ -170,6 +187,35 @@ def _holes(rng: random.Random, kind: str) -> Work:
     return Work(kind, [f"circle {x},{y} {radius}" for x, y in centres], [text], [tool], judge)
 
 
+def _ream(rng: random.Random) -> Work:
+    radius, depth, through = round(rng.uniform(1, 4), 2), 2.0, rng.choice([0.0, 0.5])
+    texts = [f'kind = "{kind}"\ndepth = {depth}\nthrough = {through}\n' for kind in ("drill", "ream")]
+    texts[0] += f"least = {1.9 * radius}\nmost = {2.1 * radius}\n"
+    drill = _tool("drill", round(2 * radius - 0.2, 2), 118)
+    centres = [(-8.0, 1.0), (6.0, -5.0)]
+
+    def judge(x: Floats, y: Floats) -> Wanted:
+        away = np.min([np.hypot(x - a, y - b) for a, b in centres], axis=0)
+        point = -depth - through - np.maximum(drill[1].radius - away, 0.0) * drill[1].fall
+        return Wanted(
+            np.where(away <= radius + DOUBT, point, 0.0),
+            np.where(away <= radius - DOUBT, -depth - through, np.nan),
+        )
+
+    lines = [f"circle {x},{y} {radius}" for x, y in centres]
+    return Work("ream", lines, texts, [drill, _tool("reamer", 2 * radius)], judge)
+
+
+def _face(rng: random.Random) -> Work:
+    text = f'kind = "face"\npattern = "{rng.choice(["zigzag", "one-way", "spiral"])}"\n'
+
+    def judge(x: Floats, y: Floats) -> Wanted:
+        within = (np.abs(x) < 12) & (np.abs(y) < 12)
+        return Wanted(np.zeros_like(x), np.where(within, 0.0, np.nan))
+
+    return Work("face", ["circle 0,0 5"], [text], [_tool("flat", rng.choice([6.0, 10.0]))], judge)
+
+
 def _vcarve(rng: random.Random) -> Work:
     lines, shape = area(rng)
     angle = rng.choice([60, 90])
@@ -211,6 +257,8 @@ KINDS: dict[str, Callable[[random.Random], Work]] = {
     "drill": lambda rng: _holes(rng, "drill"),
     "bore": lambda rng: _holes(rng, "bore"),
     "countersink": lambda rng: _holes(rng, "countersink"),
+    "ream": _ream,
+    "face": _face,
     "vcarve": _vcarve,
     "chamfer": _chamfer,
 }
@@ -222,6 +270,12 @@ class AnyJob:
 
     works: list[Work]
     control: str
+    output: str = ""
+
+    @property
+    def above(self) -> float:
+        """How high the stock stands above zero, mm: where it is faced first."""
+        return 1.5 if self.works[0].kind == "face" else 0.0
 
     @property
     def drawing(self) -> str:
@@ -235,15 +289,16 @@ class AnyJob:
     @property
     def tables(self) -> str:
         """Its job file."""
-        made = ["[stock]\nthickness = 50.0\nmargin = 12.0\n"]
+        made = [f"[stock]\nthickness = 50.0\nmargin = 12.0\nabove = {self.above}\n[heights]\nretract_z = 2.5\n"]
         number = 0
         for k, work in enumerate(self.works):
             for n, (text, _) in enumerate(work.tools, 1):
                 made.append(f"[[tool]]\nnumber = {number + n}\n{text}")
+            curves = "" if work.kind == "face" else f'curves = ["layer:W{k}"]\n'
             for n, text in enumerate(work.operations, 1):
-                made.append(f'[[operation]]\n{text}tool = {number + n}\ncurves = ["layer:W{k}"]\n')
+                made.append(f"[[operation]]\n{text}tool = {number + n}\n" + curves)
             number += len(work.tools)
-        return "\n".join([*made, f'[output]\npost = "{self.control}"\n'])
+        return "\n".join([*made, f'[output]\npost = "{self.control}"\n{self.output}'])
 
     @property
     def shapes(self) -> dict[int, Shape]:
@@ -260,4 +315,8 @@ def _moved(line: str, by: float) -> str:
 def any_job(seed: int, kinds: tuple[str, ...], control: str) -> AnyJob:
     """Return a random job of some kinds for a control."""
     rng = random.Random(f"{seed} {control} {kinds}")
-    return AnyJob([KINDS[kind](rng) for kind in kinds], control)
+    works = [KINDS[kind](rng) for kind in sorted(kinds, key=lambda kind: kind != "face")]
+    output = _some(rng, 'units = "in"', 'order = "1986"', "exact_path = true")
+    if rng.random() < 0.5:
+        output += f'[origin]\nxy = "{rng.choice(["lower-left", "centre"])}"\nz = "{rng.choice(["top", "bottom"])}"\n'
+    return AnyJob(works, control, output)

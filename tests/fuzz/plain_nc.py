@@ -26,12 +26,16 @@ class Cut:
     rapid: bool
 
 
+_ORIGIN = re.compile(r"ORIGIN_MM=([-\d.]+),([-\d.]+),([-\d.]+)")
+
+
 class PlainReader:
-    """Follows one text; the tool begins high above zero."""
+    """Follows one text; the tool begins high above zero. Motions are in the drawing's coordinates."""
 
     def __init__(self, control: str, tool: int) -> None:
         self.control, self.tool = control, tool
         self.at: Place = (0.0, 0.0, 100.0)
+        self.origin: Place = (0.0, 0.0, 0.0)
         self.cuts: list[Cut] = []
         self.motion, self.unit = "G0", 1.0
         self.cycle: dict[str, float] = {}
@@ -39,6 +43,8 @@ class PlainReader:
 
     def read(self, text: str) -> list[Cut]:
         """Return all motions."""
+        if found := _ORIGIN.search(text.upper()):
+            self.origin = (float(found[1]), float(found[2]), float(found[3]))
         for line in text.splitlines():
             code = re.sub(r"\(.*?\)|;.*", "", line.upper()).strip()
             if code and code[0] not in "%O":
@@ -109,5 +115,9 @@ class PlainReader:
 
     def _to(self, goal: Place, rapid: bool) -> None:
         if goal != self.at:
-            self.cuts.append(Cut(self.tool, self.at, goal, rapid))
+            self.cuts.append(Cut(self.tool, self._drawn(self.at), self._drawn(goal), rapid))
             self.at = goal
+
+    def _drawn(self, place: Place) -> Place:
+        x, y, z = self.origin
+        return place[0] + x, place[1] + y, place[2] + z

@@ -9,9 +9,13 @@ import pytest
 from PySide6.QtWidgets import QWidget
 
 from app.model.operation import Side
+from app.ui.framework.catalogue import tr
 from app.ui.framework.computation import ComputationState
+from app.ui.framework.view import View
+from app.ui.shell.translation import translate_all
 from app.ui.shell.window_controller import WindowController
 from tests.ui.manual_tour import DOCS, ManualTour, typed_lines
+from tests.ui.test_translation import left_english, seen_texts
 
 WAIT_MS = 60_000
 
@@ -83,3 +87,32 @@ def test_the_foreign_program(tour, taken, wiring) -> None:
 def test_the_lesson(tour, taken) -> None:
     tour.five_texts()
     assert taken.names == shown_on("lesson")
+
+
+NAMES = {"untitled", "fig2", "plate", "holes", "engraving", "nameplate", "slots", "guides", "ring", "scale"}
+"""Of parts and layers: they stand as they are in both languages."""
+
+
+@pytest.mark.exhaustive
+def test_the_tour_leaves_nothing_in_english(qtbot, wiring) -> None:
+    """What is shown and logged along the way, numbers' sentences too, is Japanese, but for names."""
+    left = set[str]()
+
+    def take(name: str, widget: QWidget) -> None:
+        translate_all(wiring.window_)
+        replies = {tr(line.reply) for line in wiring.log.lines}
+        left.update(left_english(seen_texts(wiring.window_) | replies))
+
+    tour = ManualTour(wiring, lambda done: qtbot.waitUntil(done, timeout=WAIT_MS), lambda _: None, take)
+    wiring.window_.actions_["language_ja"].trigger()
+    try:
+        tour.first_part()
+        tour.operation("slots", "slots.draw", "slots.toml", View.PATHS)
+        tour.five_texts()
+    finally:
+        wiring.window_.actions_["language_en"].trigger()
+    named = re.compile(r"\S+\.(draw|dxf|ngc|toml)\b|^(layer|circles):")
+    assert sorted(text for text in left - NAMES if not named.search(text) and not TOOL.match(text)) == []
+
+
+TOOL = re.compile(r"T\d+ +\w")

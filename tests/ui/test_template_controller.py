@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from app.core.resources import resource
 from app.model.contour_operation import ContourOperation
+from app.model.drawn_depths import DepthSource, DrawnDepth
 from app.model.operation import PocketOperation
 
 WAIT_MS = 20_000
@@ -49,4 +52,20 @@ def test_what_does_not_fit_is_said_and_changes_nothing(qtbot, wiring, tmp_path) 
         with qtbot.waitSignal(wiring.template_controller.failed, timeout=WAIT_MS) as told:
             wiring.template_controller.apply(path)
         assert words in told.args[0]
+    assert wiring.document.job == before
+
+
+def test_the_drawing_s_own_depths_are_taken_as_one_step(qtbot, wiring) -> None:
+    wiring.document.run("rectangle 0,0 30,30")
+    job = wiring.document.job
+    told = DrawnDepth(DepthSource.TEXT, 4.0, "t=4", (5.0, 5.0), (), 2.0)
+    unclear = DrawnDepth(DepthSource.TEXT, None, "depth?", (50.0, 50.0), (), 2.0)
+    wiring.document.change_job("depths", replace(job, part=replace(job.part, depths=(told, unclear))))
+    before = wiring.document.job
+    with qtbot.waitSignal(wiring.template_controller.worker.done, timeout=WAIT_MS):
+        wiring.template_controller.take_depths()
+    assert {each.cut.depth for each in wiring.document.job.operations} == {4.0}
+    assert "1 depth not understood" in wiring.window_.notice.text.text()
+    assert any("text 't=4': 4 mm deep" in line.reply for line in wiring.log.lines)
+    wiring.window_.actions_["undo"].trigger()
     assert wiring.document.job == before

@@ -61,6 +61,21 @@ def test_other_controls_are_proven_as_well(post: str) -> None:
     assert made.clean and operation["engaged"]["motions_above"] == 0
 
 
+@pytest.mark.parametrize(
+    ("drawing", "more"),
+    [
+        ("circle 7.3331,2.0004 8.1117\n", ""),
+        ("rectangle 0,0 33.3333,14.1415\n", 'direction = "conventional"\n[origin]\nxy = "centre"\n'),
+        ("line 0,0 30,0 30,9 12,9 12,26 0,26 0,0\n", ""),
+    ],
+)
+def test_three_decimals_keep_the_limit_too(drawing: str, more: str) -> None:
+    """Spirals and discs stand on the digits of the control; before that, slivers took up to half a degree more."""
+    made = made_of(drawing, JOB + more + '[output]\npost = "fanuc"\n')
+    engaged = json.loads(made.report.text())["operations"][0]["engaged"]
+    assert engaged["motions_above"] == 0 and 53.5 < engaged["greatest_deg"] <= 55
+
+
 @pytest.mark.exhaustive
 def test_the_sample_is_clean() -> None:
     options = MakeOptions(job=read_job("adaptive.toml", resource("samples", "adaptive.toml").read_bytes()).job)

@@ -289,6 +289,24 @@ def test_taps_are_written_as_cycles(post: str) -> None:
         assert_same_cuts(made)
 
 
+@pytest.mark.parametrize("post", ["fanuc", "haas", "linuxcnc"])
+def test_taps_to_the_left_turn_counter_clockwise(post: str) -> None:
+    made = made_of(TAP + "left_hand = true\n", post=post)
+    text = "\n".join(blocks(made))
+    assert made.clean and "G84" not in text and text.count("G74") == (2 if post == "linuxcnc" else 1)
+    assert text.count("S500 M4") == 1 and ("M29 S500\nG98 G74" in text) == (post == "fanuc")
+    assert "counter-clockwise (M4)" in tampered(made, "M4", "M3") or post == "linuxcnc"
+    assert "that the tap comes out" in tampered(made, "G74", "G84") or post == "linuxcnc"
+    if post == "linuxcnc":
+        assert_same_cuts(made)
+
+
+def test_a_tap_turns_one_way_alone() -> None:
+    both = TAP + 'left_hand = true\ncurves = ["circles:5"]\n' + '[[operation]]\nkind = "tap"\ntool = 3\nthread = "M6"\n'
+    with pytest.raises(ParameterError, match="a tap turns one way alone"):
+        made_of(both)
+
+
 @pytest.mark.parametrize("post", ["grbl", "mach3"])
 def test_where_no_cycle_taps_the_program_is_refused(post: str) -> None:
     with pytest.raises(ParameterError, match="has no cycle that taps"):

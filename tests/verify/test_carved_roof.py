@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
+from app.core.progress import NO_PROGRESS
+from app.geometry.distance import DistanceField
 from app.geometry.primitives import pack
 from app.geometry.region import nested
-from app.verify.carved_roof import ConePath, prove_roof
+from app.model.part import Contour
+from app.verify.carved_roof import ConePath, _discs, _Elements, prove_roof
 from tests.part_shapes import circle, square
 
 PYRAMID = ConePath(
@@ -60,3 +65,20 @@ def test_the_greatest_depth_is_all_that_is_asked() -> None:
     path = ConePath(ring[:-1], ring[1:], 0.0, 1.0, 2.0)
     assert prove_roof(path, walls, 0.005).left_mm < 1e-4
     assert prove_roof(replace(path, greatest=3.0), walls, 0.005).left_mm == pytest.approx(2.0, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("contour", "radius"),
+    [(square(20), lambda foot: np.sort(np.r_[foot, 20 - foot])[1]), (circle(4.0, 3, 2), lambda foot: 4.0)],
+    ids=["square", "circle"],
+)
+def test_largest_discs_behind_walls_have_their_closed_forms(
+    contour: Contour, radius: Callable[[NDArray[np.float64]], float]
+) -> None:
+    """In a square as far as the next corner; in a circle, which bends as much as the disc, the circle itself."""
+    walls = pack(nested([contour]).regions)
+    elements = _Elements.of(walls)
+    discs = _discs(elements, DistanceField.of(walls.rows), 11.0, NO_PROGRESS)
+    feet, _ = elements.feet(discs.wall, discs.share)
+    assert len(feet) > 50
+    assert np.allclose(discs.radius, [radius(foot) for foot in feet], atol=2e-6)

@@ -30,12 +30,10 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     job = read_job(arguments.job.name, read_input(arguments.job))
     sizes = InlayOptions(arguments.glue, arguments.gap, arguments.saw)
     pair = inlay(arguments.drawing.name, read_input(arguments.drawing), MakeOptions(job=job.job), sizes, progress)
-    files: dict[Path, bytes] = {}
+    files = pair.files(arguments.output)
     lines = []
-    for word, made in (("pocket", pair.pocket), ("plug", pair.plug)):
-        base = arguments.output.with_name(f"{arguments.output.stem}_{word}.ngc")
-        written = {file.named(base): file.nc.text.encode("ascii") for file in made.files}
-        files |= written
+    for word, made in (("_pocket", pair.pocket), ("_plug", pair.plug)):
+        written = [path for path in files if word in path.name.removeprefix(arguments.output.stem)]
         lines += [made.report.summary(", ".join(map(str, written))), *finding_lines(made.findings)]
     lines += [pair.fit.summary(), *finding_lines(pair.findings)]
     files |= {path: pair.report() for path in outputs.values()}

@@ -13,8 +13,17 @@ from typing import Any, NamedTuple
 from ...core.errors import HitofudeError, InputError
 from ...geometry.affine import Affine, transformed
 from ...model.curves import Point
-from ..drawing_account import MOST_CURVES, LayeredCurve
-from .curves import DamagedCurveError, NegativeRadiusError, NoLengthError, curves_of, heights_of, plane_of, widths_of
+from ..drawing_account import LEVEL_ZERO, MOST_CURVES, LayeredCurve
+from .curves import (
+    DamagedCurveError,
+    NegativeRadiusError,
+    NoLengthError,
+    curves_of,
+    drawn_heights,
+    heights_of,
+    plane_of,
+    widths_of,
+)
 from .fonts import Fonts
 from .hatch import Hatch, hatch_of
 from .letters import LeftOutError, TextCurves
@@ -148,7 +157,7 @@ class DxfContent:
 
     def layers(self) -> Iterator[str]:
         """Yield the layer of every curve."""
-        yield from (layer for _, layer in self.curves)
+        yield from (each.layer for each in self.curves)
         for each in self.more():
             yield from (each.layer for _ in range(each.size))
 
@@ -250,10 +259,11 @@ class DxfWalker:
             content.left_out[kind] += 1
             return
         content.see(heights_of(entity))
+        lies = drawn_heights(entity) if curves else LEVEL_ZERO
         widths = widths_of(entity)
         if widths and curves:
             content.bands.append(WidePolyline(curves[0].start, min(widths), max(widths), entity.dxf.layer))
-        content.curves += [LayeredCurve(curve, entity.dxf.layer) for curve in curves]
+        content.curves += [LayeredCurve(curve, entity.dxf.layer, lies) for curve in curves]
         for each in made:
             content.add(each)
 
@@ -306,7 +316,7 @@ class DxfWalker:
             for at, layer in points
         ]
         for place in copies:
-            self._copy(inner, place, insert.dxf.layer, content)
+            self._copy(inner, place, insert.dxf.layer, content, float(insert.dxf.insert.z))
         self._attributes(insert, copies, content)
 
     def _points(self, inner: DxfContent, places: int, content: DxfContent) -> list[LayeredPoint]:
@@ -332,8 +342,8 @@ class DxfWalker:
         layer = insert.dxf.layer.casefold()
         return layer in self._frozen and not (self._open and layer == "0")
 
-    def _copy(self, inner: DxfContent, place: Affine, outer: str, content: DxfContent) -> None:
-        """Add what a block draws in one place, on the layer `outer` where it names none."""
+    def _copy(self, inner: DxfContent, place: Affine, outer: str, content: DxfContent, lift: float = 0.0) -> None:
+        """Add what a block draws in one place, `lift` higher, on the layer `outer` where it names none."""
         content.without_length += [None if p is None else place.point(p) for p in inner.without_length]
         content.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
         content.negative += [
@@ -347,12 +357,13 @@ class DxfWalker:
         ]
         for each in inner.more():
             content.add(each.moved(place, outer))
-        for curve, layer in inner.curves:
+        for curve, layer, heights in inner.curves:
             moved = transformed(curve, place)
             if moved is None:
                 content.without_length.append(place.point(curve.start))
             else:
-                content.curves.append(LayeredCurve(moved, outer if layer == "0" else layer))
+                lies = heights.lifted(lift) if lift else heights
+                content.curves.append(LayeredCurve(moved, outer if layer == "0" else layer, lies))
         self._bounded(max(len(content.hidden), len(content.negative), len(content.unread), content.size))
 
     def _block(self, name: str, insert: Any) -> DxfContent:

@@ -9,6 +9,7 @@ from typing import Any
 
 from ...geometry.affine import IDENTITY, Affine, ellipse, transformed
 from ...model.curves import Arc, Circle, Curve, Line, Point
+from ..drawing_account import LEVEL_ZERO, CurveHeights
 from .splines import spline_curve
 
 _STRAIGHT = 1e-9
@@ -59,6 +60,16 @@ def heights_of(entity: Any) -> Iterable[float]:
     if kind in ("TEXT", "ATTRIB", "MTEXT"):
         return (entity.dxf.insert.z * (1.0 if kind == "MTEXT" else entity.dxf.extrusion.z),)
     return (entity.dxf.center.z * entity.dxf.extrusion.z,) if kind in ("ARC", "CIRCLE") else (entity.dxf.center.z,)
+
+
+def drawn_heights(entity: Any) -> CurveHeights:
+    """Return where along Z a curve lies, and how far it is drawn out, drawing units."""
+    heights = [float(z) for z in heights_of(entity)]
+    if entity.dxftype() == "ELLIPSE":  # a leaning one has no height of its own
+        heights += [float(entity.dxf.center.z + entity.dxf.major_axis.z)]
+    thickness = float(entity.dxf.thickness) if entity.dxf.hasattr("thickness") else 0.0
+    up = float(entity.dxf.extrusion.z) if entity.dxf.hasattr("extrusion") else 1.0
+    return CurveHeights(min(heights), max(heights), thickness * up) if heights else LEVEL_ZERO
 
 
 def widths_of(entity: Any) -> tuple[float, ...]:

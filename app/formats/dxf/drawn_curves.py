@@ -57,4 +57,4 @@ def _all(hatch: Hatch) -> list[Curve]:
 def _new(
     rings: list[tuple[Curve, ...]], content: DxfContent, machined: Callable[[str], bool], size: float
 ) -> list[bool]:
-    return bounding_alone(rings, [curve for curve, layer in content.curves if machined(layer)], size)
+    return bounding_alone(rings, [each.curve for each in content.curves if machined(each.layer)], size)

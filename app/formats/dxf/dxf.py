@@ -14,7 +14,7 @@ from ...geometry.affine import scaled
 from ...geometry.chaining.pieces import FARTHEST
 from ...model.finding import Finding, FindingKind
 from ...model.notes import Mark, Note
-from ...model.part import Entity, Layer, Part, Units
+from ...model.part import Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
 from ..drawing import Drawing, LeftOutKind
@@ -44,6 +44,7 @@ from ..reading_question import (
     units_question,
 )
 from .blocks import DxfContent, DxfWalker
+from .depths import DepthReading, depths_of
 from .drawn_curves import all_drawn
 from .findings import (
     about_unread,
@@ -120,15 +121,17 @@ def read_dxf(
 
     found, papers = placed(how.to_zero), paper(document)
     others = Counter() if how.layout else papers
-    if not found.entities:
+    if not found.entities and not any(machined(each.layer) for each in content.points):
         raise UndecidedError(
             f"{name}: {_nothing(content, found, others)}", _asked(content, found, others, reading, unit)
         )
-    part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, found.entities)).with_entities(
+    used = {each.layer for each in found.entities} or {each.layer for each in content.points}
+    part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, used)).with_entities(
         found.entities
     )
     marks = _marks(content, unit.size, found, part.layers)
-    part = replace(part, notes=marks, used_id=len(found.entities) + len(marks))
+    depths = depths_of(DepthReading(content.letterings, drawn, found, unit.size))
+    part = replace(part, notes=marks, used_id=len(found.entities) + len(marks), depths=depths)
     names = tuple(layer.name for layer in part.layers)
     part = on_layers(part, layers, name)
     left_out = content.left_out + Counter({PAPER: others.total(), "POINT": len(content.points) - len(marks)})
@@ -244,7 +247,7 @@ def _spelled(document: Any, curves: Iterable[LayeredCurve]) -> list[LayeredCurve
     letters.
     """
     spelling = {layer.dxf.name.casefold(): layer.dxf.name for layer in document.layers}
-    return [LayeredCurve(curve, spelling.get(layer.casefold(), layer)) for curve, layer in curves]
+    return [each._replace(layer=spelling.get(each.layer.casefold(), each.layer)) for each in curves]
 
 
 def _marks(content: DxfContent, size: float, found: UsableCurves, layers: tuple[Layer, ...]) -> tuple[Note, ...]:
@@ -259,11 +262,10 @@ def _marks(content: DxfContent, size: float, found: UsableCurves, layers: tuple[
     return tuple(Note(number, Mark(at), spelling[layer]) for number, (at, layer) in enumerate(kept, first))
 
 
-def _layers(document: Any, entities: tuple[Entity, ...]) -> tuple[Layer, ...]:
-    """Return the layers; the one for points of dimensions, which the library adds to every file, only where it has
-    curves.
+def _layers(document: Any, used: set[str]) -> tuple[Layer, ...]:
+    """Return the layers; the one for points of dimensions, which the library adds to every file, only where it is
+    used.
     """
-    used = {entity.layer for entity in entities}
     found = [
         Layer(layer.dxf.name, _colour(layer), not (layer.is_off() or layer.is_frozen()), layer.is_locked())
         for layer in document.layers

@@ -73,9 +73,9 @@ def band_findings(bands: Sequence[WidePolyline], size: float) -> Iterator[Findin
             else f"{len(alike)} polylines on layer {layer} are drawn as bands {wide} mm wide, the first"
         )
         read, do = (
-            ("its middle line is", "Engrave it with a cutter as wide, or draw its outline")
+            ("its middle line is", "Cut it as a slot of that width (--slot-width), or draw its outline")
             if len(alike) == 1
-            else ("their middle lines are", "Engrave them with cutters as wide, or draw their outlines")
+            else ("their middle lines are", "Cut them as slots of their widths (--slot-width), or draw their outlines")
         )
         yield Finding(
             FindingKind.ASSUMED,

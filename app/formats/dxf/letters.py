@@ -54,6 +54,7 @@ class TextCurves:
         fonts: ("", each font that it is drawn in), and for the engraving face (the font that it stands for, "").
         lacking: letters that are in no font, and so are missing.
         assumed: other programs may set its letters in other places.
+        words: all of them. height: of the largest letters, drawing units.
     """
 
     strokes: tuple[Curve, ...]
@@ -64,6 +65,8 @@ class TextCurves:
     fonts: tuple[tuple[str, str], ...] = ()
     lacking: str = ""
     assumed: bool = False
+    words: str = ""
+    height: float = 0.0
 
     @property
     def size(self) -> int:
@@ -78,6 +81,7 @@ class TextCurves:
             strokes=strokes,
             outlines=outlines,
             at=to.point(self.at),
+            height=self.height * math.sqrt(abs(to.xx * to.yy - to.xy * to.yx)),
             layer=layer if layer and self.layer == "0" else self.layer,
         )
 
@@ -147,9 +151,10 @@ def bar_curves(start: Point, length: float, height: float, stroke: bool) -> Iter
 
 def lettered(curves: Iterable[tuple[Curve, bool]], runs: Iterable[LetterRun], to: Affine = IDENTITY) -> TextCurves:
     """Return what curves (and whether each is a stroke) of some runs are together, under a map."""
-    drawn = list(curves)
+    drawn, runs = list(curves), list(runs)
     letters = [("" if run.letters.font else run.look.font.said, run.letters) for run in runs if run.words.strip()]
     strokes, outlines = (tuple(curve for curve, stroke in drawn if stroke is requested) for requested in (True, False))
     fonts = tuple(dict.fromkeys((said, each.font) for said, each in letters))
     lacking = "".join(dict.fromkeys(letter for _, each in letters for letter in each.lacking))
-    return TextCurves(strokes, outlines, fonts=fonts, lacking=lacking).moved(to)
+    words, height = "".join(run.words for run in runs), max((run.look.height for run in runs), default=0.0)
+    return TextCurves(strokes, outlines, fonts=fonts, lacking=lacking, words=words, height=height).moved(to)

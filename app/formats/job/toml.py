@@ -42,6 +42,7 @@ ORIGIN_XY = {
 }
 ORIGIN_Z = {"top": OriginZ.TOP, "bottom": OriginZ.BOTTOM}
 FEEDS = {"tools": False, "proposed": True}
+DEPTHS = {"operations": False, "drawing": True}
 SETTINGS = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out", "sheet")
 """Tables that hold the job's own parameters, in the order in which they are written."""
 
@@ -137,6 +138,7 @@ class JobFile:
         tables: that are in the file; what belongs to others has its default.
         rules: what is done on layers of any drawing; they make operations behind those of the job.
         proposes_feeds: whether tools are to get the speed and the feeds that are proposed for the stock's material.
+        drawn_depths: whether shapes are to be cut to the depths that the drawing tells of them.
     """
 
     job: Job
@@ -144,6 +146,7 @@ class JobFile:
     tables: frozenset[str] = frozenset()
     proposes_feeds: bool = False
     rules: tuple[LayerRule, ...] = ()
+    drawn_depths: bool = False
 
 
 def read_job(name: str, data: bytes) -> JobFile:
@@ -211,7 +214,7 @@ def with_line(message: str, text: str) -> str:
     return f"{text.count(chr(10)) + 1}: {message.removesuffix(' (at end of document)')}"
 
 
-_BEFORE, _BEHIND = {"drawing": ("units",)}, {"stock": ("feeds",)}
+_BEFORE, _BEHIND = {"drawing": ("units",)}, {"stock": ("feeds",), "drawing": ("depths",)}
 """Keys that stand beside the job's parameters in its tables: what is asked for when a job is made of the file."""
 
 
@@ -249,7 +252,7 @@ class _JobReader:
         self._check_keep_out(tables["keep_out"])
         values = {key: value for table in tables.values() for key, value in table.taken.items()}
         units = values.pop("units", None)
-        proposes = values.pop("feeds", False)
+        proposes, depths = values.pop("feeds", False), values.pop("depths", False)
         if proposes and not values.get("material"):
             raise tables["stock"].error("feeds", "needs a material; add material = 'aluminium', or take it out")
         job = self._text.built("stock", 0, lambda: with_values(Job(Part()), values))
@@ -266,7 +269,7 @@ class _JobReader:
             self._text.built("operation", index, lambda each=operation: job.cutter(each))  # type: ignore[misc]
         for index, rule in enumerate(rules):
             self._text.built("layer", index, lambda each=rule.operation: job.cutter(each))  # type: ignore[misc]
-        return JobFile(job, units, frozenset(self._tree), proposes, rules)
+        return JobFile(job, units, frozenset(self._tree), proposes, rules, depths)
 
     def _rules(self) -> Iterator[LayerRule]:
         """Yield what is done on layers: an operation each, without curves."""
@@ -292,6 +295,7 @@ class _JobReader:
         table, declared = self._table(path), settings_of(path)
         if path == "drawing":
             table.take("units", word(UNITS, "unit"))
+            table.take("depths", word(DEPTHS, "source of depths"))
         if path == "stock":
             table.take("feeds", word(FEEDS, "source of speeds and feeds"))
         for key, placed in declared.items():

@@ -38,6 +38,7 @@ from ..job.tables import (
 from ..job.toml import TABLES, UNITS, read_kept_job, with_line
 from ..job.write import empty_lists, job_lines, word_of
 from .curves import MOST_THINGS, TextBlock, curve_lines, note_lines, read_curves, read_notes
+from .depths import depth_lines, read_depths
 from .extras import NOTHING_BESIDE, ProjectExtras, beside_lines, read_beside
 from .source import read_source, source_lines
 
@@ -62,6 +63,7 @@ _OWN = (
     "underlay",
     "text",
     "source",
+    "told_depth",
     "names",
     "commands",
     "curves",
@@ -244,6 +246,7 @@ def _part(name: str, text: str, lines: JobText, tree: dict[str, Any]) -> _DrawnP
     )
     highest = max((thing.id for thing in things), default=0)
     part = replace(part, used_id=max(part.used_id, highest)) if part.used_id else part
+    part = replace(part, depths=read_depths(lines, tree.get("told_depth", [])))
     return _DrawnPart(part, said.get("layer", layers[0].name), said.get("last", (0.0, 0.0)))
 
 
@@ -355,6 +358,7 @@ def _lines(project: Project) -> Iterator[str]:
     yield from _look_lines(project.look)
     yield from beside_lines(project.beside)
     yield from source_lines(state.source, part)
+    yield from depth_lines(part.depths)
     yield from _name_lines(state)
     yield from job_lines(state.job)
     for title, things in (("curves", curve_lines(part.entities)), ("notes", note_lines(part.notes))):

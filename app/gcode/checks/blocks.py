@@ -31,7 +31,7 @@ LETTERS = frozenset("defghmpqrstxyz")
 _FOLLOWED = """
 G0 G1 G4 G15 G17 G20 G21 G28 G30 G40 G43 G49 G50 G53 G54 G54.1 G55 G56 G57 G58 G59 G59.1 G59.2 G59.3 G61 G61.1 G64 G69
 G80 G90 G90.1
-G91 G91.1 G94 G97 G98 G99 G187 M0 M1 M2 M3 M5 M6 M7 M8 M9 M19 M30 M48"""
+G91 G91.1 G94 G97 G98 G99 G187 M0 M1 M2 M3 M4 M5 M6 M7 M8 M9 M19 M30 M48"""
 CODES = frozenset(_FOLLOWED.split())
 """Codes that they may have: what these set is followed, and none of it stays in the machine's tables."""
 ENDS = frozenset({"M2", "M30"})
@@ -69,8 +69,7 @@ def blocks_of(post: Post, job: Job, tools: tuple[int, ...]) -> list[ExpectedBloc
     lines, fields = post.program, program_fields(job, post, blend_mm(job, post))
     filled: list[tuple[str, Fields]] = [(template, fields) for template in (*lines.top, *lines.start)]
     own = [
-        fields | tool_fields(job.tool(number), post, _next(tools, k)) | {"clearance": "0"}
-        for k, number in enumerate(tools)
+        fields | tool_fields(job, number, post, _next(tools, k)) | {"clearance": "0"} for k, number in enumerate(tools)
     ]
     for k, mine in enumerate(own):
         filled += [(template, own[k - 1]) for template in lines.leave] if k else []
@@ -94,13 +93,13 @@ class HoleBlocks:
 
     Attributes:
         waits: that let the tool wait; the events tell where.
-        starts: that stand before tapping cycles, each right before one. tap: number of its G word; "" = there is none.
+        starts: that stand before tapping cycles, each right before one. taps_by: G words of such cycles.
         offsets: that begin and end cutter compensation; where they do, reading with a wear in the registers tells.
     """
 
     waits: frozenset[str] = frozenset()
     starts: frozenset[str] = frozenset()
-    tap: str = ""
+    taps_by: tuple[str, ...] = ()
     offsets: frozenset[str] = frozenset()
 
     @staticmethod
@@ -119,7 +118,7 @@ class HoleBlocks:
         return HoleBlocks(
             frozenset(_code(text, post) for text in waits),
             frozenset(_code(text, post) for text in starts if text),
-            drilling.tap.lower(),
+            tuple(word.lower() for word in (drilling.tap, drilling.tap_left) if word),
             frozenset(_code(text, post) for text in offsets if text),
         )
 
@@ -133,7 +132,7 @@ class HoleBlocks:
 
     def taps(self, code: str) -> bool:
         """Tell whether a block begins a tapping cycle."""
-        return bool(self.tap) and re.search(rf"{self.tap}(?![\d.])", code) is not None
+        return any(re.search(rf"{word}(?![\d.])", code) is not None for word in self.taps_by)
 
 
 def block_problems(text: str, post: Post, blocks: list[ExpectedBlock], holes: HoleBlocks) -> Iterator[ProgramProblem]:
@@ -184,7 +183,7 @@ def _started_taps(text: str, post: Post, holes: HoleBlocks) -> Iterator[ProgramP
     lines = text.split("\n") if holes.starts else []
     for number, line in enumerate(lines, 1):
         if (
-            post.drilling.tap in line
+            any(word.upper() in line for word in holes.taps_by)
             and holes.taps(_code(line, post))
             and _code(lines[number - 2], post) not in holes.starts
         ):
@@ -224,6 +223,7 @@ def _moving_codes(post: Post) -> list[str]:
             drilling.dwell,
             drilling.feed_out,
             drilling.tap,
+            drilling.tap_left,
             drilling.to_initial,
             drilling.to_r,
             drilling.cancel,

@@ -113,9 +113,10 @@ def _state_faults(state: ModalState, number: int, expected: ExpectedState, back:
         yield f"the tool length is H{state.length_offset} where H{number} was meant."
     if not expected.lengths and state.length_offset:
         yield f"the tool length H{state.length_offset} of an earlier program is in force; G49 ends it."
-    if state.spindle != (-1 if back else 1) or state.constant_surface:
-        way = "counter-clockwise, so that the tap comes out" if back else "clockwise (M3)"
-        yield f"the spindle does not turn {way}."
+    left = expected.job.turns_left(number) is not back
+    if state.spindle != (-1 if left else 1) or state.constant_surface:
+        way, word = ("counter-clockwise", "M4") if left else ("clockwise", "M3")
+        yield f"the spindle does not turn {way}{', so that the tap comes out' if back else f' ({word})'}."
     if state.speed != round(tool.spindle_speed):
         yield f"the spindle speed is S{state.speed:g} where S{tool.spindle_speed:.0f} was meant."
     if (state.flood, state.mist) != (expected.flood, expected.mist):

@@ -211,7 +211,8 @@ class DrillingWords:
             {dwell_s}, {dwell_ms}.
         feed_out: down at feed, up to R at feed.
         tap: down at feed, up at the same feed with the spindle turning back; "" = the control cannot.
-        tap_start: template of the block before it, fields {tool}, {speed}; "" = none.
+        tap_left: the same with the spindle turning counter-clockwise on the way in.
+        tap_start: template of the block before either, fields {tool}, {speed}; "" = none.
         tap_to_initial: it taps out to R and goes up from there at rapid rate, if it is to; else it taps all the way
         out.
         to_initial, to_r: whether holes end at the height where the first one began, or at R.
@@ -233,6 +234,7 @@ class DrillingWords:
     cancel: str
     peck_gap_mm: float
     chip_gap_mm: float
+    tap_left: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,16 @@ from .post import NurbsForm, Post, ProgramLines
 
 LETTERS = ("N", "G", "X", "Y", "Z", "I", "J", "F")
 EVERYWHERE = frozenset({"units", "blending", "program"})
-WITH_TOOL = EVERYWHERE | {"tool", "speed", "dwell_s", "dwell_ms", "coolant_on", "coolant_off", "preselect"}
+WITH_TOOL = EVERYWHERE | {
+    "tool",
+    "speed",
+    "spindle_on",
+    "dwell_s",
+    "dwell_ms",
+    "coolant_on",
+    "coolant_off",
+    "preselect",
+}
 COUNTS = frozenset({"program", "tool", "speed", "dwell_ms"})
 FIELDS = {"tool": WITH_TOOL | {"clearance"}, "leave": WITH_TOOL}
 _SIDES = {"left": frozenset({"tool"}), "right": frozenset({"tool"}), "off": frozenset[str]()}

@@ -52,7 +52,8 @@ class CycleRules:
         peck_gap, chip_gap: counts.
         near: counts by which a rounded height between two pecks may be off.
         dwells: how long the operations wait at the bottom, by index, s; those that do not are left out.
-        taps: the blocks before a tapping cycle, by the index of the operations that tap.
+        taps: the blocks before a tapping cycle, by the index of the operations that tap. left: of these, those that
+            tap to the left.
     """
 
     words: DrillingWords
@@ -62,6 +63,7 @@ class CycleRules:
     near: int = 1
     dwells: Mapping[int, float] = field(default_factory=dict)
     taps: Mapping[int, str] = field(default_factory=dict)
+    left: frozenset[int] = frozenset()
 
     def wait(self, operation: int) -> str:
         """Return the block of an operation's wait at the bottom; "" = it does not wait."""
@@ -118,7 +120,7 @@ def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> CycleHo
     done = [(moves.kind[k], moves.end[k][2]) for k in range(feed, stop)]
     bottom, clear = min(z for _, z in done), done[-1][1]
     level = {height: rules.words.to_initial, r: rules.words.to_r}.get(clear, "")
-    wait = rules.wait(operation)
+    wait, tap = rules.wait(operation), rules.words.tap_left if operation in rules.left else rules.words.tap
     one_go, peck = [(MoveKind.LINE, bottom), (MoveKind.RAPID, clear)], r - first
     out, up = (islice(_steps((r, peck, bottom), rules, by_r), len(done)) for by_r in (True, False))
     fed_out = [(MoveKind.LINE, bottom), (MoveKind.LINE, r), (MoveKind.RAPID, clear)][: stop - feed]
@@ -126,7 +128,7 @@ def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> CycleHo
         (rules.words.dwell if wait else rules.words.drill, one_go, 0),
         ("" if wait else rules.words.peck, [*out, *one_go], peck),
         ("" if wait else rules.words.chip_break, [*up, *one_go], peck),
-        (rules.words.tap if taps else "" if wait else rules.words.feed_out, fed_out, 0),
+        (tap if taps else "" if wait else rules.words.feed_out, fed_out, 0),
     )
     for word, steps, q in ways:
         if word and level and _alike(steps, done, rules.near):

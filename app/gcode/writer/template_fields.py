@@ -6,7 +6,6 @@ import re
 
 from ...model.job import Job
 from ...model.part import Units
-from ...model.tool import Tool
 from ..posts.post import Coolant, Post
 from .grid import spelled
 
@@ -40,19 +39,20 @@ def program_number(name: str, otherwise: int) -> int:
     return number if 1 <= number <= LAST_NUMBER else otherwise
 
 
-def tool_fields(tool: Tool, post: Post, next_tool: int) -> Fields:
+def tool_fields(job: Job, number: int, post: Post, next_tool: int) -> Fields:
     """Return what the templates round a tool may name besides.
 
     Args:
-        tool: the tool.
+        job, number: the tool is the job's, by its T number.
         post: the control's words.
         next_tool: T number of the tool that comes next, or of this one.
     """
-    coolant, dwell = post.coolant, post.spindle.dwell_s
+    tool, coolant, dwell = job.tool(number), post.coolant, post.spindle.dwell_s
     on = {Coolant.NONE: "", Coolant.FLOOD: coolant.flood, Coolant.MIST: coolant.mist}[coolant.use]
     return {
         "tool": tool.number,
         "speed": round(tool.spindle_speed),
+        "spindle_on": "M4" if job.turns_left(number) else "M3",
         "dwell_s": f"{dwell:g}",
         "dwell_ms": round(dwell * 1000),
         "coolant_on": on,

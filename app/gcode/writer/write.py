@@ -206,6 +206,11 @@ def writing_tolerance(job: Job, post: Post) -> float:
     return max(min(2 * step, LARGEST_DEVIATION), step)
 
 
+def _left(job: Job) -> frozenset[int]:
+    """Return which operations tap to the left, by index."""
+    return frozenset(k for k, each in enumerate(job.operations) if each.TAPS and each.turns_left)
+
+
 def _dwells(job: Job) -> dict[int, float]:
     """Return how long each operation waits at the bottom of its holes, s, by index; those that do not are left out."""
     return {k: seconds for k, each in enumerate(job.operations) if (seconds := each.dwell_s) > 0}
@@ -225,7 +230,7 @@ class _ProgramWriter:
         )
         # a count by the cycle's heights and half a one by rounding, where as much may be off
         near = int(1.5 * unit / self.z_scale <= writing_tolerance(job, post))
-        rules = CycleRules(post.drilling, round(self.z_scale), peck, chip, near, _dwells(job), self._taps())
+        rules = CycleRules(post.drilling, round(self.z_scale), peck, chip, near, _dwells(job), self._taps(), _left(job))
         self.holes: dict[int, CycleHole] = holes_of(moves, rules)
         self.waits = waits_of(moves, rules, self.holes)
         self.offsets = compensation_blocks(moves, job, post)
@@ -339,7 +344,7 @@ class _ProgramWriter:
 
     def _tool_fields(self, i: int) -> Fields:
         """Return what the templates round the tool of move i may name."""
-        return self.fields | tool_fields(self.job.tool(int(self.moves.tool[i])), self.post, self._next_tool(i))
+        return self.fields | tool_fields(self.job, int(self.moves.tool[i]), self.post, self._next_tool(i))
 
     def _next_tool(self, i: int) -> int:
         """Return the T number that follows that of move i; after the last one, the first."""

@@ -22,6 +22,36 @@ _LEAST_CENTRE = 0.002
 
 
 @dataclass(frozen=True)
+class DigitGrid:
+    """The places that the digits of a program can say.
+
+    Circles whose centres lie on it, and whose radii are a whole number of steps, are written as they are: half turns of
+    a spiral that touch then touch as written. Where they do not, slivers of metal as thin as a digit stand between them
+    over a length that goes with the root of it, and the angle with that.
+
+    Attributes:
+        step: mm from one to the next.
+        zero: where the program has its zero, mm.
+    """
+
+    step: float
+    zero: tuple[float, float] = (0.0, 0.0)
+
+    def nearest(self, place: tuple[float, float]) -> tuple[float, float]:
+        """Return the place on it that is nearest to one, mm."""
+        x, y = (zero + self.step * round((at - zero) / self.step) for at, zero in zip(place, self.zero, strict=True))
+        return x, y
+
+    def within(self, length: float) -> float:
+        """Return the longest whole number of steps that is no longer than a length, mm."""
+        return self.step * math.floor(length / self.step + 1e-3)
+
+    def mirrored(self) -> DigitGrid:
+        """Return it in a mirror, x to -x."""
+        return DigitGrid(self.step, (-self.zero[0], self.zero[1]))
+
+
+@dataclass(frozen=True)
 class EngagementLimit:
     """What a cutter may be engaged.
 
@@ -29,16 +59,18 @@ class EngagementLimit:
         radius: of the cutter, mm, > 0.
         angle: of its rim that may be in metal, radians, in (0, pi / 2].
         coarser: how many times coarser than 0.0001 mm the digits of the program are.
+        grid: of these digits; None = they are fine enough for paths to lie anywhere.
     """
 
     radius: float
     angle: float
     coarser: float = 1.0
+    grid: DigitGrid | None = None
 
     @property
     def slack(self) -> float:
         """By how much less than it is a clear disc is taken to be, mm."""
-        return _FINENESS * self.coarser
+        return _FINENESS * self.coarser + (0.75 * self.grid.step if self.grid is not None else 0.0)
 
     @property
     def planned(self) -> float:

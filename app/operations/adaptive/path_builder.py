@@ -106,7 +106,8 @@ class PathBuilder:
         rows = within_half_turn(path)
         away, near = DistanceField.of(rows).nearest(self.discs.table[:, :2])
         out = np.abs(away - (self.discs.table[:, 2] - self.limit.radius))
-        near_enough = out <= self.limit.slack / 8
+        step = self.limit.grid.step if self.limit.grid is not None else 0.0  # a disc's radius may be shorter by one
+        near_enough = out <= self.limit.slack / 8 + step
         if not near_enough.any():
             return None
         number = int(np.argmax(np.where(near_enough, self.discs.table[:, 2], 0.0)))

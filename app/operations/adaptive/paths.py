@@ -16,9 +16,9 @@ from ...toolpath.build import StrokeLabel
 from ...toolpath.entry.entry import EntryContext
 from ...toolpath.machining_areas import MachiningArea
 from ...toolpath.narrow_regions import finest, necks, too_small
-from ...toolpath.operation_context import OperationContext, check_depth, levels_of
+from ...toolpath.operation_context import ANY_DIGITS, OperationContext, ProgramDigits, check_depth, levels_of
 from ..from_outside import know_as_clear, open_stock
-from .limit import EngagementLimit
+from .limit import DigitGrid, EngagementLimit
 from .passes import DiscPasses, farthest, nearest_first
 from .plan import ClearingTask, ConnectedPath, least_turn, mirrored, mirrored_part, plan
 
@@ -29,16 +29,21 @@ _TOLD = 20
 """Places that are told one by one."""
 
 
-def limit_of(job: Job, operation: Operation) -> EngagementLimit:
-    """Return what the cutter of an operation may be engaged."""
+_COARSE = 5e-4
+"""mm; digits that are no finer are planned with, finer ones are within what the limit leaves."""
+
+
+def limit_of(job: Job, operation: Operation, digits: ProgramDigits = ANY_DIGITS) -> EngagementLimit:
+    """Return what the cutter of an operation may be engaged; `digits`: of the program that it is written to."""
     coarser = _INCH if job.out_units is Units.INCH else 1.0
     assert operation.proven_angle is not None
-    return EngagementLimit(job.tool(operation.cut.tool).radius, operation.proven_angle, coarser)
+    grid = DigitGrid(digits.step, digits.zero) if digits.step > _COARSE else None
+    return EngagementLimit(job.tool(operation.cut.tool).radius, operation.proven_angle, coarser, grid)
 
 
-def room_needed(job: Job, operation: Operation) -> float:
+def room_needed(job: Job, operation: Operation, digits: ProgramDigits = ANY_DIGITS) -> float:
     """Return how far from the walls the cutter's centre must have room to be, mm."""
-    limit = limit_of(job, operation)
+    limit = limit_of(job, operation, digits)
     return limit.radius + least_turn(limit) + operation.cut.stock_to_leave
 
 
@@ -57,10 +62,13 @@ def adaptive(context: OperationContext, index: int, progress: Progress) -> None:
         return
     check_depth(job, cut)
     levels, label = levels_of(context, cut), StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)
-    limit, level = limit_of(job, operation), area.frame(room_needed(job, operation), progress.part(0.0, 0.05))
+    limit = limit_of(job, operation, context.digits)
+    level = area.frame(room_needed(job, operation, context.digits), progress.part(0.0, 0.05))
     context.findings.extend(too_narrow(job, operation, area, level))
     climb = cut.direction is Direction.CLIMB
     walls = area.primitives if climb else mirrored(area.primitives)
+    if not climb and limit.grid is not None:
+        limit = replace(limit, grid=limit.grid.mirrored())
     stock = open_stock(context, operation, area)
     seen = stock if climb or stock is None else stock.mirrored()
     task = ClearingTask(walls, cut.stock_to_leave, farthest(label, levels), seen)

@@ -8,11 +8,13 @@ engaged by the limit, all the way, and the last turn is a whole one.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from ...geometry.primitives import Rows
 from .cleared_discs import Point
-from .limit import EngagementLimit
+from .limit import DigitGrid, EngagementLimit
 
 _HALVINGS = 60
 _MOST_TURNS = 20_000
@@ -26,6 +28,8 @@ def spiral(centre: Point, turn: float, limit: EngagementLimit, seed: float) -> R
         seed: least radius of the first circle, mm; it is the first two rows, and nothing bounds what it engages.
     """
     radii = _radii(turn, limit, min(seed, turn))
+    if limit.grid is not None:
+        radii = _on_grid(radii, limit.grid)
     side = 1.0
     x, y = centre
     rows = [_half(x, y, turn, -side), _half(x, y, turn, side)]
@@ -37,6 +41,20 @@ def spiral(centre: Point, turn: float, limit: EngagementLimit, seed: float) -> R
     if len(radii) > 1:
         rows.append(_half(x, y, radii[0], -side))
     return np.array(rows[::-1])
+
+
+def _on_grid(radii: list[float], grid: DigitGrid) -> list[float]:
+    """Return radii that are whole numbers of steps, up to the same last one; from each to the next they grow by no less
+    than before, and by less than a step more than they did.
+    """
+    counts = [round(each / grid.step) for each in radii]
+    grown = [after - before for before, after in pairwise(counts)]
+    for k in range(len(grown) - 1, 0, -1):
+        grown[k - 1] = min(grown[k - 1], grown[k])
+    made = [counts[-1]]
+    for each in reversed(grown):
+        made.append(made[-1] - each)
+    return [grid.step * each for each in reversed(made)]
 
 
 def _half(x: float, y: float, radius: float, side: float) -> tuple[float, ...]:

@@ -58,8 +58,11 @@ class AxisWalk:
         Raises:
             Cancelled: by progress.
         """
-        x, y = self.axis.points[tree.root].tolist()
-        self.discs.add(ClearedDisc(x, y, float(self.axis.reach[tree.root]), -1))
+        (x, y), reach = _place(self.axis.points[tree.root], self.axis.reach[tree.root])
+        if self.limit.grid is not None:
+            (x, y), radius = self.limit.grid.nearest((x, y)), self.limit.radius
+            reach = radius + self.limit.grid.within(min(reach, self.room.at((x, y))) - radius)
+        self.discs.add(ClearedDisc(x, y, reach, -1))
         waiting = [(tree.root, child, 0) for child in reversed(tree.children(tree.root))]
         done = 0
         while waiting:
@@ -140,6 +143,11 @@ class AxisWalk:
         paying = self.discs.each[payer]
         if math.dist(centre, paying.centre) + reach <= paying.reach + _CONTAINED:
             return payer
+        if self.limit.grid is not None:
+            near = self.limit.grid.nearest(centre)
+            wide = self.room.at(near)
+            if wide >= self.room.needed and self.fits(near, wide, payer):
+                centre, reach = near, wide
         return self.discs.add(ClearedDisc(*centre, reach, payer))
 
 

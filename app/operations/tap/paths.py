@@ -66,8 +66,9 @@ def tap(context: OperationContext, index: int, progress: Progress) -> None:
 
 def _feed_finding(operation: TapOperation, tool: Tool, feed: float) -> Finding:
     """Return how fast the tap goes, and what the cut shows of it."""
+    hand = " to the left" if operation.left_hand else ""
     text = (
-        f"T{tool.number} taps {operation.thread.value} at {feed:g} mm/min: {operation.thread.pitch:g} mm a turn at "
-        f"{round(tool.spindle_speed)} rpm. The cut shows no turns of a thread, only the core within the tap's teeth."
+        f"T{tool.number} taps {operation.thread.value}{hand} at {feed:g} mm/min: {operation.thread.pitch:g} mm a turn "
+        f"at {round(tool.spindle_speed)} rpm. The cut shows no turns of a thread, only the core within the tap's teeth."
     )
     return Finding(FindingKind.ASSUMED, text, counts=False, amount=feed)

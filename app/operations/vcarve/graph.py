@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from heapq import heapify, heappop
 
 import numpy as np
 
@@ -118,11 +119,19 @@ def trails(graph: BranchGraph) -> list[AxisBranch]:
     is one.
     """
     left = [list(own) for own in graph.at]
+    deep = [float(disc[2]) for disc in graph.discs]
+    odd = [(deep[node], node) for node, own in enumerate(left) if len(own) % 2]
+    some = [(deep[node], node) for node, own in enumerate(left) if own]
+    heapify(odd)
+    heapify(some)
     found: list[AxisBranch] = []
-    while any(left):
-        odd = [node for node, own in enumerate(left) if len(own) % 2]
-        begin = odd or [node for node, own in enumerate(left) if own]
-        node = min(begin, key=lambda each: float(graph.discs[each][2]))
+    while some:
+        while odd and not len(left[odd[0][1]]) % 2:
+            heappop(odd)
+        if not odd and not left[some[0][1]]:
+            heappop(some)
+            continue
+        node = (odd or some)[0][1]  # ways end where nothing is left, so no node becomes an odd one
         parts: list[Floats] = []
         while left[node]:
             # what leads on first, dead ends last

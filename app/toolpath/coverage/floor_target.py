@@ -162,6 +162,26 @@ class _Shapes:
             self._once(work.area, self.wall(work) - FITS, self.job.tool(work.operation.cut.tool).radius - FITS)
         )
 
+    def reach_within(self, work: _ClearingOperation, floor: Shape, other: _ClearingOperation) -> Shape:
+        """Return what the operation's tool can cut of the floor of another one.
+
+        Where their areas differ it has to keep to both, and one that follows walls goes along its own alone: how far
+        the frame round these goes says nothing.
+        """
+        if work.area.regions is other.area.regions:
+            return common(self.reach(work), floor)
+        plain = self.plain(work.area), self.plain(other.area)
+        if _apart(*(shapely.total_bounds(shapes) for shapes in plain)):
+            return shapely.Polygon()
+        both = common(*map(united, plain))
+        if both.is_empty:
+            return both
+        parts, radius = shapely.get_parts(both), self.job.tool(work.operation.cut.tool).radius
+        parts = parts[shapely.area(parts) > 0]
+        opened = grown(grown(parts, FITS - self.wall(work), CHORD), radius - FITS, CHORD)
+        own = _along_walls(work, self) if work.operation.FOLLOWS_WALLS else self.reach(work)
+        return common(common(united(opened), floor), own)
+
     def wall(self, work: _ClearingOperation) -> float:
         """Return how far the centre of the operation's tool stays from walls, mm."""
         return self.job.tool(work.operation.cut.tool).radius + work.operation.cut.stock_to_leave + self.off
@@ -179,12 +199,16 @@ class _Shapes:
         return self._made[key]
 
 
+def _apart(one: NDArray[np.float64], other: NDArray[np.float64]) -> bool:
+    """Tell whether two boxes (4,), or none, have nothing in common."""
+    return not bool(np.all(one[:2] < other[2:]) and np.all(other[:2] < one[2:]))
+
+
 def _wanted(group: Sequence[_ClearingOperation], cutting: Sequence[_ClearingOperation], made: _Shapes) -> FloorTarget:
     """Return what the operations of one floor want."""
     depth = max(each.depth for each in group)
     covering = [each for each in cutting if each.depth > depth - _SAME and each.covers]
     farthest, cutters = _farthest(covering, made.job), _cutters(covering, made)
-    reach = united([made.reach(each) for each in farthest])
     within: dict[
         int, tuple[Shape, Shape]
     ] = {}  # floors by their identity, and what of each is reached: operations often share one
@@ -197,7 +221,7 @@ def _wanted(group: Sequence[_ClearingOperation], cutting: Sequence[_ClearingOper
         if work.operation.wall_side is Side.OUTSIDE:
             floor = common(floor, _band(work, made))
         if id(floor) not in within:
-            within[id(floor)] = floor, common(reach, floor)
+            within[id(floor)] = floor, united([made.reach_within(each, floor, work) for each in farthest])
         target.append(_along_walls(work, made) if work.operation.FOLLOWS_WALLS else within[id(floor)][1])
     requested = united([*{id(each): each for each in target}.values(), *lines])
     floor, reached = (united([*(pair[k] for pair in within.values()), *lines]) for k in (0, 1))

@@ -12,7 +12,7 @@ from functools import cache, lru_cache
 from ...core.resources import resource
 
 _HOLE = re.compile(r"\{(n?)\}")
-_ANYTHING, _NUMBER = "(.+)", "([-+.,\u2009\\d]+)"
+_ANYTHING, _NUMBER = "(.+)", "([-+.,\u2009\u2212\\d]+(?:e[-+]\\d+)?)"
 _REMEMBERED = 4096
 _MNEMONIC = re.compile(r"&(\w)")
 _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
@@ -83,10 +83,13 @@ class Catalogue:
         return None
 
     def _sentences(self, words: str) -> str | None:
-        """Return several sentences, one behind the other, if each of them is known."""
-        parts = _BETWEEN_SENTENCES.split(words)
-        found = [self.look_up(part) for part in parts] if len(parts) > 1 else [None]
-        return "".join(part for part in found if part is not None) if None not in found else None
+        """Return several lines, or sentences one behind the other, if each of them is known."""
+        lines = words.split("\n")
+        parts, between = (lines, "\n") if len(lines) > 1 else (_BETWEEN_SENTENCES.split(words), "")
+        if len(parts) == 1:
+            return None
+        found = [self.look_up(part) or (None if _LETTER.search(part) else part) for part in parts]
+        return between.join(part for part in found if part is not None) if None not in found else None
 
 
 def _letters(text: str) -> int:

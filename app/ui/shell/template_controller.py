@@ -1,4 +1,6 @@
-"""A template's rules made into the operations of the drawing, as one step; read and applied on a worker of its own."""
+"""What a drawing of one kind tells made into operations, as one step: its layers by a template's rules, its depths; on
+a worker of its own.
+"""
 
 from __future__ import annotations
 
@@ -46,6 +48,7 @@ def applied(path: Path, job: Job, progress: Progress) -> AppliedTemplate:
     """
     from ...formats.job.toml import SETTINGS, read_job, settings_of
     from ...model.fields import with_values
+    from ...usecases.drawn_depths import with_drawn_depths
     from ...usecases.layer_operations import with_layer_rules  # imports the engines: never on the window's thread
     from ...usecases.options import MakeOptions, with_feeds
 
@@ -68,16 +71,47 @@ def applied(path: Path, job: Job, progress: Progress) -> AppliedTemplate:
     ruled = with_layer_rules(job.part, options)
     made = ruled.options.job
     assert made is not None
-    return AppliedTemplate(path.name, with_feeds(made, options).job, ruled.lines, ruled.findings)
+    lines, findings = ruled.lines, ruled.findings
+    if file.drawn_depths:
+        depths = with_drawn_depths(made)
+        made, lines, findings = depths.job, (*lines, *depths.lines()), (*findings, *depths.findings)
+    return AppliedTemplate(path.name, with_feeds(made, options).job, lines, findings)
+
+
+@dataclass(frozen=True)
+class TakenDepths:
+    """A job cut to the depths of its drawing.
+
+    Attributes:
+        lines: what was read of each. findings: what was not understood.
+    """
+
+    job: Job
+    lines: tuple[str, ...]
+    findings: tuple[Finding, ...]
+
+
+def to_drawn_depths(job: Job, progress: Progress) -> TakenDepths:
+    """Return a job whose operations go as deep as its drawing tells.
+
+    Raises:
+        InputError: the drawing tells no depth.
+    """
+    from ...usecases.drawn_depths import with_drawn_depths  # imports the engines: never on the window's thread
+
+    progress.step(0.0, "Reading depths")
+    made = with_drawn_depths(job)
+    return TakenDepths(made.job, tuple(made.lines()), made.findings)
 
 
 class TemplateController(OperationsController):
-    """Asks for a template and applies it."""
+    """Asks for a template and applies it, and takes the drawing's own depths."""
 
     def __init__(self, panel: SidePanel, workspace: Workspace, commands: Commands) -> None:
         super().__init__(panel, workspace, "Applying the template…")
         self._commands = commands
         on_trigger(commands, "apply_template", self.choose_file)
+        on_trigger(commands, "drawn_depths", self.take_depths)
 
     def choose_file(self) -> None:
         """Ask for a file, and apply it."""
@@ -95,7 +129,19 @@ class TemplateController(OperationsController):
         self._workspace.notice.dismiss()
         self.worker.start(lambda progress: applied(path, job, progress), self._document.revision)
 
+    def take_depths(self) -> None:
+        """Have the operations cut to the depths that the drawing tells."""
+        job = self._document.job
+        if not job.part.entities:
+            self.said.emit(NOTHING_DRAWN)
+            return
+        self._workspace.notice.dismiss()
+        self.worker.start(lambda progress: to_drawn_depths(job, progress), self._document.revision)
+
     def _take_over(self, made: object) -> None:
+        if isinstance(made, TakenDepths):
+            self._deepen(made)
+            return
         assert isinstance(made, AppliedTemplate)
         self._panel.subject = Subject(SubjectKind.OPERATION, 0)
         self._document.change_job("Apply template", made.job)
@@ -108,3 +154,17 @@ class TemplateController(OperationsController):
             [(text, self._commands[name].trigger) for text, name in (("Compute", "compute"), ("Undo", "undo"))],
         )
         self.said.emit(f"{made.name} is applied.")
+
+    def _deepen(self, made: TakenDepths) -> None:
+        self._panel.subject = Subject(SubjectKind.OPERATION, 0)
+        self._document.change_job("Depths from the drawing", made.job)
+        self._workspace.log.note("depths", "\n".join(line.strip() for line in made.lines))
+        for finding in made.findings:
+            self._workspace.log.note("depths", finding.text, error=finding.counts)
+        count = counted(len(made.job.operations), "operation")
+        left = counted(sum(each.counts for each in made.findings), "depth")
+        self._workspace.notice.ask(
+            f"{count} by the drawing's depths, {left} not understood; the log says which.",
+            [(text, self._commands[name].trigger) for text, name in (("Compute", "compute"), ("Undo", "undo"))],
+        )
+        self.said.emit("The drawing's depths are taken.")

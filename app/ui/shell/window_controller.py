@@ -51,6 +51,7 @@ from .file_controller import FileController, Openers
 from .focus_keeping import FocusKeeper
 from .help import show_about
 from .help_window import HelpWindow
+from .inlay_controller import InlayController
 from .keys_window import KeysWindow
 from .main_window import MainWindow
 from .memory_choice import MemoryChoice
@@ -158,6 +159,7 @@ class WindowController(QObject):
         window, canvas = self.window_, self.window_.canvas
         self.drawing_export = DrawingExportController(window, workspace)
         self.sheet_export = SheetExportController(window, workspace)
+        self.inlay_controller = InlayController(window, workspace, commands)
         self.tools = ToolExchange(window.panel, workspace)
         self.tab_controller = TabController(window.panel, canvas, self.document)
         self.underlay_controller = UnderlayController(canvas, workspace, commands)
@@ -190,8 +192,8 @@ class WindowController(QObject):
         self._on("sheet", lambda: self.proposal_controller.before(self.sheet_export.start))
         self.files.open_controller.opened.connect(self.proposal_controller.know)
         self.files.without_job.connect(self.proposal_controller.offer)
-        telling = (self.drawing_export, self.sheet_export, self.proposal_controller, self.template_controller)
-        for part in telling:
+        makers = (self.inlay_controller, self.proposal_controller, self.template_controller)
+        for part in (self.drawing_export, self.sheet_export, *makers):
             part.failed.connect(self._say_error)
             part.said.connect(self._say)
         self.tools.said.connect(self._say)

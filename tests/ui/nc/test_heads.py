@@ -23,7 +23,7 @@ def sized(qtbot, widget, width):
 
 @pytest.mark.parametrize(("width", "counts"), [(440, True), (222, False)])
 def test_a_program_keeps_its_name_where_there_is_little_room(qtbot, width, counts):
-    head = TextHead(closable=True)
+    head = TextHead()
     head.show_program("tux.ngc", "4296 lines")
     head.show_dialect(Dialect.LINUXCNC, None, True)
     sized(qtbot, head, width)

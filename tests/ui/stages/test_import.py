@@ -23,9 +23,9 @@ from app.ui.views.stages.painting.pixel_painter import pixel_at
 from app.ui.views.stages.picture_preview import PixelSize
 from tests.raster.test_doubts import plate
 from tests.ui.conftest import WAIT_MS
+from tests.ui.fields_typed import enter
 from tests.ui.stages.conftest import show_stages
 from tests.ui.stages.scan import DARK_INK, PAPER, scan
-from tests.ui.stages.test_stages_view import type_value
 
 LEFT = Qt.MouseButton.LeftButton
 
@@ -104,13 +104,13 @@ def test_ink_can_be_told_otherwise(qtbot, opened):
         and np.array_equal(areas.plane == PixelCode.INSIDE, lines.picture.ink)
         and not areas.places
     )
-    type_value(qtbot, panel.despeckle, "5000")
+    enter(qtbot, panel.despeckle, "5000")
     assert read(qtbot, opened).picture.ink.sum() < lines.picture.ink.sum()
 
 
 def test_size_comes_from_the_resolution_or_from_two_points(qtbot, opened):
     panel, pixels = opened.window_.import_panel, opened.window_.views.stages.pixels
-    type_value(qtbot, panel.dpi, "254")
+    enter(qtbot, panel.dpi, "254")
     assert read(qtbot, opened).reading.frame.pitch == pytest.approx(0.1) and not panel.summary.text()
     qtbot.mouseClick(panel.measure.buttons[SizeGivenBy.POINTS], LEFT)
     read(qtbot, opened)
@@ -122,7 +122,7 @@ def test_size_comes_from_the_resolution_or_from_two_points(qtbot, opened):
     places = [mark.at for mark in pixels.marks if mark.strong]
     assert [x for place in places for x in place] == pytest.approx([2.0, 18.0, 22.0, 18.0], abs=0.1)
     assert [x for point in panel.reading.measure.points for x in point] == pytest.approx([20, 60, 220, 60], abs=1)
-    type_value(qtbot, panel.apart, "100")
+    enter(qtbot, panel.apart, "100")
     assert read(qtbot, opened).reading.frame.pitch == pytest.approx(0.5, rel=0.01)
     assert float(panel.about.text().split()[4]) == pytest.approx(180, rel=0.01)
 
@@ -137,7 +137,7 @@ def test_the_photograph_itself_can_be_seen(qtbot, opened):
 def test_a_used_picture_is_the_part_on_its_own_pixels(qtbot, opened):
     window, panel = opened.window_, opened.window_.import_panel
     tools = opened.document.job.tools
-    type_value(qtbot, panel.dpi, "63.5")
+    enter(qtbot, panel.dpi, "63.5")
     panel.take.click()
     show_stages(qtbot, opened)
     view = window.views.stages
@@ -158,7 +158,7 @@ def test_a_used_picture_is_the_part_on_its_own_pixels(qtbot, opened):
 
 
 def test_a_picture_that_was_drawn_in_is_a_drawing(qtbot, opened):
-    type_value(qtbot, opened.window_.import_panel.dpi, "63.5")
+    enter(qtbot, opened.window_.import_panel.dpi, "63.5")
     opened.window_.import_panel.take.click()
     show_stages(qtbot, opened)
     part = opened.document.part
@@ -244,7 +244,7 @@ def test_an_error_goes_when_the_next_picture_is_good(qtbot, wiring, tmp_path):
 
 
 def test_a_picture_that_is_drawn_in_says_so_once(qtbot, opened):
-    type_value(qtbot, opened.window_.import_panel.dpi, "63.5")
+    enter(qtbot, opened.window_.import_panel.dpi, "63.5")
     opened.window_.import_panel.take.click()
     show_stages(qtbot, opened)
     told = [line for line in opened.log.lines if "ordinary drawing" in line.reply]
