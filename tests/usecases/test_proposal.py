@@ -20,12 +20,13 @@ from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber
 from app.model.hole_operations import BoreOperation
 from app.model.job import Copies, Job
 from app.model.operation import DrillOperation, PocketOperation, RestOperation, Side
+from app.model.stock_box import stock_box
 from app.model.tool import Tool, ToolKind
 from app.toolpath.coverage.flat import region_shapes
 from app.usecases.machining import MachiningOptions
 from app.usecases.make import MakeResult, make
 from app.usecases.options import MakeOptions
-from app.usecases.proposal.propose import Proposal, ProposalOptions, ProposalRule, as_in_1986, propose
+from app.usecases.proposal.propose import SPARE, Proposal, ProposalOptions, ProposalRule, as_in_1986, propose
 from tests.part_shapes import circle, layered_part, square
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -249,3 +250,15 @@ def test_the_areas_of_random_nested_parts(seed: int) -> None:
     assert by_kind == {"cleared": pytest.approx(cleared, rel=1e-6), "holes": pytest.approx(holes, rel=1e-3)}
     assert job.operations[-1].cut.curves == (ContourKind.OUTER,)
     assert all(not isinstance(each, CurveNumber) for each in job.operations[-1].cut.curves)
+
+
+@pytest.mark.parametrize("lines", [PLATE, "circle 0,0 30", "polyline 0,0 60,0 60,20 20,20 20,60 0,60 close"])
+def test_cutting_a_part_out_leaves_a_whole_frame_of_stock_round_it(lines: str) -> None:
+    """Where it breaks, part and frame move."""
+    made = made_of(lines)
+    outline = next(k for k, each in enumerate(made.job.operations) if each.wall_side is Side.OUTSIDE)
+    tool = made.job.tool(made.job.operations[outline].cut.tool)
+    moves, box = made.program.moves, stock_box(made.job, made.program.regions)
+    ends = moves.end[(moves.operation == outline) & (moves.end[:, 2] < 0)]
+    inner = shapely.box(box.x0, box.y0, box.x1, box.y1).exterior.distance(shapely.MultiPoint(ends[:, :2]))
+    assert inner - tool.radius > SPARE / 2 - 1e-3

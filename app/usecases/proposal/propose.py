@@ -21,7 +21,7 @@ from ...geometry.primitives import contour_rows, lengths, signed_area
 from ...geometry.region import nest, polygon_contour
 from ...model.contour_operation import ContourOperation
 from ...model.curve_selectors import Selector
-from ...model.entry import Tabs
+from ...model.entry import Entry, EntryKind, Lead, Tabs
 from ...model.finding import Finding
 from ...model.hole_operations import BoreOperation
 from ...model.job import Copies, Job, Stock
@@ -338,8 +338,10 @@ class ProposalWork:
             f"{_counted(len(outlines), 'outline')}: cut out outside, through {self.thickness:g} mm, last, by "
             f"{self._named(tool)}, with {tabs.count} tabs each and {tool.diameter + SPARE:g} mm of stock round{narrow}"
         )
-        cut = self.cut(tool, self.thickness, self._curves(outlines))
-        return [ProposedOperation(ContourOperation(cut, Side.OUTSIDE, tabs=tabs), why)]
+        # a helix or a wide arc beside the path would break through the narrow frame of stock round it
+        cut = replace(self.cut(tool, self.thickness, self._curves(outlines)), entry=Entry(EntryKind.RAMP))
+        lead = Lead(radius=SPARE / 2)
+        return [ProposedOperation(ContourOperation(cut, Side.OUTSIDE, tabs=tabs, lead=lead), why)]
 
 
 def _area(region: Region) -> float:
