@@ -1,6 +1,9 @@
 """The window, as the tests of all its parts drive it; and what a controller needs without one."""
 
+from collections.abc import Iterator
+
 import pytest
+from PySide6.QtCore import QCoreApplication, QEvent
 
 from app.core.settings import Settings
 from app.drafting.document import Document
@@ -15,6 +18,17 @@ from app.ui.framework.workspace import Workspace
 from tests.ui.one_window import OneWindow
 
 WAIT_MS = 20_000
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_teardown() -> Iterator[None]:
+    """Let go of a test's widgets: outside of an event loop Qt keeps what is to be deleted later for ever, and each
+    change of style dresses them all.
+    """
+    try:
+        return (yield)
+    finally:
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
 
 @pytest.fixture

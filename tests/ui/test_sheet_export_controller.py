@@ -20,8 +20,8 @@ def test_the_sheet_of_the_job_is_computed_and_written(qtbot, computed, tmp_path)
 
 
 def test_nothing_to_machine_has_no_sheet(qtbot, wiring, tmp_path):
-    wiring.document.run("line 0,0 10,0")
     wiring.sheet_export.choose_file = lambda first: tmp_path / "a.pdf"
-    with qtbot.waitSignal(wiring.sheet_export.failed, timeout=WAIT_MS, raising=False):
+    with qtbot.waitSignal(wiring.sheet_export.failed, timeout=WAIT_MS) as caught:
         wiring.window_.actions_["sheet"].trigger()
+    assert caught.args[0].startswith("There is no path for a sheet")
     assert not (tmp_path / "a.pdf").exists()

@@ -17,6 +17,7 @@ from pathlib import Path
 from types import FunctionType, MethodType
 
 import numpy as np
+import shiboken6
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
@@ -104,7 +105,7 @@ def _walk(wiring: WindowController) -> Iterator[tuple[str, object]]:
             yield way, value
         elif id(value) not in seen:
             seen.add(id(value))
-            if _is_seen(type(value)):
+            if _is_seen(type(value)) and shiboken6.isValid(value):
                 yield from _seen_of(way, value)
             for step, part in _parts(value):
                 if _sort_of(type(part)) is _Sort.SIMPLE:  # most are, and need not wait

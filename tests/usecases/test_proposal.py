@@ -262,3 +262,11 @@ def test_cutting_a_part_out_leaves_a_whole_frame_of_stock_round_it(lines: str) -
     ends = moves.end[(moves.operation == outline) & (moves.end[:, 2] < 0)]
     inner = shapely.box(box.x0, box.y0, box.x1, box.y1).exterior.distance(shapely.MultiPoint(ends[:, :2]))
     assert inner - tool.radius > SPARE / 2 - 1e-3
+
+
+@pytest.mark.parametrize("line", ["line 0,0 10,0", "line 3,0 3,9"])
+def test_one_straight_line_has_a_stock_as_wide_as_the_tool(line: str) -> None:
+    made = made_of(line)
+    assert made.clean
+    x, y, _ = stock_box(made.job, made.program.regions, made.program.lines).size
+    assert min(x, y) == pytest.approx(max(tool.diameter for tool in made.job.tools))
