@@ -1,4 +1,4 @@
-"""Numbers with their nouns."""
+"""Numbers in sentences: counts with their nouns, places."""
 
 from __future__ import annotations
 
@@ -11,3 +11,8 @@ def counted(count: int, one: str, many: str = "", thousands: str = "") -> str:
         thousands: what stands between groups of three digits.
     """
     return f"{count:,}".replace(",", thousands) + f" {one if count == 1 else many or one + 's'}"
+
+
+def place_mm(value: float) -> str:
+    """Return a coordinate, mm: in micrometres, and in six digits where it is so far away that these say nothing."""
+    return f"{value:.3f}" if abs(value) < 1e12 else f"{value:.6g}"

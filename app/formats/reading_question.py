@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ..core.errors import InputError
+from ..core.wording import place_mm
 from ..geometry.chaining.pieces import FARTHEST
 from ..model.curves import Point
 from ..model.part import Units
@@ -105,7 +106,7 @@ def _scaled(size: Size, factor: float) -> Size:
 
 
 def _place(x: float, y: float) -> str:
-    return f"({x:.3f}, {y:.3f})"
+    return f"({place_mm(x)}, {place_mm(y)})"
 
 
 def far_question(first: Point, reading: ReadingOptions, units: Units) -> ReadingQuestion:
@@ -121,7 +122,9 @@ def far_question(first: Point, reading: ReadingOptions, units: Units) -> Reading
         if other.value < units.value and max(abs(x), abs(y)) < FARTHEST:
             choices.append(
                 ReadingChoice(
-                    f"Take it as {UNIT_WORDS[other]}", reading.in_units(other), f"it then begins at {_place(x, y)} mm"
+                    f"Take it as {UNIT_WORDS[other]}",
+                    reading.in_units(other),
+                    f"it then begins at ({place_mm(x)}, {place_mm(y)}) mm",
                 )
             )
     away = math.hypot(*first) / 1e6

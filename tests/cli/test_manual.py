@@ -55,6 +55,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     page = document.modelspace()
     for x0, y0, x1, y1, layer in ((0, 0, 80, 50, "0"), (20, 15, 60, 35, "pocket 4mm"), (90, 10, 95, 30, "clamps")):
         page.add_lwpolyline([(x0, y0), (x1, y0), (x1, y1), (x0, y1)], close=True, dxfattribs={"layer": layer})
+    page.query("LWPOLYLINE")[1].dxf.elevation = -4  # a depth that `--depths drawing` reads
     for x in (8, 72):
         page.add_circle((x, 8), 2.5)
     document.saveas(tmp_path / "part.dxf")

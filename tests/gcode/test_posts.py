@@ -86,7 +86,7 @@ def test_unknown_post_names_the_known_ones() -> None:
         ('end = ["M2"]', 'end = ["M2 {tool}"]', "mill.toml: program.end: {tool} in 'M2 {tool}' is not known"),
         ('"T{tool} M6"', '"T{tool M6"', "mill.toml: program.tool: 'T{tool M6' has a brace without its partner"),
         ("G64 P{blend} Q0", "G64 P{p} Q0", "mill.toml: blending.blend: {p} in 'G64 P{p} Q0' is not known"),
-        ('"X", "Y", "Z"', '"X", "Y", "Y"', "mill.toml: words.order is"),
+        ('"X", "Y", "Z"', '"X", "Y", "Y"', "mill.toml: words.order has 'Y' twice; expected is each of"),
         ('"G2", "G3"]', '"G2"]', "mill.toml: words.motion has 3 texts"),
         ('"T{tool} M6"', '"T{tool:>4} M6"', "mill.toml: program.tool: 'T{tool:>4} M6' cannot be filled in"),
         ('"T{tool} M6"', '"T{tool[x]} M6"', "mill.toml: program.tool: {tool[x]} in 'T{tool[x]} M6' is not known"),

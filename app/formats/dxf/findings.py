@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from ...core.wording import place_mm
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
 from .blocks import DxfContent, HiddenInsert, WidePolyline
@@ -40,8 +41,8 @@ def negative_radius_findings(content: DxfContent, size: float) -> Iterator[Findi
             else f"{count} circles or arcs have a radius below 0 and are"
         )
         text = (
-            f"{what} missing from the part{'' if count == 1 else ', the first'}: {radius:g} mm round ({x:.3f}, "
-            f"{y:.3f}) on layer {first.layer}; draw it again."
+            f"{what} missing from the part{'' if count == 1 else ', the first'}: {radius:g} mm round "
+            f"({place_mm(x)}, {place_mm(y)}) on layer {first.layer}; draw it again."
         )
         yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(count))
 
@@ -51,7 +52,7 @@ def about_unread(content: DxfContent, size: float) -> Iterator[Finding]:
     for sort in dict.fromkeys(each.sort for each in content.unread):
         alike = [each for each in content.unread if each.sort == sort]
         x, y = alike[0].at[0] * size, alike[0].at[1] * size
-        count, where = len(alike), f"at ({x:.3f}, {y:.3f}) on layer {alike[0].layer}"
+        count, where = len(alike), f"at ({place_mm(x)}, {place_mm(y)}) on layer {alike[0].layer}"
         text = f"1 {sort} {where} is not read." if count == 1 else f"{count} {sort} are not read, the first {where}."
         yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(count), layer=alike[0].layer)
 
@@ -79,7 +80,7 @@ def band_findings(bands: Sequence[WidePolyline], size: float) -> Iterator[Findin
         )
         yield Finding(
             FindingKind.ASSUMED,
-            f"{what} at ({x:.3f}, {y:.3f}); {read} read. {do}.",
+            f"{what} at ({place_mm(x)}, {place_mm(y)}); {read} read. {do}.",
             x,
             y,
             counts=False,
@@ -102,7 +103,7 @@ def _hidden(inserts: list[HiddenInsert], size: float) -> Finding:
     named = ", ".join(list(blocks)[:_NAMED]) + (f" and {len(blocks) - _NAMED} more" if len(blocks) > _NAMED else "")
     at = next((each.at for each in inserts if each.at is not None), None)
     first = "" if len(inserts) == 1 else "the first "
-    where = f", {first}at ({at[0] * size:.3f}, {at[1] * size:.3f})," if at is not None else ""
+    where = f", {first}at ({place_mm(at[0] * size)}, {place_mm(at[1] * size)})," if at is not None else ""
     what = f"Block {named} is" if len(inserts) == 1 else f"{len(inserts)} blocks ({named}) are"
     requested = " ".join(f"--layer {each}" for each in list(dict.fromkeys((layer, *curves)))[: _NAMED + 1])
     lost = "1 curve is" if len(curves) == 1 else f"{len(curves)} curves are"
@@ -142,9 +143,9 @@ def text_findings(texts: Sequence[TextCurves], size: float) -> Iterator[Finding]
         rest = f" and {len(letters) - _LETTERS} more" if len(letters) > _LETTERS else ""
         x, y = short[0].at[0] * size, short[0].at[1] * size
         where = (
-            f"the text at ({x:.3f}, {y:.3f})"
+            f"the text at ({place_mm(x)}, {place_mm(y)})"
             if len(short) == 1
-            else f"{len(short)} texts, the first at ({x:.3f}, {y:.3f})"
+            else f"{len(short)} texts, the first at ({place_mm(x)}, {place_mm(y)})"
         )
         yield Finding(
             FindingKind.LEFT_OUT,
@@ -163,9 +164,9 @@ def _assumed_places(texts: Sequence[TextCurves], size: float) -> Iterator[Findin
         what = "The text" if len(texts) == 1 else f"{len(texts)} texts, the first"
         runs = "runs" if len(texts) == 1 else "run"
         yield remark(
-            f"{what} at ({x:.3f}, {y:.3f}) on layer {texts[0].layer} {runs} downwards in columns; its lines are broken "
-            "where a column ends, and other programs may break them elsewhere. Compare it with the drawing, or explode "
-            "it there.",
+            f"{what} at ({place_mm(x)}, {place_mm(y)}) on layer {texts[0].layer} {runs} downwards in columns; its "
+            "lines are broken where a column ends, and other programs may break them elsewhere. Compare it with the "
+            "drawing, or explode it there.",
             float(len(texts)),
         )
 

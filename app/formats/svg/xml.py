@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import NoReturn
 from xml.parsers import expat
 
-from ...core.errors import InputError
+from ...core.errors import MOST_QUOTED, InputError
 from ..drawing_account import MOST_CURVES
 
 SVG = "http://www.w3.org/2000/svg"
@@ -114,7 +114,8 @@ class _Reader:
             ValueError,
         ) as error:  # an encoding that does not exist, or that Python alone cannot decode
             raise InputError(
-                f"{self._name}: the text encoding of the XML cannot be read ({error}); save it as UTF-8."
+                f"{self._name}: the text encoding of the XML cannot be read ({str(error)[:MOST_QUOTED]}); save it as "
+                "UTF-8."
             ) from None
         assert self._root is not None  # XML without a root is an error of the parser
         return self._root

@@ -16,7 +16,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from ...core.errors import HitofudeError, InputError, printable
+from ...core.errors import MOST_QUOTED, HitofudeError, InputError, printable
 from ...core.toml_tables import QUOTED, brief
 from ...model.fields import Unit, declared_of
 from ...model.tool import FeedRow, HolderPoint, Tool, ToolMaterial
@@ -138,7 +138,8 @@ def _rows(name: str, text: str) -> list[_SheetRow]:
         return [_SheetRow(reader.line_num, cells) for cells in reader if any(cell.strip() for cell in cells)]
     except csv.Error as error:
         raise InputError(
-            f"{name}:{reader.line_num}: this is no row of a spreadsheet ({error}); save it as CSV again."
+            f"{name}:{reader.line_num}: this is no row of a spreadsheet ({str(error)[:MOST_QUOTED]}); save it as CSV "
+            "again."
         ) from error
 
 

@@ -16,7 +16,7 @@ import zlib
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from ...core.errors import InputError
+from ...core.errors import MOST_QUOTED, InputError
 from ...core.toml_tables import QUOTED, brief
 from ...model.tool import FeedRow, HolderPoint
 from ...model.tool_kind import ToolKind
@@ -82,7 +82,9 @@ def _text(name: str, data: bytes) -> bytes:
             with archive.open(found[0]) as file:
                 return file.read(MOST_BYTES)
     except (zipfile.BadZipFile, zlib.error, lzma.LZMAError, ValueError, RuntimeError, OSError, EOFError) as error:
-        raise InputError(f"{name}: the archive cannot be opened ({error}); export the library anew.") from error
+        raise InputError(
+            f"{name}: the archive cannot be opened ({str(error)[:MOST_QUOTED]}); export the library anew."
+        ) from error
 
 
 def _tree(name: str, text: bytes) -> Any:

@@ -166,10 +166,12 @@ def _check_signs(table: Any, place: str) -> None:
 
 def _check_words(post: Post, file: str) -> None:
     """Check what a single key cannot tell: letters, the four motions, like digits for the two axes of the plane."""
-    if sorted(post.words.order) != sorted(LETTERS):
-        raise InputError(
-            f"{file}: words.order is {list(post.words.order)}; expected is each of {', '.join(LETTERS)} once."
-        )
+    order = post.words.order
+    odd = next((each for n, each in enumerate(order) if each not in LETTERS or each in order[:n]), None)
+    missing = [letter for letter in LETTERS if letter not in order]
+    if odd is not None or missing:
+        what = f"lacks {', '.join(missing)}" if odd is None else f"has {odd!r}{' twice' * (odd in LETTERS)}"
+        raise InputError(f"{file}: words.order {what}; expected is each of {', '.join(LETTERS)} once.")
     if len(post.words.motion) != 4:
         raise InputError(
             f"{file}: words.motion has {len(post.words.motion)} texts; expected are rapid, line, clockwise and "

@@ -87,14 +87,15 @@ def short(finding: Finding) -> str:
     """Return what was found and where, without the sentence: "gouge 0.120 mm at (41.2, 8.0)"."""
     amount = ""
     if finding.amount is not None and finding.kind is FindingKind.LEFT_REACHABLE:
-        amount = f" {_area(finding.amount)} mm²"
+        amount = f" {area_words(finding.amount)} mm²"
     elif finding.amount is not None and finding.kind in (FindingKind.GOUGE, FindingKind.OPEN_CONTOUR):
         amount = f" {finding.amount:.3f} mm"
     place = "" if finding.x is None or finding.y is None else f" at ({finding.x:.1f}, {finding.y:.1f})"
     return f"{finding.kind.words}{amount}{place}"
 
 
-def _area(mm2: float) -> str:
+def area_words(mm2: float) -> str:
+    """Return an area, mm², to three digits, and a large one whole: "6 710"."""
     return grouped(mm2, 0) if mm2 >= 100 else f"{mm2:.3g}"
 
 

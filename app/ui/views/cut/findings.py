@@ -10,7 +10,7 @@ import numpy as np
 
 from ....model.finding import Finding, FindingKind
 from ...framework.figures import counted
-from ...framework.verdict import VerdictLevel, VerdictSummary
+from ...framework.verdict import VerdictLevel, VerdictSummary, area_words
 from .overlay_text import number
 
 if TYPE_CHECKING:
@@ -133,7 +133,7 @@ def measured(judgement: Judgement) -> str:
     gouge = judgement.gouge
     cut = f"the worst gouge is {number(gouge.max_mm)} mm" if gouge.count else "no gouge"
     left = (
-        f"{judgement.reachable_mm2:.3g} mm² left within reach"
+        f"{area_words(judgement.reachable_mm2)} mm² left within reach"
         if judgement.reachable_mm2
         else "nothing left within reach"
     )
@@ -161,7 +161,7 @@ def _of_spot(spot: Spot) -> CutFinding:
 
     size = max(spot.disc_mm, float(np.sqrt(spot.area_mm2)), spot.depth_mm)
     at = f"at ({number(spot.x)}, {number(spot.y)}, {number(spot.z)})"
-    area = f"{spot.area_mm2:.3g} mm²"
+    area = f"{area_words(spot.area_mm2)} mm²"
     made = {
         SpotKind.GOUGE: (
             f"Gouge {number(spot.depth_mm)} mm",
