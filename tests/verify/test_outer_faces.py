@@ -5,7 +5,6 @@ lies in it, in closed form.
 import json
 import math
 import threading
-import time
 from pathlib import Path
 
 import numpy as np
@@ -196,15 +195,3 @@ def test_it_tells_how_far_it_is_and_can_be_stopped() -> None:
 
     with pytest.raises(Cancelled):
         outer_faces(many_balls(4), Progress(after_a_while, stop))
-
-
-@pytest.mark.exhaustive
-def test_many_bodies_take_as_long_as_they_are_many() -> None:
-    outer_faces(many_balls(2))  # so that no kernel is loaded on the way
-    sizes, spent = (3, 6, 9), []
-    for side in sizes:
-        solid, began = many_balls(side), time.process_time()
-        outer_faces(solid)
-        spent.append(time.process_time() - began)
-    exponent = float(np.polyfit(np.log(np.square(sizes)), np.log(spent), 1)[0])
-    assert exponent < 1.15, spent
