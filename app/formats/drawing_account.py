@@ -274,7 +274,7 @@ def without_length(places: list[Point | None]) -> Iterator[Finding]:
     if places:
         known = [p for p in places if p is not None and all(map(math.isfinite, p))]
         x, y = known[0] if known else (None, None)
-        where = f", the first at ({place_mm(x)}, {place_mm(y)})" if known else ""
+        where = f", the first at ({place_mm(known[0][0])}, {place_mm(known[0][1])})" if known else ""
         what = "1 entity has" if len(places) == 1 else f"{len(places)} entities have"
         yield Finding(
             FindingKind.TINY_ENTITY, f"{what} no length{where}; left out.", x, y, False, (), float(len(places))

@@ -226,6 +226,7 @@ def test_doubling_blocks_are_refused_within_bounds() -> None:
     assert time.process_time() - started < 20
 
 
+@pytest.mark.exhaustive
 def test_empty_doubling_blocks_take_no_time() -> None:
     document = new()
     document.blocks.new("B0").add_point((0, 0))

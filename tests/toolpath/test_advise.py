@@ -361,7 +361,7 @@ def test_times_are_those_of_programs(data: Path, name: str, pocket: float, conto
     assert sum(made) / 1.5 <= sum(told) <= 1.5 * sum(made)
 
 
-@pytest.mark.parametrize("name", ["complex", "forms"])
+@pytest.mark.parametrize("name", [pytest.param("complex", marks=pytest.mark.exhaustive), "forms"])
 def test_drawings_of_thousands_of_lines(data: Path, name: str) -> None:
     drawing = read_drawing(f"{name}.dxf", (data / "dxf" / f"{name}.dxf").read_bytes(), None, ())
     regions, _ = regions_of(Job(drawing.part))

@@ -54,7 +54,9 @@ def rings(made: PocketStrokes) -> float:
     return sum(ring.length for level in made.levels for ring in level.rings)
 
 
-@pytest.mark.parametrize("name", ["resources/samples/fig2.dxf", "tests/data/dxf/complex.dxf"])
+@pytest.mark.parametrize(
+    "name", ["resources/samples/fig2.dxf", pytest.param("tests/data/dxf/complex.dxf", marks=pytest.mark.exhaustive)]
+)
 @pytest.mark.parametrize("stepover", [0.8, 1.0])
 def test_bridges_are_less_than_two_hundredths_of_the_path_and_nothing_is_left(name: str, stepover: float) -> None:
     path = ROOT / name

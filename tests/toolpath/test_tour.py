@@ -239,7 +239,12 @@ def drawn_strokes(path: Path, radius: float) -> tuple[tuple[Stroke, ...], tuple[
 
 
 @pytest.mark.parametrize(
-    ("name", "radius", "share"), [("complex.dxf", 0.5, 0.9), ("gear.dxf", 0.5, 1.0), ("apu-mount.dxf", 1.5, 0.98)]
+    ("name", "radius", "share"),
+    [
+        pytest.param("complex.dxf", 0.5, 0.9, marks=pytest.mark.exhaustive),
+        ("gear.dxf", 0.5, 1.0),
+        ("apu-mount.dxf", 1.5, 0.98),
+    ],
 )
 def test_real_drawings_take_less_travel(data: Path, name: str, radius: float, share: float) -> None:
     for strokes in drawn_strokes(data / "dxf" / name, radius):
