@@ -4,7 +4,6 @@ in a notebook.
 
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -154,8 +153,7 @@ class MadeInlay:
     @property
     def report(self) -> Report:
         """Every measured number, by the keys of `inlay --report`."""
-        told: Report = json.loads(self.result.report())
-        return told
+        return self.result.values()
 
     def save(self, path: str | os.PathLike[str]) -> tuple[Path, ...]:
         """Write both programs, all files whole or none; return their paths: `path` with _pocket and _plug behind it.

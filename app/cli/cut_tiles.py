@@ -90,7 +90,10 @@ def _written(waiting: Path, grid: Grid, tasks: list[CutTileTask], jobs: int, pro
     """Write the heights of all tiles into a file; return the lowest and the highest, mm."""
     field = np.lib.format.open_memmap(waiting, "w+", np.float32, (grid.rows, grid.cols))
     spans: list[tuple[float, float]] = []
-    finished = lambda place, result: spans.append(_take(field, tasks[place].tile, result))  # noqa: E731 (on this thread)
+
+    def finished(place: int, result: BatchResult) -> None:  # on this thread
+        spans.append(_take(field, tasks[place].tile, result))
+
     BatchRun(tasks, [ProcessLane(cut_tile) for _ in range(jobs)], finished).run(progress)
     field.flush()
     return min(low for low, _ in spans), max(high for _, high in spans)

@@ -203,7 +203,7 @@ class _Assigned:
             yield self._without_letters(operation)
             return
         contours = self._cut_by(operation)
-        if operation.wall_side is Side.INSIDE and not isinstance(operation, HoleOperation):
+        if operation.wall_side is Side.INSIDE and not operation.HOLES:
             groups = self._floors(contours, operation.cut.depth)
         else:
             groups = self._each(contours, operation.cut.depth)

@@ -102,7 +102,10 @@ def _stage(context: CutContext, k: int, before: Workpiece, after: CutResult, don
     metal = FineStock(context.setup.stock, courses, context.cutters)
     header = context.setup.programs[k].header
     rates, under = ({}, 0.0) if header is None else (dict(header.plunge_rates), header.under)
-    where = lambda row: context.setup.where(done + row)  # noqa: E731 (a place of this program)
+
+    def where(row: int) -> str:
+        return context.setup.where(done + row)
+
     return ProgramStage(context.courses[k], before, after, metal, context.setup.tools, where, rates, under)
 
 

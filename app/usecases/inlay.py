@@ -126,10 +126,10 @@ class InlayPair:
             files |= {file.named(named): file.nc.text.encode("ascii") for file in made.files}
         return files
 
-    def report(self) -> bytes:
-        """Return everything that was measured, as JSON."""
+    def values(self) -> dict[str, Any]:
+        """Return everything that was measured."""
         fit = self.fit
-        told: dict[str, Any] = {
+        return {
             "fit": {
                 "overlap_mm": fit.overlap,
                 "between_walls_mm": fit.walls,
@@ -140,10 +140,13 @@ class InlayPair:
                 "the bound is of what the proofs of both carvings leave",
             },
             "findings": [each.text for each in self.findings],
-            "pocket": json.loads(self.pocket.report.text()),
-            "plug": json.loads(self.plug.report.text()),
+            "pocket": self.pocket.report.data,
+            "plug": self.plug.report.data,
         }
-        return (json.dumps(told, indent=2) + "\n").encode()
+
+    def report(self) -> bytes:
+        """Return the same as JSON text."""
+        return (json.dumps(self.values(), indent=2) + "\n").encode()
 
 
 def inlay(
