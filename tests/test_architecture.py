@@ -108,7 +108,7 @@ def test_the_session_of_1986_is_loaded_when_it_is_asked_for() -> None:
     }
 
 
-@pytest.mark.parametrize("door", ["app.cli.main", "app.usecases.make", "app.ui.shell.main_window"])
+@pytest.mark.parametrize("door", ["app.cli.main", "app.usecases.making.make", "app.ui.shell.main_window"])
 def test_exhibits_are_loaded_when_they_are_asked_for(door: str) -> None:
     code = f"import {door}, sys; print(*[name for name in sys.modules if name.startswith('app.exhibits')])"
     done = subprocess.run(
