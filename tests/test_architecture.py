@@ -1,8 +1,10 @@
 """The rules of the house, read from the source: who may know whom (contracts in pyproject.toml), what starts light."""
 
+import io
 import re
 import subprocess
 import sys
+import tokenize
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -58,6 +60,18 @@ def test_a_circle_in_a_function_is_seen(tmp_path: Path) -> None:
 def test_only_kernel_files_make_kernels() -> None:
     others = [path for path in FILES if "kernels" not in path.stem and path.parent.name != "jit"]
     assert not offenders(others, lambda path: "core.jit import" in path.read_text("utf-8"))
+
+
+def comments_share(text: str) -> float:
+    """Comments of a text, by its lines."""
+    tokens = tokenize.generate_tokens(io.StringIO(text).readline)
+    return sum(token.type == tokenize.COMMENT for token in tokens) / text.count("\n")
+
+
+def test_kernels_say_why_they_compute_what_they_compute() -> None:
+    assert comments_share("x = 1  # why\ny = 2\n") == 0.5
+    kernels = [path for path in FILES if "kernels" in path.stem]
+    assert kernels and not offenders(kernels, lambda path: comments_share(path.read_text("utf-8")) < 0.02)
 
 
 def test_public_things_say_what_they_are() -> None:
