@@ -16,8 +16,8 @@ from ..model.tool import Tool
 from ..operations.compute import regions_of
 from ..toolpath.advice.advise import Advice, RegionAdvice, ToolChoice, advise, standard_tools
 from ..toolpath.advice.time import CuttingPlan
-from .layers import with_layers_spelled
-from .plausible import read_plausible
+from .job.layers import with_layers_spelled
+from .job.plausible import read_plausible
 
 Json = dict[str, Any]
 

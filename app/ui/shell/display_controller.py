@@ -297,8 +297,8 @@ class DisplayController(QObject):
     def _mends(self, finding: Finding) -> tuple[Mend, ...]:
         """Return what mends a finding on the job's program."""
         from ...formats.tools.library import load_libraries
+        from ...usecases.making.program_lines import operation_of_line
         from ...usecases.mending import Fault, mends
-        from ...usecases.program_lines import operation_of_line
 
         made = self._computation.made
         if made is None:

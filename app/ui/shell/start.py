@@ -34,7 +34,7 @@ _ENGINES = (
     "cv2",
     f"{PACKAGE}.formats.dxf.dxf",
     f"{PACKAGE}.operations.compute",
-    f"{PACKAGE}.usecases.make",
+    f"{PACKAGE}.usecases.making.make",
 )
 
 

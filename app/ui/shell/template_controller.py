@@ -48,9 +48,9 @@ def applied(path: Path, job: Job, progress: Progress) -> AppliedTemplate:
     """
     from ...formats.job.toml import SETTINGS, read_job, settings_of
     from ...model.fields import with_values
-    from ...usecases.drawn_depths import with_drawn_depths
-    from ...usecases.layer_operations import with_layer_rules  # imports the engines: never on the window's thread
-    from ...usecases.options import MakeOptions, with_feeds
+    from ...usecases.job.drawn_depths import with_drawn_depths
+    from ...usecases.job.layer_operations import with_layer_rules  # imports the engines: never on the window's thread
+    from ...usecases.job.options import MakeOptions, with_feeds
 
     progress.step(0.0, f"Reading {path.name}")
     file = read_job(path.name, read_input(path))
@@ -97,7 +97,7 @@ def to_drawn_depths(job: Job, progress: Progress) -> TakenDepths:
     Raises:
         InputError: the drawing tells no depth.
     """
-    from ...usecases.drawn_depths import with_drawn_depths  # imports the engines: never on the window's thread
+    from ...usecases.job.drawn_depths import with_drawn_depths  # imports the engines: never on the window's thread
 
     progress.step(0.0, "Reading depths")
     made = with_drawn_depths(job)

@@ -31,9 +31,9 @@ from .zoom_controller import ZoomController, ZoomTarget
 
 if TYPE_CHECKING:
     from ....gcode.interpreter.dialect import Dialect
-    from ....usecases.make import MakeResult
+    from ....usecases.cutting.timeline import TimelinePlace
+    from ....usecases.making.make import MakeResult
     from ....usecases.mending import Mend
-    from ....usecases.timeline import TimelinePlace
     from ....verify.parts import Part
 
 
@@ -266,7 +266,7 @@ class CutController(Controller):
 
     def operation_of(self, motion: int) -> int | None:
         """Return the index of the job's operation that a motion of the cut belongs to; None where that is not known."""
-        from ....usecases.program_lines import operation_of_line
+        from ....usecases.making.program_lines import operation_of_line
 
         cut, made = self.cut, self._made
         if cut is None or cut is not self._own or made is None or motion < 0 or cut.picture.moves is None:

@@ -21,7 +21,7 @@ from .live_cells import FrameRequest, LiveCells, LiveFrame, live_copy
 from .view import CutView
 
 if TYPE_CHECKING:
-    from ....usecases.timeline import Timeline, TimelinePlace
+    from ....usecases.cutting.timeline import Timeline, TimelinePlace
     from .shown_cut import ShownCut
 
 TICK_MS = 16
@@ -199,7 +199,7 @@ class CutPlayer(QObject):
 
     def go(self, motion: int) -> None:
         """Go to where so many motions are done; playing goes on from there."""
-        from ....usecases.timeline import TimelinePlace
+        from ....usecases.cutting.timeline import TimelinePlace
 
         if self.timeline is not None:
             moment = TimelinePlace(min(max(motion, 0), len(self.timeline)))
@@ -281,7 +281,7 @@ class CutPlayer(QObject):
         return timeline.wait_at(self._place) / LONGEST_WAIT_S if self.pace is PlaybackPace.TIME else 0.0
 
     def _moment(self, timeline: Timeline) -> TimelinePlace:
-        from ....usecases.timeline import TimelinePlace
+        from ....usecases.cutting.timeline import TimelinePlace
 
         if self.pace is PlaybackPace.TIME:
             return timeline.at(self._place) if self._place < timeline.total else timeline.last
@@ -362,7 +362,7 @@ def prepared(shown: ShownCut, progress: Progress) -> LiveCells:
     Raises:
         HitofudeError: it does not fit into memory. Cancelled: another cut is shown.
     """
-    from ....usecases.playback import Playback
+    from ....usecases.cutting.playback import Playback
 
     playback = Playback(shown.cut, progress=progress)
     return LiveCells(playback, shown.picture, shown.cut.setup.tools)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from ....drafting.document import DocumentChange
-from ....usecases.bitmap_options import BitmapSize
+from ....usecases.pixels.options import BitmapSize
 from ...framework.controller import Controller
 from ...framework.missing import NOTHING, MissingHint
 from ...framework.worker import JobOutcome, Worker

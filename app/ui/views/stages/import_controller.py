@@ -26,7 +26,7 @@ from .pixel_view import PixelMark
 from .view import StagesView
 
 if TYPE_CHECKING:
-    from ....usecases.bitmap_job import BitmapJob
+    from ....usecases.making.bitmap_job import BitmapJob
 
 _REST_MS = 60
 _WORDS = {PixelCode.EMPTY: "paper", PixelCode.CONTOUR: "lines of ink", PixelCode.INSIDE: "to be machined"}
