@@ -20,7 +20,7 @@ from .moves import move
 from .notes import notes
 from .odd_bytes import warn_of_bytes
 from .options import ReadOptions
-from .own_header import registers_hold_wear
+from .own_header import register_diameters, registers_hold_wear
 from .places import Cursor, JumpTargets
 from .polar import check_polar, turn_polar_into_axes
 from .program import EventKind, NcProgram, ProgramProblem, Severity
@@ -66,6 +66,7 @@ class InterpreterRun:
         self._file, self._text, self._options, self._progress = data, ProgramBuffer(data), options, progress
         self._control = Control(options)
         self._control.registers_hold_wear = registers_hold_wear(data)
+        self._control.register_diameters = register_diameters(data)
         self._rules = self._control.rules
         self._not_quick = _NOT_QUICK_IN_MACRO_B if self._rules.fanuc_flow else _NOT_QUICK
         self._flow = Flow(JumpTargets(self._text), self._control)
