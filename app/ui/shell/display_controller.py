@@ -185,10 +185,9 @@ class DisplayController(QObject):
         actions["delete"].setEnabled(bool(document.selection))
         drawn = bool(document.part.entities)
         actions["select_all"].setEnabled(drawn)
-        in_surfaces, surfaces = self.view is View.SURFACES, self._window.views.surfaces
-        open_now = not self._window.views.starting
-        actions["export"].setEnabled(open_now and (surfaces.shown is not None if in_surfaces else drawn))
-        actions["compute"].setEnabled(open_now and (scene.open if in_surfaces else drawn))
+        surfaces, open_now = self._window.views.surfaces, not self._window.views.starting
+        actions["export"].setEnabled(open_now and (surfaces.shown is not None if on_scene else drawn))
+        actions["compute"].setEnabled(open_now and (on_scene or drawn))
 
     def show_state(self) -> None:
         """Show where the view at the front stands."""
