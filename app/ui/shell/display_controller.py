@@ -90,6 +90,9 @@ class DisplayController(QObject):
         window.findings_list.mended.connect(self.mend)
         window.canvas.tool_changed.connect(lambda _: self.show_missing())
         window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
+        log = window.command_line.log.model()
+        for change in (log.rowsInserted, log.modelReset):
+            change.connect(lambda *_: self.show_log())
         window.views.legend.layer_switched.connect(self._on_layer)
         window.views.legend.colour_chosen.connect(lambda by: window.canvas.set_colour_by(PathColourBy(by)))
 
@@ -215,6 +218,12 @@ class DisplayController(QObject):
                 widget.hide()
         if beside is not None:
             beside.show()
+        self.show_log()
+
+    def show_log(self) -> None:
+        """Show the log where that is wanted; the page that the window begins with has its room while it is empty."""
+        log, wanted = self._window.command_line.log, self._window.actions_["log"].isChecked()
+        log.setVisible(wanted and (bool(log.lines) or not self._window.views.starting))
 
     def show_hovered(self, text: str) -> None:
         """Show what the mouse is over, or else where the paths stand."""

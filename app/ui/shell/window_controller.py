@@ -420,7 +420,7 @@ class WindowController(QObject):
             actions[name].toggled.connect(button.setChecked)
             button.clicked.connect(actions[name].setChecked)
         actions["snap"].setChecked(True)
-        actions["log"].toggled.connect(self.window_.command_line.log.setVisible)
+        actions["log"].toggled.connect(lambda _: self.display_controller.show_log())
         actions["log"].setChecked(True)
         self._on("command", self.window_.command_line.edit.setFocus)
         for choice in ThemeChoice:
