@@ -17,6 +17,7 @@ _REMEMBERED = 4096
 _MNEMONIC = re.compile(r"&(\w)")
 _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
 _BETWEEN_SENTENCES = re.compile(r"(?<=[.?!]) (?=[A-Z])")
+_COMMA = "、"
 _LETTER = re.compile(r"[A-Za-z]")
 
 
@@ -37,8 +38,9 @@ class Catalogue:
     An entry stands for the text in a menu (`&Open…`), in a tip (`Open (Ctrl+O)`) and on a button alike: the letter to
     press, dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything, `{n}` for a
     number; what it stood for is looked up too. In the translation they may be numbered, `{1} {0}`, to stand in another
-    order. Of several entries that would do, that with the most letters of its own is taken. What is none as a whole may
-    be several sentences, each of them one; only then comes what has no word of its own, such as `{}: {}`.
+    order, and it may be a list of names, each of them an entry. Of several sentences each may be an entry. Of several
+    entries that would do, that with the most letters of its own is taken; last comes what has no word of its own, such
+    as `{}: {}`.
     """
 
     def __init__(self, entries: dict[str, str]) -> None:
@@ -72,15 +74,22 @@ class Catalogue:
         with_key = _KEY_TIP.fullmatch(words)
         if with_key and with_key.group(1) in self._entries:
             return f"{self._entries[with_key.group(1)]} {with_key.group(2)}"
-        return self._matched(words, self._patterns) or self._sentences(words) or self._matched(words, self._joints)
+        return self._sentences(words) or self._matched(words, self._patterns) or self._matched(words, self._joints)
 
     def _matched(self, words: str, patterns: list[_Pattern]) -> str | None:
         """Return what the first entry with holes makes of a text."""
         for pattern in patterns:
             match = pattern.form.fullmatch(words) if pattern.longest in words else None
             if match:
-                return pattern.other.format(*(self.look_up(part) or part for part in match.groups()))
+                return pattern.other.format(*(self._filling(part) for part in match.groups()))
         return None
+
+    def _filling(self, part: str) -> str:
+        """Return what stands for what a hole stood for; the names of a list are written small in English."""
+        if (whole := self.look_up(part)) is not None:
+            return whole
+        names = [self.look_up(name) or self.look_up(name.capitalize()) for name in part.split(", ")]
+        return _COMMA.join(name for name in names if name is not None) if None not in names else part
 
     def _sentences(self, words: str) -> str | None:
         """Return several lines, or sentences one behind the other, if each of them is known."""
