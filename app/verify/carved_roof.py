@@ -233,7 +233,11 @@ def _in_portions(work: Callable[[slice], None], count: int, progress: Progress) 
     for first in range(0, count, _PORTION):
         progress.step(first / count, "Prove what is carved")
         last = min(first + _PORTION, count)
-        in_bands(lambda some, first=first: work(slice(first + some.start, first + some.stop)), last - first)
+
+        def shifted(some: slice, first: int = first) -> None:
+            work(slice(first + some.start, first + some.stop))
+
+        in_bands(shifted, last - first)
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,7 +279,15 @@ class _Carving:
 
         def measure(some: slice) -> None:
             kernels.least_left(
-                self.motions, self.order, self.nodes, self.widest, centres[some], radius[some], reported, 0.0, left[some]
+                self.motions,
+                self.order,
+                self.nodes,
+                self.widest,
+                centres[some],
+                radius[some],
+                reported,
+                0.0,
+                left[some],
             )
 
         _in_portions(measure, len(radius), progress)
