@@ -232,8 +232,11 @@ def _in_portions(work: Callable[[slice], None], count: int, progress: Progress) 
     """Have so many things done on all cores, in portions between which the job may be stopped."""
     for first in range(0, count, _PORTION):
         progress.step(first / count, "Prove what is carved")
-        last = min(first + _PORTION, count)
-        in_bands(lambda some, first=first: work(slice(first + some.start, first + some.stop)), last - first)
+
+        def some(part: slice, begin: int = first) -> None:
+            work(slice(begin + part.start, begin + part.stop))
+
+        in_bands(some, min(_PORTION, count - first))
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,7 +278,15 @@ class _Carving:
 
         def measure(some: slice) -> None:
             kernels.least_left(
-                self.motions, self.order, self.nodes, self.widest, centres[some], radius[some], reported, 0.0, left[some]
+                self.motions,
+                self.order,
+                self.nodes,
+                self.widest,
+                centres[some],
+                radius[some],
+                reported,
+                0.0,
+                left[some],
             )
 
         _in_portions(measure, len(radius), progress)

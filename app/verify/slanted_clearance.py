@@ -51,8 +51,8 @@ class SlantedMoves:
 
 
 def reach_beyond(moves: SlantedMoves, walls: Floats) -> tuple[Floats, Floats]:
-    """Return how far each move's cone reaches beyond a wall at the surface at most, mm (<= 0: nowhere), and where its tip
-    is then, (n, 2).
+    """Return how far each move's cone reaches beyond a wall at the surface at most, mm (<= 0: nowhere), and where its
+    tip is then, (n, 2).
 
     Args:
         walls: (m, 8) lines and arcs below half a turn.
