@@ -376,13 +376,14 @@ def _crossing_places(rows, j, y):
     """Return where row j crosses a height, infinity where it does not (half open in y).
 
     A row sweeps less than pi, so it has at most one y extremum; on a piece without one the circle's right side
-    is the one where a counter-clockwise arc rises.
+    is the one where a counter-clockwise arc rises. Whether a row crosses is told by its ends alone, by which its
+    neighbours tell it too: where one begins at its top, the circle's may be a rounding lower than the end.
     """
     ax, ay, bx, by, turn = rows[j, 0], rows[j, 1], rows[j, 2], rows[j, 3], rows[j, 7]
     if turn == 0.0:
         return (ax + (y - ay) / (by - ay) * (bx - ax) if (ay <= y) != (by <= y) else INF), INF
     cx, cy, r = rows[j, 4], rows[j, 5], rows[j, 6]
-    if abs(y - cy) > r:
+    if abs(y - cy) > r and (ay <= y) == (by <= y):
         return INF, INF
     h = math.sqrt(max(r * r - (y - cy) * (y - cy), 0.0))
     middle = by

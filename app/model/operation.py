@@ -50,10 +50,13 @@ class Side(Enum):
 
 
 class CutterCompensation(Enum):
-    """Who offsets a contour to its side: the program alone, or also the control, by the wear in the tool's register."""
+    """Who offsets a contour to its side: the program alone, also the control by the wear in the tool's register, or
+    the control alone, by the tool's whole radius.
+    """
 
     COMPUTER = "computer"
     WEAR = "wear"
+    CONTROL = "control"
 
 
 class Order(Enum):
@@ -320,6 +323,11 @@ class Operation:
     def wear(self) -> float:
         """How far the operator may offset its paths in the control, mm, either way; 0 = there is no word for it."""
         return 0.0
+
+    @property
+    def offset_by_control(self) -> bool:
+        """Whether its drawn contour is written, for the control to offset by the tool's whole radius."""
+        return False
 
     @property
     def outer_lead(self) -> Lead | None:

@@ -133,6 +133,7 @@ def heading_lines(heading: HeaderContent) -> Iterator[str]:
         operation_words(operation, job) + ("" if cuts else ", makes no moves")
         for operation, cuts in operations_of(heading)
     )
+    yield from _registers(heading)
     if heading.program.given_up_mm is None:
         yield f"Path within {_length(path_tolerance(heading), units)} of the exact offset of the drawing"
     else:
@@ -142,6 +143,16 @@ def heading_lines(heading: HeaderContent) -> Iterator[str]:
         )
         yield f"It is up to {_length(heading.program.given_up_mm, units)} farther from them"
     yield _blending_words(heading)
+
+
+def _registers(heading: HeaderContent) -> Iterator[str]:
+    """Yield what has to stand in the registers of tools by whose whole radius the control offsets contours."""
+    job, units = heading.job, heading.job.out_units
+    for number in sorted({each.cut.tool for each, _ in operations_of(heading) if each.offset_by_control}):
+        tool = job.tool(number)
+        yield heading.post.compensation.register.format(
+            tool=number, radius=_length(tool.radius, units), diameter=_length(tool.diameter, units)
+        )
 
 
 def _copies_and_clamps(job: Job) -> Iterator[str]:

@@ -36,7 +36,8 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
                                                   walls
     blend_mm=P                                    how far the control may leave the written path
 
-`registers=wear` says that the registers of D words hold the wear of tools, 0 at first, and no diameters.
+`registers=wear` says that the registers of D words hold the wear of tools, 0 at first, and no diameters, but for those
+of `register_mm=T,D`: the diameter of a tool whose contours the control offsets by its whole radius.
 
 A comment that begins with `hitofude+` goes on with the one before. For a control that knows capitals alone, all of this
 is in capitals, so keys and values are read without regard to case. Where each tool has a file of its own, `tool` and
@@ -87,6 +88,8 @@ def _notes(heading: HeaderContent) -> Iterator[str]:
     yield from _on_purpose(heading.program)
     if any(each.wear for each in operations):
         yield "registers=wear"
+    for number in sorted({each.cut.tool for each in operations if each.offset_by_control}):
+        yield f"register_mm={number},{plain_numbers(job.tool(number).diameter)}"
     yield f"path_tolerance_mm={plain_numbers(path_tolerance(heading))}"
     if heading.program.allowance_mm:
         yield f"allowance_mm={plain_numbers(heading.program.allowance_mm)}"

@@ -8,6 +8,7 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
+from contextlib import suppress
 from contextvars import copy_context
 from dataclasses import dataclass
 from functools import partial
@@ -100,13 +101,30 @@ class _Runner(threading.Thread):
         self._fraction, now = fraction, time.monotonic()
         if now - self._told >= _TOLD_EVERY_S:
             self._told = now
-            self._worker.told.emit(job_id, fraction, text)
+            self._send(lambda: self._worker.told.emit(job_id, fraction, text))
+
+    def _remark(self, job_id: int, text: str) -> None:
+        self._send(lambda: self._worker.remark_told.emit(job_id, text))
+
+    def _send(self, emit: Callable[[], None]) -> None:
+        """Emit a signal of the worker; where the window has gone, and it with it, nobody waits for the job.
+
+        Raises:
+            Cancelled: it has gone.
+        """
+        try:
+            emit()
+        except RuntimeError as gone:
+            if isValid(self._worker):
+                raise
+            raise Cancelled from gone
 
     def _run(self, work: _PendingJob) -> None:
         value, error = None, None
         try:
-            remarks = partial(self._worker.remark_told.emit, work.job_id)
-            progress = Progress(partial(self._tell, work.job_id), work.cancelled, remarks=remarks)
+            progress = Progress(
+                partial(self._tell, work.job_id), work.cancelled, remarks=partial(self._remark, work.job_id)
+            )
             waits = waits_reported_to(lambda text: progress.step(self._fraction, text))
             with _NO_COLLECTOR, within(budget_limit()), waits:
                 value = work.function(progress)
@@ -128,8 +146,10 @@ class _Runner(threading.Thread):
                 f"The program made a mistake here ({type(fault).__name__}: {fault}). Your drawing is safe; please "
                 "report this."
             )
-        if not work.cancelled.is_set() and isValid(self._worker):  # the window may have gone meanwhile
-            self._worker.answered.emit(JobOutcome(work.job_id, work.revision, value, error))
+        if not work.cancelled.is_set():
+            outcome = JobOutcome(work.job_id, work.revision, value, error)
+            with suppress(Cancelled):
+                self._send(lambda: self._worker.answered.emit(outcome))
 
 
 class Worker(QObject):

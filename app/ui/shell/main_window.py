@@ -107,6 +107,7 @@ class MainWindow(QMainWindow):
             self.curves_panel,
             self.scene_side,
             self.plot_panel,
+            self.views.nc.beside,
         ]
         self.notice, self.card, self.command_line, self.status = Notice(), QuestionCard(), CommandLine(), StatusBar()
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)

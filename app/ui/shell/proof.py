@@ -25,7 +25,7 @@ def proof(made: MakeResult) -> str:
     said.append(f"cut out of its stock, {grouped(made.cut.cut.removed_volume, 0)} mm³ of it")
     gouge = f"no gouge ({judgement.gouge.max_mm:.4f} mm)" if judgement.exact else "no gouge"
     said += [f"{gouge}, nothing left within reach, no rapid in metal"]
-    if judgement.certificate is not None:
+    if judgement.certificate is not None and judgement.certificate.telling:
         said.append(f"no point between the cells deeper than {judgement.certificate.gouge_mm:.3f} mm into the part")
     return f"{'; '.join(said)}."
 

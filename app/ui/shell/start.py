@@ -91,11 +91,10 @@ def _tell_mistake(
 
 
 def begin(wiring: WindowController, path: Path | None) -> None:
-    """Open a file, and then offer what a crash has left; without a file offer that, or else the last files and
-    samples.
-    """
+    """Open a file, or show the last files and samples; and offer what a crash has left."""
     if path is None:
-        wiring.recovery_controller.offer(wiring.open_start)
+        wiring.open_start()
+        wiring.recovery_controller.offer()
         return
     wiring.files.open_controller.opened.connect(
         lambda _: wiring.recovery_controller.offer(), Qt.ConnectionType.SingleShotConnection

@@ -365,7 +365,7 @@ class WindowController(QObject):
             actions[name].toggled.connect(button.setChecked)
             button.clicked.connect(actions[name].setChecked)
         actions["snap"].setChecked(True)
-        actions["log"].toggled.connect(self.window_.command_line.log.setVisible)
+        actions["log"].toggled.connect(lambda _: self.display_controller.show_log())
         actions["log"].setChecked(True)
         self._on("command", self.window_.command_line.edit.setFocus)
         for choice in ThemeChoice:
@@ -442,9 +442,9 @@ class WindowController(QObject):
         self.language.lines.run(line)
 
     def compute(self) -> None:
-        """Compute the paths and show them; in the Surfaces view the scene's, from its file as it is now."""
+        """Compute the paths and show them; where a scene is worked on its own, from its file as it is now."""
         self.window_.notice.dismiss()
-        if self.display_controller.view is View.SURFACES:
+        if self._on_scene:
             self.scenes.compute()
             return
         self._programs.show_own()
@@ -452,12 +452,12 @@ class WindowController(QObject):
 
     def _compute_job(self) -> None:
         self.computation.start()
-        if self.display_controller.view is View.DRAW:
+        if self.display_controller.view in (View.DRAW, View.SURFACES):
             self.display_controller.show_view(View.PATHS)
 
     def export(self) -> None:
-        """Export what the view at the front has made: the job's program, or of a scene a program, plot or table."""
-        if self.display_controller.view is View.SURFACES:
+        """Export what is worked on: the job's program, or of a scene a program, plot or table."""
+        if self._on_scene:
             self.scene_export.start()
         else:
             self.proposal_controller.before(self.files.export_controller.start)

@@ -134,10 +134,9 @@ class StagesController(Controller):
         self.changed.emit()
 
     def _on_failed(self, answer: JobOutcome) -> None:
-        """Show no stages but the reason: those of another job or size would mislead."""
+        """Show no stages but the reason, in their place: those of another job or size would mislead."""
         self.error = answer.error or ""
         self._show(None)
-        self.failed.emit(self.error)
 
     def _on_cancelled(self) -> None:
         """Show no stages rather than those of an earlier job."""

@@ -133,9 +133,8 @@ class TextFilmController(Controller):
         if self._view.films.film is not None:  # it is there, but could not be written
             self.failed.emit(answer.error or "")
             return
-        self.error = answer.error or ""
+        self.error = answer.error or ""  # said in the place of the film
         self._show(None)
-        self.failed.emit(self.error)
 
     def choose_folder(self) -> None:
         """Ask where all steps go, and write them."""

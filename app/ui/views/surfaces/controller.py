@@ -164,6 +164,7 @@ class SceneController(Controller):
                 ],
                 stays=True,
             )
+            self._workspace.notice.show_with(self._view)
 
     def new(self) -> None:
         """Begin a scene, after asking when changes to another one would be lost."""

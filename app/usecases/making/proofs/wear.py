@@ -50,8 +50,8 @@ class WearProof:
     Attributes:
         range_mm: of wear, either way.
         gouge_mm: how far a worn tool cuts into a wall at most. left_mm: how far it stays off one that it is to touch.
-        bare: motions along walls that no wear offsets. x, y: of the first, or of the deepest gouge; None = there is
-            nothing to tell.
+        bare: motions along walls that no wear offsets. radius_mm: what stands in the register beside the wear.
+        x, y: of the first, or of the deepest gouge; None = there is nothing to tell.
         fault: what the control would say, "" = nothing.
     """
 
@@ -61,6 +61,7 @@ class WearProof:
     gouge_mm: float
     left_mm: float
     bare: int
+    radius_mm: float = 0.0
     x: float | None = None
     y: float | None = None
     fault: str = ""
@@ -69,6 +70,7 @@ class WearProof:
         """Return it as a report lists it."""
         return {
             "range_mm": self.range_mm,
+            "radius_mm": self.radius_mm,
             "gouge_mm": self.gouge_mm,
             "left_mm": self.left_mm,
             "motions_without": self.bare,
@@ -95,8 +97,12 @@ class WearProof:
             yield Finding(FindingKind.LEFT_REACHABLE, text, self.x, self.y, amount=self.left_mm)
         if self.bare:
             text = (
-                f"{self.bare} motions along walls are not offset by the wear, because there is no room for a straight "
-                "lead that is longer than it; make lead_radius smaller, or clear the place first."
+                f"{self.bare} motions along walls are not offset by the control, because there is no room for a "
+                "straight way longer than the tool's radius and an arc; make lead_radius smaller, or clear the place "
+                "first."
+                if self.radius_mm
+                else f"{self.bare} motions along walls are not offset by the wear, because there is no room for a "
+                "straight lead that is longer than it; make lead_radius smaller, or clear the place first."
             )
             yield Finding(FindingKind.LEFT_OUT, text, self.x, self.y, amount=float(self.bare))
 
@@ -179,11 +185,12 @@ class _Worn:
     def proof(self, index: int, progress: Progress) -> WearProof:
         """Return what is proven of an operation."""
         operation, area = self.job.operations[index], self.program.areas[index]
-        made = WearProof(operation.wear, 0.0, 0.0, 0)
+        radius = self.job.tool(operation.cut.tool).radius
+        made = WearProof(operation.wear, 0.0, 0.0, 0, radius if operation.offset_by_control else 0.0)
         rows = pack(area.regions).rows
         if not len(rows):
             return made
-        keep = self.job.tool(operation.cut.tool).radius + operation.cut.stock_to_leave
+        keep = radius + operation.cut.stock_to_leave
         walls = _WornWalls(rows, DistanceField.of(rows), keep)
         for k, (file, check) in enumerate(zip(self.written.files, self.written.checks, strict=True)):
             nominal = self._ways(check.program, file, index)
@@ -199,10 +206,14 @@ class _Worn:
         return made
 
     def _read(self, text: bytes, operation: Operation, wear: float) -> NcProgram:
-        """Return the text as a control reads it in whose register of the operation's tool a wear stands."""
+        """Return the text as a control reads it in whose register of the operation's tool a wear stands, on top of the
+        radius where it offsets by that.
+        """
+        whole = {each.cut.tool for each in self.job.operations if each.offset_by_control}
         table = {
             tool.number: ToolOffset(
-                diameter=2 * wear if tool.number == operation.cut.tool else 0.0, diameter_known=True
+                diameter=tool.diameter * (tool.number in whole) + 2 * wear * (tool.number == operation.cut.tool),
+                diameter_known=True,
             )
             for tool in self.job.tools
         }
