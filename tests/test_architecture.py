@@ -139,7 +139,9 @@ def test_kernel_modules_know_no_window() -> None:
     assert not modules_after(code) & (QT | COMPILER)
 
 
-PAGE = (ROOT / "resources" / "docs" / "architecture.md").read_text("utf-8")
+DOCS = ROOT / "resources" / "docs"
+PAGES = [DOCS / "architecture.md", *sorted((DOCS / "house").glob("*.md"))]
+PAGE = "\n".join(path.read_text("utf-8") for path in PAGES)
 
 
 def named_files(text: str) -> set[str]:
@@ -163,6 +165,11 @@ def test_the_page_of_the_house_names_files_that_are_there() -> None:
     there = [f"/{path.relative_to(ROOT)}" for path in (*FILES, *(ROOT / "tests").rglob("*.py"))]
     assert not {name for name in named_files(PAGE) if not any(path.endswith(f"/{name}") for path in there)}
     assert named_files("see `geometry/nowhere.py`") == {"geometry/nowhere.py"}
+
+
+def test_the_page_of_the_house_lists_its_other_pages() -> None:
+    listed = re.findall(r"`house/(\w+)\.md`", PAGES[0].read_text("utf-8"))
+    assert sorted(listed) == [path.stem for path in PAGES[1:]]
 
 
 def test_the_page_of_the_house_names_doors_that_are_there() -> None:

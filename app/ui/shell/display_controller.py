@@ -312,7 +312,7 @@ class DisplayController(QObject):
         if made is None:
             return ()
         index = operation_of_line(made, 0, finding.line) if len(made.files) == 1 else None
-        library = [tool for each in load_libraries()[0].values() for tool in each.tools]
+        library = [tool for each in load_libraries().libraries.values() for tool in each.tools]
         return mends(made.job, Fault.of(finding, index), library)
 
     def mend(self, mend: Mend) -> None:

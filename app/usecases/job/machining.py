@@ -60,7 +60,7 @@ class MachiningOptions:
 
 def option_of(key: str) -> str:
     """Return the option that asks for a parameter, without its dashes."""
-    return parameters()[key][0].parameter.option or key.replace("_", "-")
+    return parameters()[key].place.parameter.option or key.replace("_", "-")
 
 
 def contours_alone(job: Job) -> Job:

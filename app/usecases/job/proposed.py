@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 from ...core.errors import InputError
 from ...core.progress import NO_PROGRESS, Progress
@@ -12,9 +13,14 @@ from .machining import MachiningOptions
 from .options import MakeOptions, job_with_options
 
 
-def with_proposal(
-    part: Part, options: MakeOptions, progress: Progress = NO_PROGRESS
-) -> tuple[MakeOptions, Proposal | None]:
+class ProposedOptions(NamedTuple):
+    """Options with the proposed job in them, and the proposal; None where none was asked for."""
+
+    options: MakeOptions
+    proposal: Proposal | None
+
+
+def with_proposal(part: Part, options: MakeOptions, progress: Progress = NO_PROGRESS) -> ProposedOptions:
     """Return options with the job that is proposed for a drawing, where that is asked for, and the proposal.
 
     What else is asked for goes into the operations that are proposed, but for the depth, which is that of the pockets.
@@ -24,7 +30,7 @@ def with_proposal(
         Cancelled: by progress.
     """
     if options.propose is None:
-        return options, None
+        return ProposedOptions(options, None)
     requested = options.machining
     if requested.drills:
         raise InputError("--drill does not go with --propose, which proposes the drills; leave one of the two away.")
@@ -49,4 +55,4 @@ def with_proposal(
     proposal = propose(job_with_options(part, about), own, progress)
     values = {key: value for key, value in requested.values.items() if key != "depth"}
     machining = replace(requested, values=values)
-    return replace(options, job=proposal.job, propose=None, machining=machining), proposal
+    return ProposedOptions(replace(options, job=proposal.job, propose=None, machining=machining), proposal)

@@ -59,7 +59,7 @@ def _curves(path: Path) -> Sequence[Curve]:
     from ....formats.readers import read_drawing
 
     if path.suffix.lower() in SUFFIXES:
-        part = load_project(path)[0].state.job.part
+        part = load_project(path).project.state.job.part
     else:
         part = read_drawing(path.name, read_file(path)).part
     shown = {layer.name for layer in part.layers if layer.visible}

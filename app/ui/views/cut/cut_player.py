@@ -102,7 +102,6 @@ class CutPlayer(QObject):
         self._way, self._last_tick = 0, 0.0
         self._place = self._now = 0.0
         self.worker = Worker(self, head_start_s=0.0)
-        self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
         self._timer = QTimer(self, interval=TICK_MS)
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
@@ -156,7 +155,7 @@ class CutPlayer(QObject):
         shown = self.shown
         if shown is None or self.timeline is not None or self.worker.busy or self.failure:
             return
-        self.worker.start(lambda progress: prepared(shown, progress), 0)
+        self.worker.start(lambda progress: prepared(shown, progress), 0, self._on_prepared)
         self.state_changed.emit()
 
     def toggle(self, way: int = 1) -> None:
@@ -304,21 +303,21 @@ class CutPlayer(QObject):
             return
         self._running = wish
         self._view.show_detail(None)
-        self.worker.start(lambda progress: cells.frame(wish, progress), 0)
+        self.worker.start(lambda progress: cells.frame(wish, progress), 0, self._on_frame)
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        value = answer.value
-        if isinstance(value, LiveCells) and self.shown is not None:
-            self._cells, self.timeline = value, value.playback.timeline
+    def _on_prepared(self, cells: LiveCells) -> None:
+        if self.shown is not None:
+            self._cells, self.timeline = cells, cells.playback.timeline
             self.at, self._now = self.timeline.last, self.timeline.total
             self.state_changed.emit()
             self.moved.emit()
-        elif isinstance(value, LiveFrame):
-            if self._wanted is self._running:
-                self._wanted = None
-            self._show(value)
-            if self._wanted is not None:
-                self._begin()
+
+    def _on_frame(self, frame: LiveFrame) -> None:
+        if self._wanted is self._running:
+            self._wanted = None
+        self._show(frame)
+        if self._wanted is not None:
+            self._begin()
 
     def _show(self, frame: LiveFrame) -> None:
         """Let the view show a moment."""
