@@ -53,7 +53,7 @@ class _SpokenRow(QStyledItemDelegate):
     ) -> None:
         """Put the words of that language in the place of the English ones."""
         super().initStyleOption(option, index)
-        option.text = tr(option.text)  # type: ignore[attr-defined]  # PySide's stubs lack the field
+        option.text = tr(option.text)
 
 
 class PlacesPanel(QWidget):
