@@ -76,7 +76,7 @@ from .view_stack import ViewStack
 from .what_is_this import WhatIsThis
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
-TEXT_PAGE = "Text"
+TEXT_PAGE, JOB_PAGE = "Text", "Job"
 WORDS = {
     "compute": "compute",
     "cancel": "cancel",
@@ -100,7 +100,14 @@ class WindowController(QObject):
         self.workspace, self.log = workspace, workspace.log
         self.display_controller = DisplayController(window)
         self._make_controllers(window.views, workspace)
-        openers = Openers(self.nc.open, self.import_controller.open, self.scenes.open, self.scenes.open_solid)
+        openers = Openers(
+            self.nc.open,
+            self.import_controller.open,
+            self.scenes.open,
+            self.scenes.open_solid,
+            self._open_tools,
+            lambda path: self.template_controller.apply(path),
+        )
         self.files = FileController(window, self.display_controller, self.log, openers)
         self.recovery_controller = RecoveryController(self.files, window.card, workspace)
         self._make_choices(workspace, commands)
@@ -348,8 +355,7 @@ class WindowController(QObject):
         """Bring the picture to the front when it comes."""
         if self.import_controller.preview is not None and self.display_controller.view is not View.STAGES:
             self.display_controller.show_view(View.STAGES)
-        self.display_controller.show_prompt()
-        self.display_controller.show_missing()
+        self.display_controller.show_state()
 
     def _on_picture_taken(self, path: Path) -> None:
         self.workspace.preferences.add_recent(path)
@@ -383,6 +389,13 @@ class WindowController(QObject):
             self.run(part.line())
         self.window_.lay_out_now()
         self.window_.canvas.fit()
+
+    def _open_tools(self, path: Path) -> None:
+        """Take tools into the library, and show it."""
+        self._show_side_page(JOB_PAGE)
+        if self.window_.panel.library.isHidden():
+            self.window_.panel.switch_library()
+        self.tools.take(path)
 
     def _connect_edit(self) -> None:
         scene = self.window_.scene.document
