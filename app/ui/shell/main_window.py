@@ -163,7 +163,7 @@ class MainWindow(QMainWindow):
         column.addWidget(self.status)
         self.setCentralWidget(root)
         self.setAcceptDrops(True)
-        self.setMinimumSize(840, 520)
+        self.setMinimumSize(860, 520)
         self.resize(*SIZE)
         self.canvas.setFocus()
 
