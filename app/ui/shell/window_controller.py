@@ -444,7 +444,7 @@ class WindowController(QObject):
     def compute(self) -> None:
         """Compute the paths and show them; where a scene is worked on its own, from its file as it is now."""
         self.window_.notice.dismiss()
-        if self._on_scene:
+        if self._scene.at_front:
             self.scenes.compute()
             return
         self._programs.show_own()
@@ -457,7 +457,7 @@ class WindowController(QObject):
 
     def export(self) -> None:
         """Export what is worked on: the job's program, or of a scene a program, plot or table."""
-        if self._on_scene:
+        if self._scene.at_front:
             self.scene_export.start()
         else:
             self.proposal_controller.before(self.files.export_controller.start)
