@@ -232,12 +232,11 @@ def _in_portions(work: Callable[[slice], None], count: int, progress: Progress) 
     """Have so many things done on all cores, in portions between which the job may be stopped."""
     for first in range(0, count, _PORTION):
         progress.step(first / count, "Prove what is carved")
-        last = min(first + _PORTION, count)
 
-        def shifted(some: slice, first: int = first) -> None:
-            work(slice(first + some.start, first + some.stop))
+        def some(part: slice, begin: int = first) -> None:
+            work(slice(begin + part.start, begin + part.stop))
 
-        in_bands(shifted, last - first)
+        in_bands(some, min(_PORTION, count - first))
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainW
 from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
 from ...formats.readers import suffixes
+from ...formats.tools.at_path import tool_suffixes
 from ...usecases.pixels.options import PICTURES
 from ...usecases.scene.solid_files import SOLIDS
 from ..framework import style
@@ -61,11 +62,18 @@ def picture_of(made: MakeResult) -> ProgramLayer:
     return ProgramLayer(made.program, made.coverage.places)
 
 
+def opened_suffixes() -> tuple[str, ...]:
+    """Return what the names of files end with that the window opens: drawings, solids, scenes, jobs, pictures, tools
+    and NC programs.
+    """
+    return tuple(dict.fromkeys((*suffixes(), ".toml", *SOLIDS, *PICTURES, *tool_suffixes(), *PROGRAM_SUFFIXES)))
+
+
 class MainWindow(QMainWindow):
     """Menu, bars, views, panel, log, command line, status; `set_theme_choice` gives it its looks when all is there.
 
     Signals:
-        dropped(path): a drawing, a scene, a picture or an NC program was dropped on the window.
+        dropped(path): a file of a kind that can be opened was dropped on the window.
         closing(): about to close; `may_close` tells whether it may.
     """
 
@@ -155,7 +163,7 @@ class MainWindow(QMainWindow):
         column.addWidget(self.status)
         self.setCentralWidget(root)
         self.setAcceptDrops(True)
-        self.setMinimumSize(840, 520)
+        self.setMinimumSize(860, 520)
         self.resize(*SIZE)
         self.canvas.setFocus()
 
@@ -205,11 +213,9 @@ class MainWindow(QMainWindow):
         self.cut_panel.fit_beside(event.size().width())
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
-        """Welcome one drawing, solid, scene, picture or NC program."""
+        """Welcome one file of a kind that can be opened."""
         urls = event.mimeData().urls()
-        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(
-            (*suffixes(), ".toml", *SOLIDS, *PICTURES, *PROGRAM_SUFFIXES)
-        ):
+        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(opened_suffixes()):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 (Qt's name)

@@ -6,15 +6,18 @@ import signal
 import sys
 import tempfile
 import traceback
+from contextlib import suppress
 from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import TracebackType
+from typing import cast
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QApplication
 
 from ...core.atomic import sweep
+from ...core.errors import HitofudeError
 from ...core.progress import Progress
 from ...core.resources import PACKAGE
 from ...core.settings import Settings, config_folder, load_settings, state_folder
@@ -35,6 +38,10 @@ _ENGINES = (
     f"{PACKAGE}.formats.dxf.dxf",
     f"{PACKAGE}.operations.compute",
     f"{PACKAGE}.usecases.making.make",
+    f"{PACKAGE}.usecases.mending",
+    f"{PACKAGE}.usecases.proposal.chosen_curves",
+    f"{PACKAGE}.usecases.smoothing.result",
+    "moderngl",
 )
 
 
@@ -50,14 +57,19 @@ def _warm(settings: Settings, progress: Progress) -> None:
     """Sweep, which may wait for a disk, and load what the first line, Open, Compute and plot need, which would make the
     window stutter later.
     """
+    from ...core.jit.compiled import Kernel
     from ...core.jit.warm import warm
     from ...drafting.expressions.grammar import read_script
+    from ..views.surfaces import picture_kernels
 
     read_script("")  # a parser is made of the grammar
     sweep(*places(settings))
     for engine in (*_ENGINES, "pyqtgraph"):
         import_module(engine)
     warm(progress)
+    for painting in (picture_kernels.fill, picture_kernels.tint, picture_kernels.draw_lines):
+        with suppress(HitofudeError):  # told where a scene is painted
+            cast(Kernel, painting).load()
 
 
 def build() -> tuple[MainWindow, WindowController]:

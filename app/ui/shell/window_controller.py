@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from pathlib import Path
 
 from PySide6.QtCore import QObject
 
@@ -77,7 +78,7 @@ from .translation import TranslationController
 from .view_stack import ViewStack
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
-TEXT_PAGE = "Text"
+JOB_PAGE = "Job"
 WORDS = {
     "compute": "compute",
     "cancel": "cancel",
@@ -102,7 +103,14 @@ class WindowController(QObject):
         self._on = partial(on_trigger, commands)
         self.display_controller = DisplayController(window)
         self._make_controllers(window.views, workspace)
-        openers = Openers(self.nc.open, self.import_controller.open, self.scenes.open, self.scenes.open_solid)
+        openers = Openers(
+            self.nc.open,
+            self.import_controller.open,
+            self.scenes.open,
+            self.scenes.open_solid,
+            self._open_tools,
+            lambda path: self.template_controller.apply(path),
+        )
         self.files = FileController(window, self.display_controller, self.log, openers)
         self.recovery_controller = RecoveryController(self.files, window.card, workspace)
         self._make_choices(workspace, commands)
@@ -323,6 +331,13 @@ class WindowController(QObject):
             self.run(part.line())
         self.window_.lay_out_now()
         self.window_.canvas.fit()
+
+    def _open_tools(self, path: Path) -> None:
+        """Take tools into the library, and show it."""
+        self._show_side_page(JOB_PAGE)
+        if self.window_.panel.library.isHidden():
+            self.window_.panel.switch_library()
+        self.tools.take(path)
 
     def _connect_edit(self) -> None:
         scene = self.window_.scene.document

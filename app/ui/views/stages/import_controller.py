@@ -13,9 +13,10 @@ from ....core.progress import Progress
 from ....drafting.document import DocumentChange
 from ....model.part import Part
 from ....raster.codes import PixelCode
-from ...framework.controller import Controller
+from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import counted
 from ...framework.theme import Theme
+from ...framework.verdict import VerdictLevel, VerdictSummary
 from ...framework.worker import Answer, JobOutcome, Worker
 from ...framework.workspace import Workspace
 from . import code_colours
@@ -70,6 +71,14 @@ class ImportController(Controller):
         self._view.preview_clicked.connect(self._point)
         self._document.subscribe(self._on_change)
         self._view.theme_changed.connect(lambda _: self._show())
+
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """The picture that is looked at; None while there is none."""
+        if self.preview is None:
+            return None
+        verdict = VerdictSummary(VerdictLevel.NONE, "A picture, not taken yet")
+        return ShownDocument(self.preview.reading.path.name, False, verdict)
 
     def open(self, path: Path) -> None:
         """Read a picture and show it beside its fields."""

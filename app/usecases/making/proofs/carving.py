@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -13,7 +12,7 @@ from ....model.finding import Finding, FindingKind
 from ....model.job import Job
 from ....model.motion import MotionKind
 from ....model.moves import Program
-from ....verify.bounds import deepest, followed_walls
+from ....verify.bounds import followed_walls
 from ....verify.carved_roof import ConePath, RoofProof, prove_roof, straightened
 from ..written import WrittenMotions
 
@@ -35,7 +34,7 @@ class CarvingProof:
     Attributes:
         proof: in part coordinates.
         rate: mm of radius per mm of height.
-        tool: its words.
+        tool: its words. ball: whether it is a ball, which no corner is narrow enough for.
     """
 
     KEY: ClassVar[str] = "carved"
@@ -43,6 +42,7 @@ class CarvingProof:
     proof: RoofProof
     rate: float
     tool: str
+    ball: bool = False
 
     def values(self) -> dict[str, Any]:
         """Return it as a report lists it."""
@@ -69,8 +69,11 @@ class CarvingProof:
             found.append(Finding(FindingKind.LEFT_REACHABLE, text, proof.x, proof.y, amount=proof.left_mm))
         if proof.blunt_mm > 0:
             text = (
-                f"The tip of {self.tool} is too wide for {proof.blunt_mm:.3f} mm of the drawn curves, at corners and "
-                "in narrow places; a sharper cutter reaches them."
+                f"{self.tool} is too round for {proof.blunt_mm:.3f} mm of the drawn curves, at inner corners and in "
+                "narrow places, whose edges stay sharp; a V cutter or a smaller ball reaches them."
+                if self.ball
+                else f"The tip of {self.tool} is too wide for {proof.blunt_mm:.3f} mm of the drawn curves, at corners "
+                "and in narrow places; a sharper cutter reaches them."
             )
             found.append(Finding(FindingKind.LEFT_UNREACHABLE, text, counts=False, amount=proof.blunt_mm))
         return found
@@ -94,12 +97,13 @@ def carving_proofs(program: Program, job: Job, motions: WrittenMotions, progress
         a, b, c = own.start, own.end, own.centre[:, :2]
         tool = job.tool(cut.tool)
         begins, ends = straightened(_rows(a, b, c, own.kind), np.stack([a[:, 2], b[:, 2]], 1), _CHORD)
-        rate = math.tan(tool.tip_angle / 2)
-        tip = tool.tip_diameter / 2 - job.operations[index].over_edge
-        path = ConePath(begins, ends, tip, rate, deepest(job.operations[index], job))
+        cone = job.operations[index].carved_by(tool)
+        begins[:, 2] += cone.lifted
+        ends[:, 2] += cone.lifted
+        path = ConePath(begins, ends, cone.tip, cone.rate, cone.greatest)
         share = progress.part(n / len(carving), (n + 1) / len(carving))
-        proof = prove_roof(path, followed_walls(program.areas[index]), SIDEWAYS / rate, share)
-        proofs[index] = CarvingProof(proof, rate, f"T{tool.number} {tool.label}")
+        proof = prove_roof(path, followed_walls(program.areas[index]), SIDEWAYS / cone.rate, share)
+        proofs[index] = CarvingProof(proof, cone.rate, f"T{tool.number} {tool.label}", cone.lifted > 0)
     return proofs
 
 

@@ -10,7 +10,6 @@ from ....core.progress import Progress
 from ....model.finding import Finding
 from ....model.job import Job
 from ....model.moves import Program
-from ....operations import builtin  # noqa: F401 (registers the kinds)
 from ....operations.proof import OperationProof, ProofInput
 from ....operations.registry import method_of
 from ..written import WrittenMotions, WrittenProgram
