@@ -19,7 +19,7 @@ from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.tool_kinds import icon_of, listed_kinds, use_of
-from app.ui.shell.tool_exchange import IN, ToolExchange
+from app.ui.shell.files.tool_exchange import IN, ToolExchange
 from tests.formats.foreign_tools import fusion_archive, fusion_tool
 
 
