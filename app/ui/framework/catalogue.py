@@ -22,12 +22,12 @@ _LETTER = re.compile(r"[A-Za-z]")
 
 @dataclass(frozen=True, slots=True)
 class _Pattern:
-    """An entry with holes: its longest piece, which is quickly looked for, what finds its texts, and the translation as
-    `str.format` fills it.
+    """An entry with holes: its longest piece, which is quickly looked for, the expression that finds its texts, and the
+    translation as `str.format` fills it.
     """
 
     longest: str
-    form: re.Pattern[str]
+    form: str
     other: str
 
 
@@ -77,7 +77,7 @@ class Catalogue:
     def _matched(self, words: str, patterns: list[_Pattern]) -> str | None:
         """Return what the first entry with holes makes of a text."""
         for pattern in patterns:
-            match = pattern.form.fullmatch(words) if pattern.longest in words else None
+            match = _finder(pattern.form).fullmatch(words) if pattern.longest in words else None
             if match:
                 return pattern.other.format(*(self.look_up(part) or part for part in match.groups()))
         return None
@@ -101,7 +101,13 @@ def _pattern(text: str, other: str) -> _Pattern:
     """Return what finds the texts that an entry with holes stands for."""
     words = _HOLE.split(text)
     form = "".join((_NUMBER if word else _ANYTHING) if at % 2 else re.escape(word) for at, word in enumerate(words))
-    return _Pattern(max(words[::2], key=len), re.compile(form, re.S), _HOLE.sub("{}", other))
+    return _Pattern(max(words[::2], key=len), form, _HOLE.sub("{}", other))
+
+
+@cache
+def _finder(form: str) -> re.Pattern[str]:
+    """Return an expression, compiled when a text may be one of its own: few of 860 ever are in a run."""
+    return re.compile(form, re.S)
 
 
 @cache
