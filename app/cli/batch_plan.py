@@ -15,9 +15,9 @@ from ..core.input_file import read_input
 from ..core.settings import config_folder
 from ..usecases.batch.table import Files, results_csv, results_html
 from ..usecases.batch.task import BatchExtras, BatchKind, BatchRow, BatchTask, BatchVerdict
-from ..usecases.bitmap_options import is_picture
 from ..usecases.examine import ExamineOptions
-from ..usecases.options import MakeOptions
+from ..usecases.job.options import MakeOptions
+from ..usecases.pixels.options import is_picture
 from ..usecases.smoothing.result import SmoothOptions
 from .batch_list import ListedPart, listed_parts, named_outputs
 from .batch_options import kind_of

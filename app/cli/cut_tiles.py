@@ -18,11 +18,11 @@ from ..core.memory import budget_limit
 from ..core.progress import Progress
 from ..simulation.engines import Engine
 from ..simulation.field.workpiece import Grid
+from ..usecases.batch.cut_tiles import CutTile, CutTileTask, cut_tile, tiled_grid, tiles_of
 from ..usecases.batch.lanes import Lane
 from ..usecases.batch.run import BatchRun
 from ..usecases.batch.task import BatchResult, BatchVerdict
-from ..usecases.cut_setup import CutSetup
-from ..usecases.cut_tiles import CutTile, CutTileTask, cut_tile, tiled_grid, tiles_of
+from ..usecases.cutting.setup import CutSetup
 from .command import OptionParser
 from .lanes import add_scheduler_option, jobs_given, lanes_of
 

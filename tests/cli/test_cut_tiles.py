@@ -15,9 +15,9 @@ from app.core.progress import NO_PROGRESS
 from app.core.resources import resource
 from app.simulation.field.workpiece import Grid
 from app.simulation.heights_file import read_heights
-from app.usecases.cut_setup import CutSetup
-from app.usecases.cut_tiles import heights_on, tiled_grid, tiles_of
-from app.usecases.setup import setup_of
+from app.usecases.batch.cut_tiles import heights_on, tiled_grid, tiles_of
+from app.usecases.cutting.ready_setup import setup_of
+from app.usecases.cutting.setup import CutSetup
 
 PLATE = (
     "G21 G90 G94\nT1 M6\nS9000 M3\nG0 X-5 Y3 Z5\nG1 Z-1.3 F100\nG1 X33.3 Y17.7 F300\nG3 X10 Y24 R15\n"

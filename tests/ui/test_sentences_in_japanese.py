@@ -19,7 +19,7 @@ from app.model.tool import Tool
 from app.ui.framework.catalogue import Catalogue, catalogue
 from app.ui.panels.parameter_fields import sentence, spec_of
 from app.usecases.examine import ExamineOptions, examine
-from app.usecases.parameter_table import parameter_table
+from app.usecases.manual.parameter_table import parameter_table
 from tests.ui.errors import errors_of, errors_of_the_program
 from tests.ui.sentences import HOLE, Sentence, said_in, sentences, written_in
 
@@ -118,7 +118,7 @@ def test_every_parameter_is_explained_in_japanese() -> None:
 def test_the_japanese_table_of_parameters_is_that_of_the_declarations() -> None:
     made = parameter_table(lambda words: JAPANESE.look_up(words) or words)
     page = resource("docs", "parameters_ja.md")
-    assert page.read_text("utf-8") == made, "write the page anew: app.usecases.parameter_table.parameter_table(tr)"
+    assert page.read_text("utf-8") == made, "write it anew: usecases.manual.parameter_table.parameter_table(tr)"
     assert not re.search(r"\| [A-Z]?[a-z]{3,} [a-z]{2,} [a-z]", made)
 
 

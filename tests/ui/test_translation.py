@@ -99,7 +99,7 @@ def test_what_is_said_later_is_looked_up_before_it_is_seen(qtbot, japanese) -> N
     japanese.files.ask_new()
     QApplication.processEvents()
     window.grab()
-    assert window.notice.text.text() == "新しい図面を始めますか。 この図面はまだどのファイルにも保存されていません。"
+    assert window.notice.text.text() == "新しい図面を始めますか。この図面はまだどのファイルにも保存されていません。"
     assert "作図を続ける" in [button.text() for button in window.notice.buttons]
     japanese.cancel()
     japanese.display_controller.show_hovered("Cancelled; nothing has changed.")
@@ -274,3 +274,18 @@ def test_holes_for_numbers_let_sentences_be() -> None:
     assert words.look_up("2 of 12") == "2 / 12"
     assert words.look_up("The end of the line") is None
     assert words.look_up("Arc: centre") == "円弧: 中心"
+
+
+def test_sentences_are_looked_up_before_an_entry_swallows_them_and_lists_name_by_name():
+    words = Catalogue(
+        {
+            "Found: {}.": "発見: {}。",
+            "no gouge": "食込みなし",
+            "Zoom in.": "拡大。",
+            "Drill": "穴あけ",
+            "Pocket": "ポケット",
+        }
+    )
+    assert words.look_up("Found: no gouge. Zoom in.") == "発見: 食込みなし。拡大。"
+    assert words.look_up("Found: drill, pocket.") == "発見: 穴あけ、ポケット。"
+    assert words.look_up("Found: drill, saw.") == "発見: drill, saw。", "half a list is none"

@@ -20,9 +20,11 @@ _REMEMBERED = 4096
 _MNEMONIC = re.compile(r"&(\w)")
 _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
 _BETWEEN_SENTENCES = re.compile(r"(?<=[.?!]) (?=[A-Z])")
+_COMMA = "、"
 _LETTER = re.compile(r"[A-Za-z]")
 _COLON = re.compile(": ")
-_CHOICES = re.compile(r"[\w.~-]+(?:, [\w.~-]+)+")
+_TYPED = re.compile(r"(?:one of|expected|expected are) $")
+"""What stands before words to choose one of, which have to be typed as they are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,9 +44,9 @@ class Catalogue:
     An entry stands for the text in a menu (`&Open…`), in a tip (`Open (Ctrl+O)`) and on a button alike: the letter to
     press, dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything, side by side
     also for nothing, `{n}` for a number; what it stood for is looked up too. In the translation they may be numbered,
-    `{1} {0}`, to stand in another order. Of several entries that would do, that with the most letters of its own is
-    taken. What is none as a whole may be several sentences, each of them one, or stand behind a place, as in
-    `part.dxf:7: …`; only then comes what has no word of its own, such as `{}: {}`.
+    `{1} {0}`, to stand in another order, and it may be a list of names, each of them an entry. Of several sentences
+    each may be an entry, and a sentence may stand behind a place, as in `part.dxf:7: …`. Of several entries that would
+    do, that with the most letters of its own is taken; last comes what has no word of its own, such as `{}: {}`.
     """
 
     def __init__(self, entries: dict[str, str]) -> None:
@@ -83,8 +85,13 @@ class Catalogue:
         return self._sentence(words) or self._placed(words) or self._matched(words, self._joints if joints else ())
 
     def _sentence(self, words: str) -> str | None:
-        """Return what is an entry, or several lines or sentences that are."""
-        return self._entries.get(words) or self._matched(words, self._patterns) or self._sentences(words)
+        """Return what is an entry, or several lines or sentences that are; no entry swallows a sentence that is one."""
+        return (
+            self._entries.get(words)
+            or self._matched(words, self._patterns, within_sentences=True)
+            or self._sentences(words)
+            or self._matched(words, self._patterns)
+        )
 
     def _placed(self, words: str) -> str | None:
         """Return a sentence behind a place, its file and line or whatever a colon parts from it."""
@@ -95,17 +102,32 @@ class Catalogue:
                 return f"{self.look_up(place) or place}: {found}"
         return None
 
-    def _matched(self, words: str, patterns: Sequence[_Pattern]) -> str | None:
-        """Return what the first entry with holes makes of a text."""
+    def _matched(self, words: str, patterns: Sequence[_Pattern], within_sentences: bool = False) -> str | None:
+        """Return what the first entry with holes makes of a text.
+
+        Args:
+            within_sentences: no hole stands for the end of one sentence and the beginning of the next.
+        """
         for pattern in patterns:
             match = pattern.form.fullmatch(words) if pattern.longest in words else None
-            if match:
-                return pattern.other.format(*(self._part(part) for part in match.groups()))
+            if match and not (within_sentences and any(map(_BETWEEN_SENTENCES.search, match.groups()))):
+                holes = range(1, pattern.form.groups + 1)
+                return pattern.other.format(*(self._filling(words[: match.start(k)], match[k]) for k in holes))
         return None
 
-    def _part(self, text: str) -> str:
-        """Return what a hole stands for; words to choose one of, which have to be typed so, stay as they are."""
-        return text if _CHOICES.fullmatch(text) else self.look_up(text) or text
+    def _filling(self, before: str, part: str) -> str:
+        """Return what stands for what a hole stood for; the names of a list are written small in English.
+
+        Args:
+            before: the text as far as the hole.
+        """
+        if _TYPED.search(before):
+            return part
+        if (whole := self.look_up(part)) is not None:
+            return whole
+        names = [self.look_up(name) or self.look_up(name.capitalize()) for name in part.split(", ")]
+        told = [name for name in names if name is not None]
+        return _COMMA.join(told) if 1 < len(told) == len(names) else part
 
     def _sentences(self, words: str) -> str | None:
         """Return several lines, or sentences one behind the other, if each of them is known."""

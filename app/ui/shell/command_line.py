@@ -120,6 +120,10 @@ class CommandLine(QWidget):
         self.edit.setFocus()
         self.edit.insert(text)
 
+    def forget(self) -> None:
+        """Let go of what was begun and not entered: something else is done instead."""
+        self.edit.setText("")
+
     def recall(self, text: str) -> None:
         """Put a line back, to be changed or entered again."""
         self.edit.setText("; ".join(line.strip() for line in text.splitlines()))

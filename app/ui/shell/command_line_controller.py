@@ -19,6 +19,8 @@ class CommandLineController(QObject):
         command_line.completions = lambda line: completions(line, document)
         command_line.value_taken = self._take_value
         canvas.prompt_changed.connect(lambda _: self._show_options())
+        canvas.tool_changed.connect(lambda _: command_line.forget())
+        canvas.cancelled.connect(command_line.forget)
 
     def _show_options(self) -> None:
         tool = self._canvas.runner.tool

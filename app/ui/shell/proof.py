@@ -9,7 +9,7 @@ from ..framework.figures import counted, grouped
 from ..framework.verdict import short, worst_first
 
 if TYPE_CHECKING:
-    from ...usecases.make import MakeResult
+    from ...usecases.making.make import MakeResult
 
 NAMED = 2
 """Findings that are named one by one."""
@@ -25,7 +25,7 @@ def proof(made: MakeResult) -> str:
     said.append(f"cut out of its stock, {grouped(made.cut.cut.removed_volume, 0)} mm³ of it")
     gouge = f"no gouge ({judgement.gouge.max_mm:.4f} mm)" if judgement.exact else "no gouge"
     said += [f"{gouge}, nothing left within reach, no rapid in metal"]
-    if judgement.certificate is not None:
+    if judgement.certificate is not None and judgement.certificate.telling:
         said.append(f"no point between the cells deeper than {judgement.certificate.gouge_mm:.3f} mm into the part")
     return f"{'; '.join(said)}."
 

@@ -9,15 +9,15 @@ from PySide6.QtWidgets import QFileDialog
 
 from ...core.atomic import write_atomically
 from ...core.errors import HitofudeError, InputError
-from ...formats.tools.at_path import tools_at
-from ...formats.tools.files import suffixes, write_tools
+from ...formats.tools.at_path import tool_suffixes, tools_at
+from ...formats.tools.files import write_tools
 from ...formats.tools.library import ToolLibrary, own_folder, write_library
 from ...model.part import Units
 from ..framework.figures import counted
 from ..framework.workspace import Workspace
 from ..panels.side_panel import SidePanel
 
-IN = f"Tools ({' '.join(f'*{suffix}' for suffix in (*suffixes(), '.fctl'))});;All files (*)"
+IN = f"Tools ({' '.join(f'*{suffix}' for suffix in tool_suffixes())});;All files (*)"
 LIBRARY, SHEET, TABLE_MM, TABLE_INCH = (
     "Tool library (*.toml)",
     "Spreadsheet (*.csv)",

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QIcon, QResizeEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QToolButton, QWidget
 
 from ..framework.icons import icon
@@ -11,6 +14,22 @@ from ..framework.view import views
 from .actions import Actions
 
 TOP_HEIGHT = 46
+
+
+@dataclass(frozen=True)
+class _ButtonForm:
+    """What stands on the two buttons at the right."""
+
+    texts: tuple[str, str]
+    icons: bool
+
+
+_FORMS = (
+    _ButtonForm((" Compute  F5", " Export NC"), icons=True),
+    _ButtonForm(("Compute", "Export NC"), icons=False),
+    _ButtonForm(("", ""), icons=True),
+)
+"""From the one that takes most room to that which takes least."""
 
 
 def _line(width: int, height: int) -> QFrame:
@@ -40,7 +59,8 @@ class TopBar(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedHeight(TOP_HEIGHT)
         self._actions = actions
-        self.compute, self.export = QPushButton(" Compute  F5"), QPushButton(" Export NC")
+        self.compute, self.export = QPushButton(), QPushButton()
+        self._icons = QIcon(), QIcon()
         row = QHBoxLayout(self)
         row.setContentsMargins(10, 0, 12, 0)
         row.setSpacing(4)
@@ -75,10 +95,27 @@ class TopBar(QWidget):
         button.setFixedHeight(32)
         button.setIconSize(QSize(18, 18))
         button.setToolTip(action.toolTip())
+        button.setAccessibleName(action.text().replace("&", ""))
         button.clicked.connect(action.trigger)
         action.enabledChanged.connect(button.setEnabled)
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
-        self.compute.setIcon(icon("compute", theme, theme.accent_ink))
-        self.export.setIcon(icon("export", theme))
+        self._icons = icon("compute", theme, theme.accent_ink), icon("export", theme)
+        self._fit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Say no more on the buttons at the right than there is room for."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        row = self.layout()
+        assert row is not None  # laid out when it was made
+        for form in _FORMS:
+            for button, text, picture in zip((self.compute, self.export), form.texts, self._icons, strict=True):
+                button.setText(text)
+                button.setIcon(picture if form.icons else QIcon())
+            row.invalidate()
+            if row.minimumSize().width() <= self.width():
+                return

@@ -8,7 +8,7 @@ from enum import Enum
 from typing import Any, Protocol
 
 from ..examine import ExamineOptions
-from ..options import MakeOptions
+from ..job.options import MakeOptions
 from ..smoothing.result import SmoothOptions
 
 Json = dict[str, Any]

@@ -10,7 +10,7 @@ from ...core.errors import Cancelled, HitofudeError
 from ...core.memory import budget_limit, within
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.job import Job
-from ..make import export
+from ..making.make import export
 from .lanes import ProcessLane
 from .run import BatchRun
 from .task import BatchResult, BatchRow, BatchVerdict

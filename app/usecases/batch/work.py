@@ -12,9 +12,9 @@ from ...core.memory import MemoryShortError, within
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.finding import Finding
 from ..examine import ExaminedProgram, ExamineOptions, examine
-from ..make import MakeResult, make
+from ..job.options import MakeOptions
 from ..make_files import other_files
-from ..options import MakeOptions
+from ..making.make import MakeResult, make
 from ..smoothing.report import findings as smooth_findings
 from ..smoothing.report import report_text
 from ..smoothing.result import SmoothOptions

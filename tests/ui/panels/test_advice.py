@@ -12,7 +12,7 @@ from app.model.operation import PocketOperation, RestOperation
 from app.ui.framework.figures import clock
 from app.ui.panels.side_panel import SidePanel
 from app.ui.shell.advice_controller import AdviceController, clears, follows, with_tool_for
-from app.usecases.make import export
+from app.usecases.making.make import export
 from tests.ui.conftest import WAIT_MS
 
 
