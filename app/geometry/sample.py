@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from functools import lru_cache
 
 import numpy as np
@@ -78,6 +79,28 @@ def _round_bounds(arc: Arc) -> Box:
 def _sampled_bounds(curve: Ellipse | Spline) -> Box:
     points = np.concatenate([[curve.start, curve.end], sample(curve)])
     (x0, y0), (x1, y1) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    return (x0, y0, x1, y1)
+
+
+def bounds_of_all(curves: Iterable[Curve]) -> Box | None:
+    """Return the union of `bounds` of curves, mm; None of none.
+
+    A spline lies within the box of its control points: those of which that lies within what is known anyhow are not
+    sampled.
+    """
+    curves = list(curves)
+    splines = [curve for curve in curves if isinstance(curve, Spline)]
+    ends = [(*curve.start, *curve.end) for curve in splines]
+    boxes = [bounds(curve) for curve in curves if not isinstance(curve, Spline)]
+    boxes += [(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)) for x0, y0, x1, y1 in ends]
+    if (known := union(boxes)) is None:
+        return None
+    x0, y0, x1, y1 = known
+    for curve in splines:
+        xs, ys = zip(*curve.control_points, strict=True)
+        if min(xs) < x0 or min(ys) < y0 or max(xs) > x1 or max(ys) > y1:
+            box = bounds(curve)
+            x0, y0, x1, y1 = min(x0, box[0]), min(y0, box[1]), max(x1, box[2]), max(y1, box[3])
     return (x0, y0, x1, y1)
 
 

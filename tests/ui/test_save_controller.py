@@ -327,7 +327,7 @@ def test_a_picture_that_has_gone_is_told_and_its_place_is_not_lost(qtbot, wiring
     assert "gone.png is not there" in wiring.log.lines[-1].reply and wiring.log.lines[-1].error
     with qtbot.waitSignal(wiring.files.save_controller.saved, timeout=WAIT_MS):
         wiring.files.save_controller.save()
-    assert load_project(tmp_path / "a.hito")[0].beside.underlay == place
+    assert load_project(tmp_path / "a.hito").project.beside.underlay == place
     wiring.window_.actions_["underlay_remove"].trigger()
     assert wiring.underlay_controller.underlay is None and wiring.files.save_controller.beside.unsaved
 

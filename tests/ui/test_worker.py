@@ -148,6 +148,17 @@ def test_memory_that_runs_out_is_no_mistake_of_the_program(qtbot, worker, capsys
     assert capsys.readouterr().err == ""
 
 
+def test_what_a_job_returns_is_taken_on_the_window_thread(qtbot, worker):
+    taken: list[object] = []
+    with qtbot.waitSignal(worker.done):
+        worker.start(lambda progress: time.sleep(0.2) or "older", 1, lambda answer: taken.append("older"))
+        worker.start(lambda progress: 42, 1, lambda answer: taken.append((answer, threading.get_ident())))
+    assert taken == [(42, threading.get_ident())], "of a job that a newer one replaced nobody takes anything"
+    with qtbot.waitSignal(worker.failed):
+        worker.start(lambda progress: 1 / 0, 1, taken.append)
+    assert len(taken) == 1
+
+
 @pytest.mark.parametrize("remarks", [False, True])
 def test_a_job_whose_window_has_gone_ends_without_a_word(qtbot, capfd, remarks):
     going, gone, threads = threading.Event(), threading.Event(), []

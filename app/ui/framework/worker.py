@@ -12,6 +12,7 @@ from contextlib import suppress
 from contextvars import copy_context
 from dataclasses import dataclass
 from functools import partial
+from typing import Any, TypeVar
 
 from PySide6.QtCore import QObject, Qt, Signal, Slot
 from shiboken6 import isValid
@@ -20,6 +21,8 @@ from ...core.errors import Cancelled, HitofudeError
 from ...core.memory import MemoryShortError, budget_limit, in_words, within
 from ...core.progress import Progress, waits_reported_to
 
+Answer = TypeVar("Answer")
+"""What a job returns."""
 HEAD_START_S = 0.04
 """Seconds in which the window shows that it computes, before the job competes with it for the interpreter."""
 
@@ -46,12 +49,13 @@ class JobOutcome:
 
 @dataclass(frozen=True, slots=True)
 class _PendingJob:
-    """A job on its way: what to run and where to answer."""
+    """A job on its way: what to run and who takes what it returns."""
 
     job_id: int
     revision: int
-    function: Callable[[Progress], object]
+    function: Callable[[Progress], Any]
     cancelled: threading.Event
+    take: Callable[[Any], None] | None
 
 
 class _NoCollector:
@@ -185,14 +189,19 @@ class Worker(QObject):
         """True while a job runs whose answer is still wanted."""
         return self._current is not None
 
-    def start(self, function: Callable[[Progress], object], revision: int) -> int:
+    def start(
+        self, function: Callable[[Progress], Answer], revision: int, take: Callable[[Answer], None] | None = None
+    ) -> int:
         """Run `function(progress)` on another thread; its inputs must be a snapshot that nobody changes.
+
+        Args:
+            take: called on this thread with what the function returned, after `done`; not where it failed or was left.
 
         Returns:
             The job's id, as in the answer.
         """
         replaced = self._drop()
-        work = _PendingJob(self._next_id, revision, function, threading.Event())
+        work = _PendingJob(self._next_id, revision, function, threading.Event(), take)
         self._next_id += 1
         self._current = work
         self._threads = [thread for thread in self._threads if thread.is_alive()]
@@ -237,6 +246,11 @@ class Worker(QObject):
     def _on_answered(self, answer: JobOutcome) -> None:
         if self._current is None or self._current.job_id != answer.job_id:
             return
-        self._current = None
+        take, self._current = self._current.take, None
         self.busy_changed.emit(False)
-        (self.failed if answer.error is not None else self.done).emit(answer)
+        if answer.error is not None:
+            self.failed.emit(answer)
+            return
+        self.done.emit(answer)
+        if take is not None:
+            take(answer.value)

@@ -305,14 +305,14 @@ class DisplayController(QObject):
     def _mends(self, finding: Finding) -> tuple[Mend, ...]:
         """Return what mends a finding on the job's program."""
         from ...formats.tools.library import load_libraries
+        from ...usecases.making.program_lines import operation_of_line
         from ...usecases.mending import Fault, mends
-        from ...usecases.program_lines import operation_of_line
 
         made = self._computation.made
         if made is None:
             return ()
         index = operation_of_line(made, 0, finding.line) if len(made.files) == 1 else None
-        library = [tool for each in load_libraries()[0].values() for tool in each.tools]
+        library = [tool for each in load_libraries().libraries.values() for tool in each.tools]
         return mends(made.job, Fault.of(finding, index), library)
 
     def mend(self, mend: Mend) -> None:

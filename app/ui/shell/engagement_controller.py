@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QObject
 
 from ...core.progress import Progress
-from ...usecases.make import MakeResult
+from ...usecases.making.make import MakeResult
 from ..framework.worker import JobOutcome, Worker
 from ..framework.workspace import Workspace
 from ..views.canvas.canvas import Canvas

@@ -17,8 +17,8 @@ from ...gcode.posts.posts import load_post
 from ...model.job import Job
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
-from ...usecases.bitmap_options import is_picture
-from ...usecases.solid_files import is_solid
+from ...usecases.pixels.options import is_picture
+from ...usecases.scene.solid_files import is_solid
 from ..framework.figures import counted, grouped
 from ..framework.log import Log
 from ..framework.view import View, views

@@ -21,7 +21,7 @@ from PySide6.QtGui import (
 )
 
 from ...core.resources import resource
-from ...usecases.manual_pages import LANGUAGES, base_of, shown_in
+from ...usecases.manual.pages import LANGUAGES, base_of, shown_in
 from ..framework.theme import HEADING_PX, TEXT_PX, Theme, mono_font, text_font
 
 _MARGIN_PX, _CELL_PX, _PICTURE_PX, _WINDOW_PX = 24, 5, 320, 580

@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, QObject, Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QKeyEvent, QTextCursor, QTextDocument
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QListWidget, QTextBrowser, QTextEdit, QVBoxLayout, QWidget
 
-from ...usecases.manual_pages import base_of
+from ...usecases.manual.pages import base_of
 from ..framework.catalogue import active_language
 from ..framework.fields import restyle
 from ..framework.labels import muted

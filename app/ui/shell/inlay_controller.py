@@ -18,7 +18,7 @@ from ..framework.catalogue import tr
 from ..framework.commands import Commands, on_trigger
 from ..framework.controller import Controller
 from ..framework.fields import NumberField, NumberSpec
-from ..framework.worker import JobOutcome, Worker
+from ..framework.worker import Worker
 from ..framework.workspace import Workspace
 from .proof import warning
 
@@ -106,7 +106,6 @@ class InlayController(Controller):
         self.choose_file: Callable[[Path], Path | None] = self._choose
         self.worker = Worker(self)
         workspace.activity.follow(self.worker, "Making pocket and plug…")
-        self.worker.done.connect(self._on_done)
         self.worker.failed.connect(lambda answer: self.failed.emit(f"{answer.error} Nothing was written."))
         on_trigger(commands, "inlay", self.start)
 
@@ -123,7 +122,7 @@ class InlayController(Controller):
         path = self.choose_file(self._workspace.preferences.last_folder / stem)
         if path is not None:
             self._workspace.notice.dismiss()
-            self.worker.start(partial(_make, document.job, wished, path), document.revision)
+            self.worker.start(partial(_make, document.job, wished, path), document.revision, self._on_made)
 
     def _ask(self, first: InlayOptions) -> InlayOptions | None:
         form = InlayForm(self._over, first)
@@ -133,9 +132,7 @@ class InlayController(Controller):
         name, _ = QFileDialog.getSaveFileName(self._over, tr("What both programs begin with"), str(first))
         return Path(name) if name else None
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        made = answer.value
-        assert isinstance(made, _MadeInlay)
+    def _on_made(self, made: _MadeInlay) -> None:
         pair, notice = made.pair, self._workspace.notice
         self._workspace.log.note(f"inlay {made.path.name}", pair.fit.summary())
         findings = tuple(each for each in (*pair.findings, *pair.pocket.findings, *pair.plug.findings) if each.counts)

@@ -13,8 +13,8 @@ from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
 from ...formats.readers import suffixes
 from ...formats.tools.at_path import tool_suffixes
-from ...usecases.bitmap_options import PICTURES
-from ...usecases.solid_files import SOLIDS
+from ...usecases.pixels.options import PICTURES
+from ...usecases.scene.solid_files import SOLIDS
 from ..framework import style
 from ..framework.activity import Activity
 from ..framework.arrow import arrow_picture
@@ -52,7 +52,7 @@ from .view_stack import ViewStack
 from .window_geometry import remember_geometry
 
 if TYPE_CHECKING:
-    from ...usecases.make import MakeResult
+    from ...usecases.making.make import MakeResult
 
 SIZE = (1440, 900)
 

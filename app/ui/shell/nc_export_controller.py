@@ -18,7 +18,7 @@ from ..framework.notice import Notice
 from .proof import proof, warning
 
 if TYPE_CHECKING:
-    from ...usecases.make import MakeResult
+    from ...usecases.making.make import MakeResult
 
 
 def post_filters() -> dict[str, str]:

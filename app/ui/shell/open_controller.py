@@ -84,9 +84,9 @@ def read_drawing_file(
     """
     from ...formats.readers import format_of
     from ...formats.reading_question import UndecidedError
-    from ...usecases.make import job_from_drawing  # imports the DXF reader: never on the window's thread
-    from ...usecases.options import MakeOptions
-    from ...usecases.plausible import diameters_used, read_plausible
+    from ...usecases.job.options import MakeOptions
+    from ...usecases.job.plausible import diameters_used, read_plausible
+    from ...usecases.making.make import job_from_drawing  # imports the DXF reader: never on the window's thread
 
     progress.step(0.05, f"Reading {path.name}")
     try:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QObject, Signal
 
-from ..framework.worker import JobOutcome, Worker
+from ...core.progress import Progress
+from ..framework.worker import Answer, Worker
 from ..framework.workspace import Workspace
 from ..panels.side_panel import SidePanel
 
@@ -25,15 +28,16 @@ class OperationsController(QObject):
         self._panel, self._workspace, self._document = panel, workspace, workspace.document
         self.worker = Worker(self)
         workspace.activity.follow(self.worker, doing)
-        self.worker.done.connect(self._on_done)
         self.worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        if answer.revision != self._document.revision:
-            self.said.emit("The drawing was changed meanwhile; ask for the operations again.")
-            return
-        self._take_over(answer.value)
+    def _work_out(self, function: Callable[[Progress], Answer], take: Callable[[Answer], None]) -> None:
+        """Run a function beside the window, and take what it returns unless the drawing was changed meanwhile."""
+        revision = self._document.revision
 
-    def _take_over(self, made: object) -> None:
-        """Change the job by what was worked out."""
-        raise NotImplementedError
+        def take_if_current(made: Answer) -> None:
+            if revision == self._document.revision:
+                take(made)
+            else:
+                self.said.emit("The drawing was changed meanwhile; ask for the operations again.")
+
+        self.worker.start(function, revision, take_if_current)

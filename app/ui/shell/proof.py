@@ -9,7 +9,7 @@ from ..framework.figures import counted, grouped
 from ..framework.verdict import short, worst_first
 
 if TYPE_CHECKING:
-    from ...usecases.make import MakeResult
+    from ...usecases.making.make import MakeResult
 
 NAMED = 2
 """Findings that are named one by one."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,7 @@ from ...model.operation import Operation, Order
 from ...model.part import Part
 from ..framework.commands import Commands, on_trigger
 from ..framework.figures import TIMES, counted
+from ..framework.worker import Answer
 from ..framework.workspace import Workspace
 from ..panels.changes import Subject, SubjectKind, operation_name, with_cut
 from ..panels.side_panel import SidePanel
@@ -46,48 +47,29 @@ def proposed_for(job: Job, nesting: bool, progress: Progress) -> Proposal:
     return propose(job, progress=progress) if nesting else as_in_1986(job)
 
 
-@dataclass(frozen=True)
-class FirstProposal:
-    """What is proposed for a drawing that nobody has said anything about.
+def first_proposal(job: Job, progress: Progress) -> Proposal | None:
+    """Return what is proposed for a drawing that nobody has said anything about, before it is computed first.
 
-    Attributes:
-        proposal: None = its operations stay as they are: it is fig. 2, or there is nothing to be proposed.
+    Returns:
+        None where its operations stay as they are: it is fig. 2, or there is nothing to be proposed.
     """
-
-    proposal: Proposal | None
-
-
-def first_proposal(job: Job, progress: Progress) -> FirstProposal:
-    """Return what is proposed for a drawing before it is computed first."""
     from ...usecases.proposal.propose import propose  # imports the engines: never on the window's thread
     from ...usecases.proposal.published import is_figure_2
 
     if is_figure_2(job.part):
-        return FirstProposal(None)
+        return None
     try:
-        return FirstProposal(propose(job, progress=progress))
+        return propose(job, progress=progress)
     except GeometryError:
-        return FirstProposal(None)
+        return None
 
 
-@dataclass(frozen=True)
-class OwnSelection:
-    """Curves that an operation is to have.
-
-    Attributes:
-        index: of the operation. curves: one of each contour that is selected.
-    """
-
-    index: int
-    curves: tuple[Selector, ...]
-
-
-def selection_of(job: Job, numbers: frozenset[int], index: int, progress: Progress) -> OwnSelection:
-    """Return curves, by their numbers, as the operation at an index has them."""
+def selection_of(job: Job, numbers: frozenset[int], progress: Progress) -> tuple[Selector, ...]:
+    """Return curves, by their numbers, as an operation has them: one of each contour that is selected."""
     from ...usecases.proposal.chosen_curves import numbers_of  # imports the engines: never on the window's thread
 
     progress.step(0.0, "Sorting contours")
-    return OwnSelection(index, numbers_of(job, numbers))
+    return numbers_of(job, numbers)
 
 
 def chosen_for(job: Job, numbers: frozenset[int], way: str, progress: Progress) -> ChosenOperations:
@@ -169,7 +151,7 @@ class ProposalController(OperationsController):
             self._then = act
             return
         job, self._then = self._document.job, act
-        self.worker.start(lambda progress: first_proposal(job, progress), self._document.revision)
+        self._work_out(lambda progress: first_proposal(job, progress), self._begin_with)
 
     def propose(self, nesting: bool) -> None:
         """Have operations proposed by how the curves lie in one another, or by the rule of 1986."""
@@ -180,18 +162,23 @@ class ProposalController(OperationsController):
             self.failed.emit(A_PICTURE)
         else:
             self._workspace.notice.dismiss()
-            self.worker.start(lambda progress: proposed_for(job, nesting, progress), self._document.revision)
+            self._work_out(lambda progress: proposed_for(job, nesting, progress), self._take)
 
     def machine(self, way: str) -> None:
         """Have an operation added for the selected curves; `way` is one of `WAYS`."""
-        self._start_on_selection(lambda job, numbers, progress: chosen_for(job, numbers, way, progress))
+        self._start_on_selection(lambda job, numbers, progress: chosen_for(job, numbers, way, progress), self._add)
 
     def use_selection(self) -> None:
         """Have the selected curves be those of the operation that is shown."""
         index = self._panel.operation_form.index
-        self._start_on_selection(lambda job, numbers, progress: selection_of(job, numbers, index, progress))
+        self._start_on_selection(
+            lambda job, numbers, progress: selection_of(job, numbers, progress),
+            lambda curves: self._give(index, curves),
+        )
 
-    def _start_on_selection(self, find: Callable[[Job, frozenset[int], Progress], object]) -> None:
+    def _start_on_selection(
+        self, find: Callable[[Job, frozenset[int], Progress], Answer], take: Callable[[Answer], None]
+    ) -> None:
         job, numbers = self._document.job, self._document.selection
         if not numbers:
             self.said.emit(NOTHING_SELECTED)
@@ -199,20 +186,7 @@ class ProposalController(OperationsController):
             self.failed.emit(A_PICTURE)
         else:
             self._workspace.notice.dismiss()
-            self.worker.start(lambda progress: find(job, numbers, progress), self._document.revision)
-
-    def _take_over(self, made: object) -> None:
-        from ...usecases.proposal.chosen_curves import ChosenOperations
-        from ...usecases.proposal.propose import Proposal
-
-        if isinstance(made, ChosenOperations):
-            self._add(made)
-        elif isinstance(made, OwnSelection):
-            self._give(made)
-        elif isinstance(made, Proposal):
-            self._take(made)
-        elif isinstance(made, FirstProposal):
-            self._begin_with(made.proposal)
+            self._work_out(lambda progress: find(job, numbers, progress), take)
 
     def _begin_with(self, proposal: Proposal | None) -> None:
         """Take what is proposed first, and go on with what that was for."""
@@ -239,13 +213,12 @@ class ProposalController(OperationsController):
             )
         self.said.emit(f"{name} added.")
 
-    def _give(self, own: OwnSelection) -> None:
-        """Give an operation its curves."""
+    def _give(self, index: int, curves: tuple[Selector, ...]) -> None:
+        """Give the operation at an index its curves."""
         self._panel.change(
-            "Change curves",
-            lambda job: with_cut(job, own.index, replace(job.operations[own.index].cut, curves=own.curves)),
+            "Change curves", lambda job: with_cut(job, index, replace(job.operations[index].cut, curves=curves))
         )
-        self.said.emit(f"{operation_name(self._document.job.operations[own.index])} has the selected curves.")
+        self.said.emit(f"{operation_name(self._document.job.operations[index])} has the selected curves.")
 
     def _switch_off_others(self) -> None:
         """Leave only operations that have curves of their own switched on."""

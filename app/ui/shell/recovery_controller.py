@@ -46,7 +46,6 @@ class RecoveryController(QObject):
         self._taken: list[RecoveredWork] = []
         self._timer = QTimer(self, singleShot=True, interval=round(WAIT_S * 1000))
         self._timer.timeout.connect(self.keep)
-        self._worker.done.connect(self._on_done)
         self._worker.failed.connect(self._on_failed)
         workspace.activity.ended.connect(self._close)
         self._document.subscribe(self._on_change)
@@ -67,7 +66,7 @@ class RecoveryController(QObject):
         if project is None and self._file is None:
             return
         edited = EditedFile(self._document.path, self._files.save_controller.known)
-        self._worker.start(partial(self._write, project, edited), self._document.revision)
+        self._worker.start(partial(self._write, project, edited), self._document.revision, self._on_kept)
 
     def offer(self) -> None:
         """Ask what is to become of what other windows have left, if they have."""
@@ -97,7 +96,7 @@ class RecoveryController(QObject):
         self._offer_next()
 
     def _load(self, found: RecoveredWork) -> None:
-        self._worker.start(lambda progress: _loaded(found), self._document.revision)
+        self._worker.start(lambda progress: _loaded(found), self._document.revision, self._on_loaded)
 
     def _write(self, project: Project | None, edited: EditedFile, progress: Progress) -> None:
         if self._file is None:
@@ -115,10 +114,7 @@ class RecoveryController(QObject):
         if not self._timer.isActive():
             self._timer.start(round(WAIT_S * 1000))
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        if isinstance(answer.value, _LoadedWork):
-            self._on_loaded(answer.value)
-            return
+    def _on_kept(self, _: None) -> None:
         for found in self._taken:
             found.discard()
         self._taken = []

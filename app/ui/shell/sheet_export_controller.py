@@ -16,7 +16,7 @@ from ...drafting.language.write import draw_text
 from ...formats.sheet import SUFFIXES
 from ...formats.sheet.write import sheet_bytes
 from ...gcode.posts.posts import load_post
-from ...usecases.make import MakeResult
+from ...usecases.making.make import MakeResult
 from ...usecases.sheet.made import made_sheet
 from ..framework.computation import ComputationState
 from ..framework.controller import Controller

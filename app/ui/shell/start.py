@@ -11,6 +11,7 @@ from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import TracebackType
+from typing import cast
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QApplication
@@ -36,7 +37,7 @@ _ENGINES = (
     "cv2",
     f"{PACKAGE}.formats.dxf.dxf",
     f"{PACKAGE}.operations.compute",
-    f"{PACKAGE}.usecases.make",
+    f"{PACKAGE}.usecases.making.make",
     f"{PACKAGE}.usecases.mending",
     f"{PACKAGE}.usecases.proposal.chosen_curves",
     f"{PACKAGE}.usecases.smoothing.result",
@@ -56,6 +57,7 @@ def _warm(settings: Settings, progress: Progress) -> None:
     """Sweep, which may wait for a disk, and load what the first line, Open, Compute and plot need, which would make the
     window stutter later.
     """
+    from ...core.jit.compiled import Kernel
     from ...core.jit.warm import warm
     from ...drafting.expressions.grammar import read_script
     from ..views.surfaces import picture_kernels
@@ -67,7 +69,7 @@ def _warm(settings: Settings, progress: Progress) -> None:
     warm(progress)
     for painting in (picture_kernels.fill, picture_kernels.tint, picture_kernels.draw_lines):
         with suppress(HitofudeError):  # told where a scene is painted
-            painting.load()
+            cast(Kernel, painting).load()
 
 
 def build() -> tuple[MainWindow, WindowController]:

@@ -48,9 +48,9 @@ def applied(path: Path, job: Job, progress: Progress) -> AppliedTemplate:
     """
     from ...formats.job.toml import SETTINGS, read_job, settings_of
     from ...model.fields import with_values
-    from ...usecases.drawn_depths import with_drawn_depths
-    from ...usecases.layer_operations import with_layer_rules  # imports the engines: never on the window's thread
-    from ...usecases.options import MakeOptions, with_feeds
+    from ...usecases.job.drawn_depths import with_drawn_depths
+    from ...usecases.job.layer_operations import with_layer_rules  # imports the engines: never on the window's thread
+    from ...usecases.job.options import MakeOptions, with_feeds
 
     progress.step(0.0, f"Reading {path.name}")
     file = read_job(path.name, read_input(path))
@@ -97,7 +97,7 @@ def to_drawn_depths(job: Job, progress: Progress) -> TakenDepths:
     Raises:
         InputError: the drawing tells no depth.
     """
-    from ...usecases.drawn_depths import with_drawn_depths  # imports the engines: never on the window's thread
+    from ...usecases.job.drawn_depths import with_drawn_depths  # imports the engines: never on the window's thread
 
     progress.step(0.0, "Reading depths")
     made = with_drawn_depths(job)
@@ -127,7 +127,7 @@ class TemplateController(OperationsController):
             self.said.emit(NOTHING_DRAWN)
             return
         self._workspace.notice.dismiss()
-        self.worker.start(lambda progress: applied(path, job, progress), self._document.revision)
+        self._work_out(lambda progress: applied(path, job, progress), self._take_template)
 
     def take_depths(self) -> None:
         """Have the operations cut to the depths that the drawing tells."""
@@ -136,13 +136,9 @@ class TemplateController(OperationsController):
             self.said.emit(NOTHING_DRAWN)
             return
         self._workspace.notice.dismiss()
-        self.worker.start(lambda progress: to_drawn_depths(job, progress), self._document.revision)
+        self._work_out(lambda progress: to_drawn_depths(job, progress), self._take_depths)
 
-    def _take_over(self, made: object) -> None:
-        if isinstance(made, TakenDepths):
-            self._deepen(made)
-            return
-        assert isinstance(made, AppliedTemplate)
+    def _take_template(self, made: AppliedTemplate) -> None:
         self._panel.subject = Subject(SubjectKind.OPERATION, 0)
         self._document.change_job("Apply template", made.job)
         self._workspace.log.note(f"template {made.name}", "\n".join(line.strip() for line in made.lines))
@@ -155,7 +151,7 @@ class TemplateController(OperationsController):
         )
         self.said.emit(f"{made.name} is applied.")
 
-    def _deepen(self, made: TakenDepths) -> None:
+    def _take_depths(self, made: TakenDepths) -> None:
         self._panel.subject = Subject(SubjectKind.OPERATION, 0)
         self._document.change_job("Depths from the drawing", made.job)
         self._workspace.log.note("depths", "\n".join(line.strip() for line in made.lines))

@@ -111,6 +111,7 @@ class TopBar(QWidget):
 
     def _fit(self) -> None:
         row = self.layout()
+        assert row is not None  # laid out when it was made
         for form in _FORMS:
             for button, text, picture in zip((self.compute, self.export), form.texts, self._icons, strict=True):
                 button.setText(text)

@@ -29,7 +29,7 @@ from .program_text import program_text
 from .view import NcView
 
 if TYPE_CHECKING:
-    from ....usecases.make import MakeResult
+    from ....usecases.making.make import MakeResult
 
 
 class NcController(Controller):
