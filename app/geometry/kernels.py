@@ -151,6 +151,7 @@ def build_tree(boxes):
         u = int((boxes[i, 0] + boxes[i, 2] - 2 * x0) / 2 / size * 65535)
         v = int((boxes[i, 1] + boxes[i, 3] - 2 * y0) / 2 / size * 65535)
         codes[i] = spread(u) | (spread(v) << 1)
+    # Morton order: rows that follow one another in it lie near one another, so leaves are small
     order = np.argsort(codes)
     leaves = 1
     while leaves * LEAF < n:
@@ -240,6 +241,7 @@ def nearest_from(rows, order, nodes, x, y, enough, limit, guess):
         while depth > 0:
             if both >> depth & 1 == 0:
                 both |= 1 << depth
+                # to the sibling, which was not looked at yet; its box may be out of reach by now
                 k = k + 1 if k % 2 == 1 else k - 1
                 if math.sqrt(_box_square(nodes, k, x, y)) < best:
                     break
@@ -292,6 +294,7 @@ def merge_within(points, owner, cell, columns, reach, group):
     most, first, last = reach * reach * (1 + 1e-12), 0, 0
     for i in range(len(points)):
         x, y, a = points[i, 0], points[i, 1], owner[i]
+        # of a row of cells the neighbours ahead are the same row's next cell and three cells of the next row
         while first < len(points) and cell[first] < cell[i] + columns - 1:
             first += 1
         last = max(last, first)
@@ -385,6 +388,7 @@ def _crossing_places(rows, j, y):
     h = math.sqrt(max(r * r - (y - cy) * (y - cy), 0.0))
     middle = by
     for end in (-r, r):
+        # the arc passes the extremum where it goes towards it at its beginning and away from it at its end
         if turn * (ax - cx) * end > 0.0 and turn * -end * (bx - cx) > 0.0:
             middle = cy + end
     first = cx + math.copysign(h, turn * (middle - ay)) if (ay <= y) != (middle <= y) else INF

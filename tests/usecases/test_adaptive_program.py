@@ -9,8 +9,8 @@ import pytest
 from app.core.resources import resource
 from app.formats.job.toml import read_job
 from app.model.moves import Purpose
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
 from tests.gcode.rs274_oracle import assert_same_motion
 
 JOB = """

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from ...core.errors import InputError
 from ...gcode.interpreter.dialect import Dialect
 from ...model.scene import Scene
-from ..cut import CELLS, CutProgram
-from ..setup import ReadySetup
+from ..cutting.cut import CELLS, CutProgram
+from ..cutting.ready_setup import ReadySetup
+from ..scene_program.nc import WrittenScene
 from ..smoothing.result import OutputForm, SmoothedProgram
-from ..surface_nc import WrittenScene
 from ..tolerance_budget import ToleranceBudget
 from .comparison import CutComparison
 from .surface import SmoothedSurface
