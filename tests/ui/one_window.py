@@ -82,6 +82,8 @@ class OneWindow:
         wiring = self._wiring
         if wiring is None or self._new is None:
             return
+        if wiring.window_.isHidden():  # a test closed it
+            wiring.window_.show()
         reset(wiring, self._view)
         self._put_back()
         self.left = left_in(wiring, self._new)
@@ -376,7 +378,13 @@ def _forget_habits(wiring: WindowController) -> None:
     runner._last, runner.cursor = CanvasTool.LINE, (0.0, 0.0)
     runner._desk.numbers.clear()
     wiring.language.lines._line = ""
-    wiring.recovery_controller._timer.stop()
+    recovery = wiring.recovery_controller
+    recovery._timer.stop()
+    recovery._worker.finish(20.0)
+    recovery._close()
+    recovery._file, recovery._told = None, False
+    recovery._left.clear()
+    recovery._taken.clear()
 
 
 def _forget_changes(wiring: WindowController) -> None:
