@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from .chamfer_operation import ChamferOperation
 from .contour_operation import ContourOperation
@@ -74,11 +75,18 @@ def declared() -> dict[str, ParameterPlace]:
     return {key: placed for kind in OPERATION_KINDS.values() for key, placed in declared_of(kind).items()}
 
 
-def parameters() -> dict[str, tuple[ParameterPlace, tuple[type[Operation], ...]]]:
+class UsedParameter(NamedTuple):
+    """A parameter, and the kinds of operation that it has an effect on."""
+
+    place: ParameterPlace
+    kinds: tuple[type[Operation], ...]
+
+
+def parameters() -> dict[str, UsedParameter]:
     """Return every parameter of every kind by key, and the kinds that it has an effect on."""
-    found: dict[str, tuple[ParameterPlace, tuple[type[Operation], ...]]] = {}
+    found: dict[str, UsedParameter] = {}
     for kind in OPERATION_KINDS.values():
         for key, placed in parameters_of(kind).items():
             first, kinds = found.get(key, (placed, ()))
-            found[key] = (first, (*kinds, kind))
+            found[key] = UsedParameter(first, (*kinds, kind))
     return found

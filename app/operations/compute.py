@@ -28,7 +28,6 @@ from ..toolpath.machining_areas import MachiningAreas
 from ..toolpath.operation_context import OperationContext, ProgramDigits
 from ..toolpath.selected import selected, selection_findings
 from ..toolpath.witness import region_findings
-from . import builtin  # noqa: F401 (registers the kinds)
 from .preparing import carry_out
 from .reckoning import job_effort
 

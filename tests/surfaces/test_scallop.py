@@ -13,7 +13,7 @@ from app.model.scene import Passes, Scene, Surface
 from app.model.tool import Tool, ToolKind
 from app.surfaces.passes.scallop import stepover_for_scallop
 from app.surfaces.sections.compound import NO_SURFACE
-from app.usecases.surface import compute
+from app.usecases.scene.compute import compute
 from tests.surfaces.scenes import plane
 from tests.surfaces.surface_places import no_data
 

@@ -19,8 +19,8 @@ from app.gcode.posts.posts import post_names
 from app.model.finding import FindingKind
 from app.model.moves import MoveKind, Purpose
 from app.operations.compute import compute
-from app.usecases.make import MakeResult, finish, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, finish, make
 from tests.gcode.rs274_oracle import exact_motions
 
 TOOLS = """

@@ -26,8 +26,8 @@ from app.model.entry import Lead, LeadKind
 from app.model.finding import FindingKind
 from app.model.motion import MotionKind
 from app.model.operation import CutParameters, CutterCompensation, Side
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
 from tests.gcode.rs274_oracle import RS274, needs_rs274, own_home
 
 PART = shapely.box(0, 0, 40, 30)

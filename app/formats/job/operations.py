@@ -63,7 +63,7 @@ def _refuse_strange_keys(table: JobTable, kind: type[Operation], given: tuple[st
         if key not in known:
             raise table.error(
                 key,
-                f"belongs to {_listed([each.WORD for each in parameters()[key][1]])} operations; "
+                f"belongs to {_listed([each.WORD for each in parameters()[key].kinds])} operations; "
                 f"remove it from this {kind.WORD} operation",
             )
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -173,13 +174,22 @@ def check(data: bytes, file: NcFile, reference: CheckReference, progress: Progre
     )
 
 
-def _differences(compared: _FileCheck) -> tuple[MotionOwners, Floats, tuple[ProgramProblem, ...]]:
-    """Return which motions belong to which moves, how far each move is missed, and every difference."""
+class _Differences(NamedTuple):
+    """Which motions belong to which moves, how far each move is missed, mm, and every difference."""
+
+    owners: MotionOwners
+    missed: Floats
+    problems: tuple[ProgramProblem, ...]
+
+
+def _differences(compared: _FileCheck) -> _Differences:
+    """Return how a program, as it was read, differs from the moves that it was written of."""
     read = compared.read
     mine = motion_owners(read.motions, compared.file.nc.lines, compared.begins, compared.reference, compared.ends)
     far = distances(read.motions, compared.reference, mine)
     far = beside(read.motions, compared.reference, mine, far, compared.ends > compared.tolerance)
-    return mine, far, (*read.problems, *sorted(_problems(compared, mine, far), key=lambda problem: problem.line))
+    found = sorted(_problems(compared, mine, far), key=lambda problem: problem.line)
+    return _Differences(mine, far, (*read.problems, *found))
 
 
 def _elsewhere(
@@ -188,17 +198,15 @@ def _elsewhere(
     """Return the differences on a machine that was left as another job left it."""
     start_state = foreign_start(compared.expected.job.out_units)
     read = read_from_start(data, options, start_state, progress)
-    *_, problems = _differences(
-        replace(
-            compared,
-            read=read,
-            tolerance=compared.tolerance + NOISE,
-            allowed=compared.allowed + NOISE,
-            ends=compared.ends + 2 * NOISE * (compared.ends > compared.tolerance) + NOISE,
-            start_state=start_state,
-        )
+    elsewhere = replace(
+        compared,
+        read=read,
+        tolerance=compared.tolerance + NOISE,
+        allowed=compared.allowed + NOISE,
+        ends=compared.ends + 2 * NOISE * (compared.ends > compared.tolerance) + NOISE,
+        start_state=start_state,
     )
-    return tuple(replace(problem, text=f"{problem.text} {LEFT_SO}") for problem in problems)
+    return tuple(replace(problem, text=f"{problem.text} {LEFT_SO}") for problem in _differences(elsewhere).problems)
 
 
 def _text_problems(compared: _FileCheck, text: ProgramBuffer, post: Post) -> Iterator[ProgramProblem]:

@@ -20,8 +20,7 @@ from ...model.part import Units
 from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH, DrawingOptions
 from .. import operation_notes
 from ..note_texts import unspelled
-from .notes_stock import StockBoxNote
-from .notes_words import Comments
+from .notes_words import Comments, StockBoxNote
 from .program import HeaderNote, KeepOutNote, OperationNote, PlungeRateNote, StockNote, ToolNote
 
 MARK, MARK_ON = b"hitofude:", b"hitofude+"

@@ -14,6 +14,7 @@ from .dialect import Dialect
 from .fast_lane import FastLane
 from .flow import MOST_KEPT, Flow
 from .foreign_codes import adapt, call_macro, is_leader, warn_of_numbers
+from .foreign_languages import foreign_language
 from .macro import call_or_return, is_macro, obey_macro
 from .moves import move
 from .notes import notes
@@ -124,6 +125,9 @@ class InterpreterRun:
             ProgramProblem(line, 0, letter.upper(), text, Severity.WARNING)
             for text, (letter, line) in control.warnings.items()
         ]
+        foreign = foreign_language(self._text.data) if self._problems else None
+        if foreign is not None:
+            warnings.append(foreign)
         noted = notes(self._text.data)
         motions = control.columns.motions(control.splines, control.known_from())
         # a block that fails has named its way, and not gone it

@@ -7,7 +7,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -194,11 +194,18 @@ def tools_of(heading: HeaderContent) -> list[Tool]:
     return [heading.job.tool(number) for number in dict.fromkeys(heading.program.moves.tool.tolist())]
 
 
-def operations_of(heading: HeaderContent) -> list[tuple[Operation, bool]]:
+class ListedOperation(NamedTuple):
+    """An operation that a header names, and whether it has moves there."""
+
+    operation: Operation
+    cuts: bool
+
+
+def operations_of(heading: HeaderContent) -> list[ListedOperation]:
     """Return enabled operations, and whether each has moves; in one of several files those that it holds."""
     used = set(np.unique(heading.program.moves.operation).tolist())
     shown = ((i, operation) for i, operation in enumerate(heading.job.operations) if operation.cut.enabled)
-    return [(operation, i in used) for i, operation in shown if i in used or heading.files == 1]
+    return [ListedOperation(operation, i in used) for i, operation in shown if i in used or heading.files == 1]
 
 
 def _length(value: float, units: Units) -> str:

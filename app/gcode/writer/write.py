@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,12 +117,21 @@ def write_moves(
     return tuple(files)
 
 
-def _by_file(moves: Moves, post: Post) -> Iterator[tuple[int, int, int, str]]:
-    """Yield number, first move, end and suffix of each file that the control needs."""
+class _FileSpan(NamedTuple):
+    """The moves of one file: its number from 1 on, first move, end, and what its name ends in."""
+
+    number: int
+    first: int
+    stop: int
+    suffix: str
+
+
+def _by_file(moves: Moves, post: Post) -> Iterator[_FileSpan]:
+    """Yield the moves of each file that the control needs."""
     tools = moves.tool
     starts = [0, *(np.flatnonzero(np.diff(tools)) + 1).tolist()] if post.file_per_tool else [0]
     for number, (first, stop) in enumerate(zip(starts, [*starts[1:], len(tools)], strict=True), start=1):
-        yield number, first, stop, f"_{number}_T{tools[first]}" if len(starts) > 1 else ""
+        yield _FileSpan(number, first, stop, f"_{number}_T{tools[first]}" if len(starts) > 1 else "")
 
 
 def write_files(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> tuple[NcFile, ...]:

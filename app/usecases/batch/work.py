@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import PurePosixPath
 
 import numpy as np
@@ -12,9 +12,9 @@ from ...core.memory import MemoryShortError, within
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.finding import Finding
 from ..examine import ExaminedProgram, ExamineOptions, examine
-from ..make import make
+from ..job.options import MakeOptions
 from ..make_files import other_files
-from ..options import MakeOptions
+from ..making.make import make
 from ..smoothing.report import findings as smooth_findings
 from ..smoothing.report import report_text
 from ..smoothing.result import SmoothOptions
@@ -82,8 +82,14 @@ def _made(task: BatchTask, options: MakeOptions, progress: Progress) -> BatchRes
         sum(report["length_mm"].values()),
         *_told(made.findings),
         part_picture(made.program),
+        _left(report["left"]),
     )
     return BatchResult(row, files)
+
+
+def _left(left: Mapping[str, float] | None) -> float | None:
+    """Return what is left by a report's part on that, mm2."""
+    return None if left is None else left["reachable_mm2"] + left["unreachable_mm2"]
 
 
 def _told(findings: Sequence[Finding]) -> tuple[tuple[str, ...], int]:
@@ -119,4 +125,4 @@ def _row_of(task: BatchTask, examined: ExaminedProgram, sentences: tuple[str, ..
 
 
 def _file_name(task: BatchTask) -> str:
-    return PurePosixPath(task.name).name
+    return task.file or PurePosixPath(task.name).name

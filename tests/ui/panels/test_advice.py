@@ -10,7 +10,7 @@ from app.formats.readers import read_drawing
 from app.model.contour_operation import ContourOperation
 from app.model.operation import PocketOperation, RestOperation
 from app.ui.panels.side_panel import SidePanel
-from app.ui.shell.advice_controller import AdviceController
+from app.ui.shell.drawing.advice_controller import AdviceController
 from tests.ui.conftest import WAIT_MS
 
 
