@@ -11,7 +11,7 @@ from app.model.contour_operation import ContourOperation
 from app.model.operation import PocketOperation, RestOperation
 from app.ui.framework.figures import clock
 from app.ui.panels.side_panel import SidePanel
-from app.ui.shell.advice_controller import AdviceController, clears, follows, with_tool_for
+from app.ui.shell.drawing.advice_controller import AdviceController, clears, follows, with_tool_for
 from app.usecases.making.make import export
 from tests.ui.conftest import WAIT_MS
 
