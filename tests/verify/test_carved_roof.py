@@ -86,7 +86,7 @@ def test_largest_discs_behind_walls_have_their_closed_forms(
 
 @pytest.mark.parametrize("seed", range(4))
 def test_the_best_motion_is_found_among_all(seed: int) -> None:
-    """Each disc against each motion at many places: no place leaves less than is told, where more is left than counts."""
+    """Each disc against each motion at many places: none leaves less than is told, where more is left than counts."""
     made = np.random.default_rng(seed)
     start = np.column_stack([made.uniform(0, 30, (60, 2)), made.uniform(-3, 0, 60)])
     path = ConePath(start, start + made.normal(0, 2, (60, 3)) * [1, 1, 0.5], 0.2, 0.6, 9.0)
