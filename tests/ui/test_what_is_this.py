@@ -10,15 +10,23 @@ from app.ui.shell.help.what_is_this import PLACES
 from app.ui.shell.start import build
 
 
-@pytest.fixture
-def wiring(qtbot):
+@pytest.fixture(scope="module")
+def explained(qapp):
+    """A window of their own: what explains itself once does so until the window ends."""
     window, made = build()
-    qtbot.addWidget(window)
     window.resize(1280, 800)
-    window.show()
     yield made
-    QWhatsThis.leaveWhatsThisMode()
     window.close()
+    window.deleteLater()
+
+
+@pytest.fixture
+def wiring(explained):
+    explained.window_.show()
+    yield explained
+    QWhatsThis.leaveWhatsThisMode()
+    explained.language.help.hide()
+    explained.window_.hide()
 
 
 def told(widget: QWidget | None) -> str:

@@ -4,7 +4,7 @@ job.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,7 @@ from ...panels.side_panel import SidePanel
 
 if TYPE_CHECKING:
     from ....toolpath.advice.advise import Advice
+    from ....usecases.batch.task import BatchRow
 
 LOOKING = "Looking at passages and corners…"
 
@@ -68,6 +69,32 @@ def with_tool_for(job: Job, tool: Tool, concerned: Callable[[Operation], bool]) 
     )
 
 
+def clears(operation: Operation) -> bool:
+    """Tell whether an operation takes the tool that clears."""
+    return operation.COARSE
+
+
+def follows(operation: Operation) -> bool:
+    """Tell whether an operation takes the tool that follows walls and does the rest."""
+    return not operation.COARSE and not operation.HOLES
+
+
+def trials_of(job: Job, tools: Sequence[Tool], contour: Tool, progress: Progress) -> dict[Tool, BatchRow]:
+    """Return what the program of a job is like with each of some tools in its pockets.
+
+    Args:
+        contour: for walls and rest, beside each.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    from ....usecases.batch.tool_trials import ToolTrial, try_tools
+
+    base = with_tool_for(job, contour, follows)
+    rows = try_tools([ToolTrial(tool.label, with_tool_for(base, tool, clears)) for tool in tools], progress)
+    return dict(zip(tools, rows, strict=True))
+
+
 class AdviceController(QObject):
     """Opens and closes the sheet and keeps it up to date while it is open."""
 
@@ -76,6 +103,7 @@ class AdviceController(QObject):
         self._panel, self._document = panel, workspace.document
         self.worker = Worker(self)
         self._for: object = None
+        self._contour: Tool | None = None
         sheet = self._panel.advice
         self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
@@ -84,10 +112,13 @@ class AdviceController(QObject):
             lambda _: self._panel.advice.show_advice(None, "Cancelled. Close the sheet and open it again.")
         )
         self._panel.advice_shown.connect(self._refresh)
-        sheet.for_pocket.connect(lambda tool: self._use(tool, lambda each: each.COARSE, "Tool for pockets"))
-        sheet.for_contour.connect(
-            lambda tool: self._use(tool, lambda each: not each.COARSE and not each.HOLES, "Tool for contours")
-        )
+        self.trials = Worker(self)
+        self.trials.done.connect(self._on_trials)
+        self.trials.failed.connect(lambda answer: workspace.notice.ask(answer.error or "", error=True))
+        workspace.activity.follow(self.trials)
+        sheet.trials_requested.connect(self._try)
+        sheet.for_pocket.connect(lambda tool: self._use(tool, clears, "Tool for pockets"))
+        sheet.for_contour.connect(lambda tool: self._use(tool, follows, "Tool for contours"))
         self._document.subscribe(self._on_change)
 
     def _on_change(self, change: DocumentChange) -> None:
@@ -105,7 +136,19 @@ class AdviceController(QObject):
     def _on_done(self, answer: JobOutcome) -> None:
         assert isinstance(answer.value, tuple)
         self._for, advice = answer.value
+        self._contour = advice.contour
         self._panel.advice.show_advice(advice, "")
+
+    def _try(self, tools: tuple[Tool, ...]) -> None:
+        job, contour = self._document.job, self._contour
+        if contour is not None and tools:
+            self.trials.start(lambda progress: (job.part, trials_of(job, tools, contour, progress)), 0)
+
+    def _on_trials(self, answer: JobOutcome) -> None:
+        assert isinstance(answer.value, tuple)
+        part, rows = answer.value
+        if part is self._for:  # what is shown is still of that drawing
+            self._panel.advice.show_trials(rows)
 
     def _on_failed(self, answer: JobOutcome) -> None:
         self._panel.advice.show_advice(None, answer.error or "")
