@@ -42,7 +42,7 @@ def open_filter() -> str:
     return f"Drawings, solids, scenes, pictures, tools and NC programs ({shown});;All files (*)"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Openers:
     """Who opens what is no drawing: an NC program, a picture, a scene, a solid, tools, a job for the drawing that is
     open.
