@@ -113,7 +113,7 @@ def _metal() -> bytes:
     """Return the metal of the sample of `better`, before and after."""
     name = "raster.ngc"
     done = better(name, resource("samples", name).read_bytes(), BetterOptions(cells=_FINE))
-    return stock_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed)
+    return stock_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed.area)
 
 
 def _apparatus() -> PlotPage:

@@ -334,6 +334,11 @@ class Operation:
         return None
 
     @property
+    def fastest_cut(self) -> float:
+        """Times the feed rate at which its tool goes at most, where less is engaged than at such an angle."""
+        return 1.0
+
+    @property
     def lift_between(self) -> float:
         """How high its tool goes between passes that keep to such an angle, over ground that is cut, mm."""
         return 0.0
@@ -439,6 +444,17 @@ class AdaptiveOperation(Operation):
         math.radians(60), *MOST_ENGAGED, low=math.radians(15), high=math.radians(90), option=True, short="Most engaged"
     )
     lift: float = parameter(0.2, *LIFT, high=100.0, option=True)
+    feed_up_to: float = parameter(
+        1.0,
+        "feed_up_to",
+        "Feed up to",
+        "of the feed rate, along arcs where so little is engaged that chips are no thicker than at the angle; 100 %: "
+        "never faster",
+        Unit.SHARE,
+        low=1.0,
+        high=3.0,
+        option=True,
+    )
 
     open_edges: bool = parameter(False, *OPEN_EDGES, option=True)
 
@@ -458,6 +474,11 @@ class AdaptiveOperation(Operation):
     def opens_edges(self) -> bool:
         """Whether its area goes on past the stock's edges, where walls lie on them."""
         return self.open_edges
+
+    @property
+    def fastest_cut(self) -> float:
+        """Times the feed rate at which the tool goes at most, where less is engaged than at the angle."""
+        return self.feed_up_to
 
     @property
     def lift_between(self) -> float:

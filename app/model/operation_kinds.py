@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from .chamfer_operation import ChamferOperation
@@ -15,12 +16,29 @@ from .hole_operations import (
     TapOperation,
     ThreadOperation,
 )
-from .operation import AdaptiveOperation, DrillOperation, Operation, PocketOperation, RestOperation
+from .operation import AdaptiveOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from .slot_operation import SlotOperation
 from .vcarve_operation import VcarveOperation
 
 OPERATION_KINDS: dict[str, type[Operation]] = {}
 """By the words of job files, reports and NC headers; `register` adds to it."""
+
+
+@dataclass(frozen=True)
+class OperationAlias:
+    """What jobs may also call a kind of operation.
+
+    Attributes:
+        kind: its word. key, value: of the parameter that makes it what the other word says.
+    """
+
+    kind: str
+    key: str
+    value: object
+
+
+ALIASES = {"engrave": OperationAlias(ContourOperation.WORD, "side", Side.ON)}
+"""By the other word."""
 
 
 def register(kind: type[Operation]) -> None:

@@ -144,7 +144,7 @@ def by_facets(written: WrittenScene, how: BetterOptions, progress: Progress = NO
     D): over a smooth surface through the places where facets meet, its cut within the tolerance of the facets' own.
 
     Raises:
-        InputError: several tools, another than a ball, passes that are not parallel, or a true edge among the facets.
+        InputError: several tools, passes that do not lie beside one another, or facets that tell of no smooth surface.
         HitofudeError: it cannot be computed. Cancelled: the job was asked to stop.
     """
     [file, *more] = written.files

@@ -40,6 +40,7 @@ def _through(px, py, nx, ny, x, y, most):
     """
     dx, dy = x - px, y - py
     ahead = dx * nx + dy * ny
+    # |p + r n - q| = r, solved for r
     return min((dx * dx + dy * dy) / (2.0 * ahead), most) if ahead > 0.0 else most
 
 
@@ -58,6 +59,7 @@ def largest_empty(rows, order, nodes, feet, normals, most, slack, found):
     hint, hx, hy = -1, 0.0, 0.0
     for k in range(len(feet)):
         px, py, nx, ny = feet[k, 0], feet[k, 1], normals[k, 0], normals[k, 1]
+        # any place of a wall gives a bound, the last disc's a good one to begin with
         radius, done = most, False
         if hint >= 0:
             radius = _through(px, py, nx, ny, hx, hy, most)
@@ -97,6 +99,7 @@ def _left_by(motions, m, x, y, radius):
     if size > 0.0:
         along, aside = ox * ux + oy * uy, abs(ox * uy - oy * ux)
         slope = min(max(growth / size, -1 + 1e-12), 1 - 1e-12)
+        # where the slope of sqrt(along^2 + aside^2) is that of the cone's width
         share = min(max((along + aside * slope / math.sqrt(1 - slope * slope)) / size, 0.0), 1.0)
     else:
         share = 1.0 if growth > 0.0 else 0.0
@@ -154,6 +157,7 @@ def least_left(motions, order, nodes, widest, centres, radius, enough, worst, le
                 one, other = 2 * k + 1, 2 * k + 2
                 by_one = r - widest[one] + box_distance(nodes, one, x, y)
                 by_other = r - widest[other] + box_distance(nodes, other, x, y)
+                # the one that may leave less comes on top and is looked at first: it closes the other one sooner
                 if by_one < by_other:
                     one, other, by_one, by_other = other, one, by_other, by_one
                 if by_one < best:

@@ -30,6 +30,7 @@ def _candidates(moves, m, walls, w, shares):
     size = max(math.hypot(wx, wy), 1e-300)
     rise = (moves[m, 2] - moves[m, 5]) * moves[m, 7]
     slope = min(max(rise / size, -_GENTLE), _GENTLE)
+    # as far ahead of the wall's foot as the width gains by the way: distance and width change alike there
     steep = slope / math.sqrt(1 - slope * slope)
     arc = walls[w, 7] != 0.0
     shares[0], shares[1] = 0.0, 1.0
@@ -45,6 +46,7 @@ def _candidates(moves, m, walls, w, shares):
     sx, sy = walls[w, 2] - walls[w, 0], walls[w, 3] - walls[w, 1]
     ox, oy = walls[w, 0] - moves[m, 0], walls[w, 1] - moves[m, 1]
     across = wx * sy - wy * sx
+    # the axis crosses the line through both ends of the wall there: no distance is left
     shares[7] = (ox * sy - oy * sx) / across if across != 0.0 else 0.0
     shares[8] = (moves[m, 8] - moves[m, 6] + moves[m, 2] * moves[m, 7]) / rise if rise != 0.0 else 0.0
 
@@ -95,6 +97,7 @@ def reaches(moves, walls, boxes, order, nodes, depth, places):
                 if most - _boxes_apart(x0, y0, x1, y1, boxes, w) < best:
                     continue
                 _candidates(moves, m, walls, w, shares)
+                # between two neighbouring candidates the reach is monotone, so one of them is where it is greatest
                 for i in range(len(shares)):
                     share = min(max(shares[i], 0.0), 1.0)
                     x = moves[m, 0] + (moves[m, 3] - moves[m, 0]) * share

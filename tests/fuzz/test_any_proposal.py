@@ -94,7 +94,8 @@ def faults(plate: Plate, report: dict[str, Any], heights: DenseHeights, shapes: 
     """Return what is wrong with what stands, or with what is said of it."""
     x, y = heights.points()
     counted = {finding["kind"] for finding in report["findings"] if finding["counts"]}
-    mill = min((shape.radius for shape in shapes.values() if not shape.fall), default=0.0)
+    clearing = {each["tool"] for each in report["proposal"]["operations"] if each["kind"] in ("pocket", "rest")}
+    mill = min((shapes[number].radius for number in clearing), default=0.0)
     found = []
 
     def fault(what: str, wrong: np.ndarray) -> None:

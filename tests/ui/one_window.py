@@ -14,11 +14,11 @@ from app.drafting.commands.command import DraftingSession
 from app.drafting.difference import DrawingDifference
 from app.drafting.document import Document
 from app.ui.framework.fade import FADE_MS
-from app.ui.framework.fields import ChoiceField
+from app.ui.framework.fields import ChoiceField, NumberField
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.reading_section import MODEL_SPACE
-from app.ui.shell.inlay_controller import InlayForm
+from app.ui.shell.drawing.inlay_controller import InlayForm
 from app.ui.shell.new_job import MATERIALS
 from app.ui.shell.start import build
 from app.ui.shell.window_controller import WindowController
@@ -82,6 +82,8 @@ class OneWindow:
         wiring = self._wiring
         if wiring is None or self._new is None:
             return
+        if wiring.window_.isHidden():  # a test closed it
+            wiring.window_.show()
         reset(wiring, self._view)
         self._put_back()
         self.left = left_in(wiring, self._new)
@@ -284,8 +286,11 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
     window, views = wiring.window_, wiring.window_.views
     cut, curves, reading = views.cut, window.curves_panel, window.drawing_page.reading
     form = window.panel.operation_form
+    tool = window.panel.tool_form
+    of_tool = [each for form in (tool, tool.hold) for each in vars(form).values() if isinstance(each, NumberField)]
     picture, scene, surfaces = window.import_panel, window.scene_side, views.surfaces
     return (
+        *(tool, tool.hold, tool.hold.picture, *of_tool),
         *(
             wiring.inlay_controller,
             views.cut.profile,
@@ -315,6 +320,8 @@ def _empty_what_is_hidden(wiring: WindowController) -> None:
     window = wiring.window_
     window.canvas.set_findings(())
     wiring.cut_controller.player.speeds = dict(USUAL)
+    for choices in (window.panel.tool_form.proposal.stock, window.panel.tool_form.hold.holder):
+        choices.set_choices([])
     window.drawing_page.reading.units.set_choices([])
     window.drawing_page.reading.to_zero.show_value(False)
     window.drawing_page.reading.layout_.set_choices([("", MODEL_SPACE)])
@@ -371,7 +378,13 @@ def _forget_habits(wiring: WindowController) -> None:
     runner._last, runner.cursor = CanvasTool.LINE, (0.0, 0.0)
     runner._desk.numbers.clear()
     wiring.language.lines._line = ""
-    wiring.recovery_controller._timer.stop()
+    recovery = wiring.recovery_controller
+    recovery._timer.stop()
+    recovery._worker.finish(20.0)
+    recovery._close()
+    recovery._file, recovery._told = None, False
+    recovery._left.clear()
+    recovery._taken.clear()
 
 
 def _forget_changes(wiring: WindowController) -> None:

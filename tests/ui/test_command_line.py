@@ -5,8 +5,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 
 from app.drafting.document import Document
-from app.ui.shell.command_completion import completions
-from app.ui.shell.command_line import GOES_ON, CommandLine
+from app.ui.shell.bars.command_completion import completions
+from app.ui.shell.bars.command_line import GOES_ON, CommandLine
 from app.ui.views.canvas.modes import CanvasTool
 
 RETURN, TAB = Qt.Key.Key_Return, Qt.Key.Key_Tab

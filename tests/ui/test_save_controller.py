@@ -13,7 +13,7 @@ from app.formats.project.project import Project, read_project
 from app.model.underlay import Underlay
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
-from app.ui.shell.nc_export_controller import ExportPlace
+from app.ui.shell.files.nc_export_controller import ExportPlace
 from tests.ui.conftest import WAIT_MS
 
 

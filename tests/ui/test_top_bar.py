@@ -8,8 +8,8 @@ from PySide6.QtWidgets import QMainWindow
 from app.ui.framework import style
 from app.ui.framework.arrow import arrow_picture
 from app.ui.framework.theme import LIGHT
-from app.ui.shell.actions import Actions
-from app.ui.shell.top_bar import TopBar
+from app.ui.shell.bars.actions import Actions
+from app.ui.shell.bars.top_bar import TopBar
 
 LEAST_PX = 860
 """Width of the smallest window."""

@@ -15,7 +15,7 @@ from app.core.settings import Language, load_settings
 from app.ui.framework.catalogue import Catalogue, catalogue, catalogue_files, set_language, tr
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
 from app.ui.framework.theme import TEXT_PX
-from app.ui.shell.actions import menus, plain
+from app.ui.shell.bars.actions import menus, plain
 from app.ui.shell.translation import code_of, translate_all
 from app.ui.views.canvas.prompt_tool import PromptTool
 from app.ui.views.canvas.tool_table import TOOLS

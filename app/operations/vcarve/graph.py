@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 from heapq import heapify, heappop
 
 import numpy as np
@@ -108,6 +109,10 @@ def trails(graph: BranchGraph) -> list[AxisBranch]:
     some = [(deep[node], node) for node, own in enumerate(left) if own]
     heapify(odd)
     heapify(some)
+
+    def leads_on(node: int, number: int) -> tuple[int, float]:
+        return len(left[graph.other(number, node)]), graph.branches[number].length
+
     found: list[AxisBranch] = []
     while some:
         while odd and not len(left[odd[0][1]]) % 2:
@@ -119,7 +124,7 @@ def trails(graph: BranchGraph) -> list[AxisBranch]:
         parts: list[Floats] = []
         while left[node]:
             # what leads on first, dead ends last
-            number = max(left[node], key=lambda each: (len(left[graph.other(each, node)]), graph.branches[each].length))
+            number = left[node][0] if len(left[node]) == 1 else max(left[node], key=partial(leads_on, node))
             branch, end = graph.from_node(number, node), graph.other(number, node)
             left[node].remove(number)
             left[end].remove(number)

@@ -29,12 +29,12 @@ _TYPED = re.compile(r"(?:one of|expected|expected are) $")
 
 @dataclass(frozen=True, slots=True)
 class _Pattern:
-    """An entry with holes: its longest piece, which is quickly looked for, what finds its texts, and the translation as
-    `str.format` fills it.
+    """An entry with holes: its longest piece, which is quickly looked for, the expression that finds its texts, and the
+    translation as `str.format` fills it.
     """
 
     longest: str
-    form: re.Pattern[str]
+    form: str
     other: str
 
 
@@ -109,9 +109,9 @@ class Catalogue:
             within_sentences: no hole stands for the end of one sentence and the beginning of the next.
         """
         for pattern in patterns:
-            match = pattern.form.fullmatch(words) if pattern.longest in words else None
+            match = _finder(pattern.form).fullmatch(words) if pattern.longest in words else None
             if match and not (within_sentences and any(map(_BETWEEN_SENTENCES.search, match.groups()))):
-                holes = range(1, pattern.form.groups + 1)
+                holes = range(1, match.re.groups + 1)
                 return pattern.other.format(*(self._filling(words[: match.start(k)], match[k]) for k in holes))
         return None
 
@@ -149,7 +149,13 @@ def _pattern(text: str, other: str) -> _Pattern:
     words = _HOLE.split(text)
     form = "".join((_NUMBER if word else _ANYTHING) if at % 2 else re.escape(word) for at, word in enumerate(words))
     form = _SIDE_BY_SIDE.sub(lambda found: found[0].replace(_ANYTHING, _PERHAPS), form)
-    return _Pattern(max(words[::2], key=len), re.compile(form, re.S), _HOLE.sub("{}", other))
+    return _Pattern(max(words[::2], key=len), form, _HOLE.sub("{}", other))
+
+
+@cache
+def _finder(form: str) -> re.Pattern[str]:
+    """Return an expression, compiled when a text may be one of its own: few of all ever are in a run."""
+    return re.compile(form, re.S)
 
 
 @cache

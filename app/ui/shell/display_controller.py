@@ -21,8 +21,8 @@ from ..framework.view import View, ViewPage
 from ..panels.lists import OperationTimes
 from ..views.canvas.modes import PathColourBy, PathLayers
 from ..views.canvas.painting.program_layer import ProgramLayer
+from .files.open_controller import size_of
 from .main_window import MainWindow
-from .open_controller import size_of
 from .view_pages import pages_of
 
 if TYPE_CHECKING:

@@ -25,13 +25,13 @@ from ..framework.view import View, views
 from ..views.canvas.view_transform import ViewTransform as CanvasView
 from ..views.nc.program_reader import is_program
 from ..views.surfaces.shown_scene import is_scene
-from . import open_controller as opening_files
 from .display_controller import DisplayController
+from .files import open_controller as opening_files
+from .files.nc_export_controller import ExportPlace, NcExportController, post_filters
+from .files.open_controller import OpenController, OpenedDrawing, UndecidedDrawing
+from .files.reread_controller import RereadController
+from .files.save_controller import SaveController
 from .main_window import MainWindow, opened_suffixes
-from .nc_export_controller import ExportPlace, NcExportController, post_filters
-from .open_controller import OpenController, OpenedDrawing, UndecidedDrawing
-from .reread_controller import RereadController
-from .save_controller import SaveController
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
 

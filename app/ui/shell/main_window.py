@@ -41,13 +41,13 @@ from ..views.stages.panel import StagesPanel
 from ..views.stages.text_film_panel import TextFilmPanel
 from ..views.surfaces.scene_document import SceneDocument
 from ..views.surfaces.scene_tabs import SceneTabs
-from .actions import Actions
-from .badge import FindingsList
-from .command_line import CommandLine
-from .question_card import QuestionCard
-from .status_bar import StatusBar
-from .tool_strip import ToolStrip
-from .top_bar import TopBar
+from .bars.actions import Actions
+from .bars.badge import FindingsList
+from .bars.command_line import CommandLine
+from .bars.question_card import QuestionCard
+from .bars.status_bar import StatusBar
+from .bars.tool_strip import ToolStrip
+from .bars.top_bar import TopBar
 from .view_stack import ViewStack
 from .window_geometry import remember_geometry
 

@@ -16,8 +16,8 @@ from ...formats.project.project import Project
 from ...formats.project.recovery import EditedFile, RecoveredWork, RecoveryFile, recoveries
 from ..framework.worker import JobOutcome, Worker
 from ..framework.workspace import Workspace
+from .bars.question_card import QuestionCard
 from .file_controller import FileController
-from .question_card import QuestionCard
 
 WAIT_S = 8.0
 """After the first change that is in no file, s; writing takes a moment more, and 20 s are the promise."""

@@ -7,8 +7,8 @@ from PySide6.QtCore import QObject
 from ..framework.section import theme_children
 from ..framework.view import View
 from .display_controller import DisplayController
+from .drawing.shape_language_controller import ShapeLanguageController
 from .main_window import MainWindow
-from .shape_language_controller import ShapeLanguageController
 
 PAGE = "Text"
 

@@ -33,49 +33,49 @@ from ..views.stages.import_controller import ImportController
 from ..views.stages.text_film_controller import TextFilmController
 from ..views.surfaces.controller import SceneController
 from ..views.surfaces.export_controller import SceneExportController
-from .actions import Actions
-from .advice_controller import AdviceController
 from .announcing import Announcing
-from .cleanup_controller import CleanUpController
-from .command_line_controller import CommandLineController
-from .command_palette import CommandPalette
-from .context_menu import ContextMenu
+from .bars.actions import Actions
+from .bars.command_line_controller import CommandLineController
+from .bars.command_palette import CommandPalette
+from .bars.shortcuts import Shortcuts
+from .bars.snap_controller import SnapController
+from .bars.unit_choice import UnitChoice
 from .display_controller import DisplayController
-from .drawing_export_controller import DrawingExportController
-from .drawing_page_controller import PAGE as DRAWING_PAGE
-from .drawing_page_controller import DrawingPageController
-from .engagement_controller import EngagementController
+from .drawing.advice_controller import AdviceController
+from .drawing.cleanup_controller import CleanUpController
+from .drawing.context_menu import ContextMenu
+from .drawing.drawing_page_controller import PAGE as DRAWING_PAGE
+from .drawing.drawing_page_controller import DrawingPageController
+from .drawing.engagement_controller import EngagementController
+from .drawing.inlay_controller import InlayController
+from .drawing.owned_curves_controller import OwnedCurvesController
+from .drawing.proposal_controller import ProposalController
+from .drawing.shape_language_controller import ShapeLanguageController
+from .drawing.tab_controller import TabController
+from .drawing.template_controller import TemplateController
 from .file_controller import FileController, Openers
+from .files.drawing_export_controller import DrawingExportController
+from .files.own_film_files import OwnFilmFiles
+from .files.sheet_export_controller import SheetExportController
+from .files.tool_exchange import ToolExchange
+from .files.underlay_controller import UnderlayController
 from .focus_keeping import FocusKeeper
-from .help import show_about
-from .help_window import HelpWindow
-from .inlay_controller import InlayController
-from .keys_window import KeysWindow
+from .help.about import show_about
+from .help.help_window import HelpWindow
+from .help.keys_window import KeysWindow
+from .help.tour import Landmarks, Tour
+from .help.what_is_this import WhatIsThis
 from .main_window import MainWindow
 from .memory_choice import MemoryChoice
 from .new_job import NewPart, new_job
-from .own_film_files import OwnFilmFiles
-from .owned_curves_controller import OwnedCurvesController
 from .program_coordinator import ProgramCoordinator
-from .proposal_controller import ProposalController
 from .recovery_controller import RecoveryController
 from .scene_coordinator import SceneCoordinator
-from .shape_language_controller import ShapeLanguageController
-from .sheet_export_controller import SheetExportController
-from .shortcuts import Shortcuts
-from .snap_controller import SnapController
 from .stages_coordinator import StagesCoordinator
 from .start_page.controller import StartController
-from .tab_controller import TabController
-from .template_controller import TemplateController
 from .text_page_coordinator import TextPageCoordinator
-from .tool_exchange import ToolExchange
-from .tour import Landmarks, Tour
 from .translation import TranslationController
-from .underlay_controller import UnderlayController
-from .unit_choice import UnitChoice
 from .view_stack import ViewStack
-from .what_is_this import WhatIsThis
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
 JOB_PAGE = "Job"

@@ -17,7 +17,7 @@ from ...verify.parts import SolidPart, beyond
 from ...verify.wall_probe import unseen_walls
 from .context import CutContext
 from .setup import CELLS, CutOptions, CutSetup
-from .stages import CutOutcome, cut_all, judged
+from .stages import CutOutcome, bounded_cut, cut_all, judged
 
 __all__ = ["CELLS", "CutOptions", "CutProgram", "CutSetup", "Engine", "cut"]
 
@@ -73,11 +73,11 @@ def cut(
     if exact is None:  # else the caller has announced all of its job
         announce(context.effort(), progress)
     done = cut_all(context, progress.part(0.0, 0.4))
-    known = None
-    if exact is not None:
+    bounds, known = bounded_cut(context, progress.part(0.4, 0.6)), None
+    if exact is not None:  # asked last: who tells it may be at work beside until then
         known = exact()
         context = replace(context, setup=setup.measured(known))
-    judgement = judged(context, done.cut, known, progress.part(0.4, 1.0)) if setup.part is not None else None
+    judgement = judged(context, done.cut, bounds, known, progress.part(0.6, 1.0)) if setup.part is not None else None
     return CutProgram(
         context.setup,
         options,

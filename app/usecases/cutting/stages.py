@@ -14,7 +14,7 @@ from ...simulation.field.workpiece import Heights, Workpiece
 from ...simulation.sweeps.course import TrimOptions
 from ...simulation.sweeps.trim import CutResult, trim
 from ...verify.accidents import ProgramStage, accidents
-from ...verify.certify import certify
+from ...verify.certify import HeightBounds, bounded, certify
 from ...verify.exact import ExactDeviations, exact_of
 from ...verify.fine_stock import FineStock
 from ...verify.holder_contacts import HolderReport
@@ -125,10 +125,24 @@ def _joined(first: CutResult, then: CutResult, motions: int) -> CutResult:
     )
 
 
-def judged(context: CutContext, cut: CutResult, exact: ExactDeviations | None, progress: Progress) -> Judgement:
+def bounded_cut(context: CutContext, progress: Progress) -> HeightBounds | None:
+    """Return what bounds the heights between the cells; None where no part is judged."""
+    if context.setup.part is None or not context.options.judge:
+        return None
+    return bounded(context.workpiece, context.cutters, context.trimmed, progress)
+
+
+def judged(
+    context: CutContext,
+    cut: CutResult,
+    bounds: HeightBounds | None,
+    exact: ExactDeviations | None,
+    progress: Progress,
+) -> Judgement:
     """Compare a cut with the part.
 
     Args:
+        bounds: of what is left, see `bounded_cut`; None = nothing is certified.
         exact: what closed forms say against a drawing; None = they are asked where there is one.
     """
     part, judging = context.setup.part, context.options.judge
@@ -139,11 +153,7 @@ def judged(context: CutContext, cut: CutResult, exact: ExactDeviations | None, p
     target = part_target(part, cut, context.setup.stock, cutters, progress.part(0.0, 0.3))
     if exact is None and judging and isinstance(part, FlatPart):
         exact = exact_of(part, courses, context.box(), progress.part(0.3, 0.7))
-    certificate = (
-        certify(context.workpiece, target, context.cutters, context.trimmed, progress.part(0.7, 0.95))
-        if judging
-        else None
-    )
+    certificate = None if bounds is None else certify(context.workpiece, target, bounds, progress.part(0.7, 0.95))
     lowest = context.lowest if isinstance(part, SolidPart) and judging else None
     probe = (
         WallProbe(part, context.lowest, context.workpiece) if isinstance(part, SolidPart) and context.closely else None

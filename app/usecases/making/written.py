@@ -42,7 +42,7 @@ class WrittenProgram:
     Attributes:
         post: in whose words.
         files: in the order of cutting; none for a program without moves.
-        checks: of each file; none of them found a difference.
+        checks: of each file; none of them found a difference, and their motions are anchored.
         machine: on which the files are timed.
     """
 
@@ -86,10 +86,10 @@ class WrittenProgram:
         """Seconds for changing tools between files, and for the first one, where no file says so."""
         return len(self.files) * self.machine.tool_change if self.post.file_per_tool else 0.0
 
-    @cached_property
+    @property
     def programs(self) -> tuple[NcProgram, ...]:
         """Of each file, as read back, its motions anchored."""
-        return tuple(replace(each.program, motions=anchored(each.program.motions)) for each in self.checks)
+        return tuple(each.program for each in self.checks)
 
     def box(self, cuts: bool) -> Extent:
         """Return the box round all motions, or round those that cut, mm, program coordinates."""
@@ -188,8 +188,9 @@ def write_and_check(
     for k, file in enumerate(files):
         share = progress.part(0.6 + 0.4 * k / len(files), 0.6 + 0.4 * (k + 1) / len(files))
         share.step(0.0, "Reading the program back")
-        checks.append(check(file.nc.text.encode(), file, CheckReference(program, job, post), share))
-        checks[-1].require(f"{post.title} program{_in_file(file)}")
+        found = check(file.nc.text.encode(), file, CheckReference(program, job, post), share)
+        found.require(f"{post.title} program{_in_file(file)}")
+        checks.append(replace(found, program=replace(found.program, motions=anchored(found.program.motions))))
     return WrittenProgram(post, files, tuple(checks), machine)
 
 

@@ -1,5 +1,6 @@
 """The tool library in the side panel: search, feeds for a material, into the job undoably; files in and out."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import groupby
 
@@ -19,23 +20,37 @@ from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.tool_kinds import icon_of, listed_kinds, use_of
-from app.ui.shell.tool_exchange import IN, ToolExchange
+from app.ui.shell.files.tool_exchange import IN, ToolExchange
 from tests.formats.foreign_tools import fusion_archive, fusion_tool
 
 
-@pytest.fixture
-def document() -> Document:
-    return Document(Job(Part()))
-
-
-@pytest.fixture
-def panel(qtbot, document):
+@pytest.fixture(scope="module")
+def shared(qapp) -> Iterator[tuple[Document, SidePanel]]:
+    """One panel for all tests: making its 400 widgets takes longer than most of what is asked of it."""
+    document = Document(Job(Part()))
     made = SidePanel(document)
-    qtbot.addWidget(made)
+    yield document, made
+    made.deleteLater()
+
+
+@pytest.fixture
+def document(shared) -> Document:
+    document, _ = shared
+    document.load(Job(Part()))
+    return document
+
+
+@pytest.fixture
+def panel(shared, document) -> Iterator[SidePanel]:
+    """The panel with its library, as it is opened the first time."""
+    _, made = shared
+    made.choose(Subject(SubjectKind.OPERATION, 0))
+    made.library.search.clear()
     made.resize(328, 620)
     made.show()
     made.tools.library_button.click()
-    return made
+    yield made
+    made.hide()
 
 
 def search(qtbot, panel, text: str) -> None:
