@@ -8,9 +8,9 @@ from pathlib import Path
 from ..gcode.interpreter.dialect import Dialect
 from ..gcode.posts.posts import load_post, post_names
 from ..usecases.better.result import BetterOptions
+from ..usecases.cutting.ready_setup import SetupRequest
+from ..usecases.cutting.setup_tools import ToolSource
 from ..usecases.examine import CONTROLS
-from ..usecases.setup import SetupRequest
-from ..usecases.setup_tools import ToolSource
 from ..usecases.smoothing.result import OutputForm
 from .command import OptionParser
 from .cut_options import stock_given, tool_given

@@ -15,13 +15,13 @@ from .better.report import findings as better_findings
 from .better.report import lines as better_lines
 from .better.report import report as better_report
 from .better.result import BetterOptions, BetterProgram
-from .surface import ComputedScene, compute
-from .surface_loop import closed_loop
-from .surface_nc import WrittenScene, write_scene_nc
-from .surface_plot import PlotScene, plot_surface
-from .surface_points import scene_points_csv
-from .surface_report import SurfaceReport, surface_report
-from .surface_smooth import CurvesOverSurfaces, SmoothedScene, smooth_scene, standing_off
+from .scene.compute import ComputedScene, compute
+from .scene.plot import PlotScene, plot_surface
+from .scene.points import scene_points_csv
+from .scene_program.loop import closed_loop
+from .scene_program.nc import WrittenScene, write_scene_nc
+from .scene_program.report import SurfaceReport, surface_report
+from .scene_program.smooth import CurvesOverSurfaces, SmoothedScene, smooth_scene, standing_off
 
 
 @dataclass(frozen=True)

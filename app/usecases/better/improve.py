@@ -32,14 +32,14 @@ from ...model.tool_kind import ToolKind
 from ...simulation.cutter import cutter_of
 from ...simulation.sweeps.probe import PathProbe
 from ...verify.course import course_of
-from ..cut import CutOptions, CutProgram, cut
+from ..cutting.cut import CutOptions, CutProgram, cut
+from ..cutting.ready_setup import ReadySetup, SetupRequest, setup_of
 from ..examine import ExaminedProgram, ExamineOptions, examine
-from ..setup import ReadySetup, SetupRequest, setup_of
+from ..scene.compute import compute
+from ..scene_program.nc import WrittenScene, write_scene_nc
 from ..smoothing.result import SmoothedProgram, SmoothOptions
 from ..smoothing.smooth import smooth
 from ..smoothing.source import usual_post
-from ..surface import compute
-from ..surface_nc import WrittenScene, write_scene_nc
 from ..tolerance_budget import BudgetShare, Evidence, ToleranceBudget
 from .area import PassArea
 from .comparison import compared

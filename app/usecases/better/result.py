@@ -9,10 +9,10 @@ from ...core.errors import InputError
 from ...gcode.interpreter.dialect import Dialect
 from ...model.motion import Floats
 from ...model.scene import Scene
-from ..cut import CELLS, CutProgram
-from ..setup import ReadySetup
+from ..cutting.cut import CELLS, CutProgram
+from ..cutting.ready_setup import ReadySetup
+from ..scene_program.nc import WrittenScene
 from ..smoothing.result import OutputForm, SmoothedProgram
-from ..surface_nc import WrittenScene
 from ..tolerance_budget import ToleranceBudget
 from .area import PassArea
 from .comparison import CutComparison
