@@ -13,9 +13,9 @@ from ...fitting.point_curves.correction import Correction, CorrectionCurve, Corr
 from ...fitting.point_curves.effective_method import EffectiveMethod
 from ...fitting.point_curves.effective_points import EffectiveOptions, PointState, effective_points
 from ...model.motion import Floats
+from ...usecases.scene_program.smooth import chord_parameters
 from ...usecases.smoothing.result import SmoothedProgram, SmoothOptions
 from ...usecases.smoothing.smooth import smooth
-from ...usecases.surface_smooth import chord_parameters
 from .measures import distances_to_polyline, feet_on_polyline
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
 from .step_drawing import AMBER, BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, GREEN, LINE, PURPLE, RED, StepDrawing
