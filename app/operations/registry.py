@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
 
 from ..core.progress import Progress
 from ..model.finding import Finding
@@ -55,9 +57,13 @@ def register(kind: type[Operation], way: OperationMethod) -> None:
 
 
 def method_of(operation: Operation) -> OperationMethod:
-    """Return how an operation is carried out.
+    """Return how an operation is carried out. What comes with the program is imported when the first of its kind is
+    asked for: the folder that its word names.
 
     Raises:
         KeyError: nobody has registered that.
     """
-    return _WAYS[type(operation)]
+    kind = type(operation)
+    if kind not in _WAYS and find_spec(f".{kind.WORD}", __package__):
+        import_module(f".{kind.WORD}", __package__)
+    return _WAYS[kind]

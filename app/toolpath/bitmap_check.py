@@ -9,12 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import OffsetLevel
 from ..model.finding import Finding, FindingKind
-from ..raster.codes import Codes, PixelCode, area_mm2
+from ..raster.codes import PixelCode, area_mm2
 from ..raster.fill import Observer, fill
 from ..raster.frame import BitmapFrame
 
@@ -65,20 +64,8 @@ def check_on_bitmap(field: DistanceField, level: OffsetLevel, observer: Observer
     centres = np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)
     far = (field.nearest(centres, level.distance + frame.pitch)[0] > level.distance).reshape(shrunk.plane.shape)
     differs = ((part.plane == PixelCode.INSIDE) & far) != (shrunk.plane == PixelCode.INSIDE)
-    wrong = np.argwhere(differs & ~_near_contours(part) & ~_near_contours(shrunk))
+    wrong = np.argwhere(differs & ~part.near_contour() & ~shrunk.near_contour())
     place = (float(x[wrong[0][1]]), float(y[wrong[0][0]])) if len(wrong) else (0.0, 0.0)
     return BitmapCheck(
         area_mm2(shrunk).estimate, sum(ring.area for ring in level.rings), len(wrong), place, frame.pitch
     )
-
-
-def _near_contours(codes: Codes) -> NDArray[np.bool_]:
-    """Return the contour pixels and their eight neighbours; here by shifts, since a library for one picture takes
-    longer to load.
-    """
-    near: NDArray[np.bool_] = (codes.plane != PixelCode.EMPTY) & (codes.plane != PixelCode.INSIDE)
-    for sideways in (near, near.T):
-        contour = sideways.copy()
-        sideways[1:] |= contour[:-1]
-        sideways[:-1] |= contour[1:]
-    return near

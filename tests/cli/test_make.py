@@ -159,6 +159,27 @@ def test_make_never_imports_qt(out: Path) -> None:
     assert done.stdout.strip() == "[]"
 
 
+def test_make_imports_nothing_that_a_drawing_of_pockets_does_not_need(out: Path) -> None:
+    """What takes long: pictures, masked arrays, patterns of comments and of hatches, kinds of operation."""
+    unused = [
+        *("cv2", "scipy", "trimesh", "pyparsing", "numpy.ma.core"),
+        *("app.gcode.interpreter.notes_tool", "app.gcode.interpreter.notes_stock"),
+        *("app.operations.adaptive", "app.operations.vcarve", "app.operations.thread"),
+    ]
+    code = (
+        "import sys; from app.cli.main import main; assert main(sys.argv[1:]) == 0; "
+        f"print({set(unused)} & sys.modules.keys(), hasattr(sys.modules['ezdxf.tools.pattern'], '__file__'))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, "make", str(FIG2), "-o", str(out), "--quiet"],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=True,
+    )
+    assert done.stdout.strip() == "set() False"
+
+
 def test_help_and_version_need_no_heavy_library() -> None:
     heavy = {"numpy", "numba", "ezdxf", "shapely", "cv2", "PySide6"}
     code = (

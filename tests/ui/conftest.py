@@ -7,6 +7,7 @@ from PySide6.QtCore import QCoreApplication, QEvent
 
 from app.core.settings import Settings
 from app.drafting.document import Document
+from app.ui.framework import computation
 from app.ui.framework.activity import Activity
 from app.ui.framework.computation import Computation, ComputationState
 from app.ui.framework.log import Log
@@ -39,8 +40,8 @@ def workspace(qtbot):
     for widget in (log, notice):
         qtbot.addWidget(widget)
     activity.follow(worker)
-    computation = Computation(document, worker, lambda made: None)
-    yield Workspace(document, computation, activity, Preferences(Settings()), Log(document, log), notice)
+    computing = Computation(document, worker, lambda made: None)
+    yield Workspace(document, computing, activity, Preferences(Settings()), Log(document, log), notice)
     activity.cancel()
     activity.ended.emit()
 
@@ -67,9 +68,40 @@ def wiring(qtbot, one_window):
     one_window.take_back()
 
 
+class MadeOnce:
+    """Programs that were made before, by the jobs that they were made of; nobody changes them."""
+
+    def __init__(self) -> None:
+        self._make, self._kept = computation._make, list[tuple[object, object]]()
+
+    def __call__(self, job, pixels, drawing_findings, progress):
+        """Return the program of a job and what is proven of it, as the window has it made."""
+        asked = (job, pixels, drawing_findings)
+        for known, made in self._kept:
+            if known == asked:
+                progress.step(1.0, "Done")
+                return made
+        made = self._make(job, pixels, drawing_findings, progress)
+        self._kept.append((asked, made))
+        return made
+
+
+@pytest.fixture(scope="session")
+def made_once():
+    return MadeOnce()
+
+
 @pytest.fixture
-def computed(qtbot, wiring):
-    """The sample part, opened and computed."""
-    wiring.files.open_sample()
-    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
+def opened_sample(qtbot, wiring, made_once, monkeypatch):
+    """The sample part, opened and computed, once a run."""
+    with monkeypatch.context() as meanwhile:
+        meanwhile.setattr(computation, "_make", made_once)
+        wiring.files.open_sample()
+        qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
     return wiring
+
+
+@pytest.fixture
+def computed(opened_sample):
+    """The sample part, opened and computed."""
+    return opened_sample

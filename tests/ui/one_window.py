@@ -4,9 +4,9 @@ not.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication, QEvent
+from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QApplication, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.core.settings import Settings, ThemeChoice
@@ -14,23 +14,30 @@ from app.drafting.commands.command import DraftingSession
 from app.drafting.difference import DrawingDifference
 from app.drafting.document import Document
 from app.ui.framework.fade import FADE_MS
-from app.ui.framework.fields import ChoiceField
+from app.ui.framework.fields import ChoiceField, NumberField
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.reading_section import MODEL_SPACE
+from app.ui.shell.drawing.inlay_controller import InlayForm
 from app.ui.shell.new_job import MATERIALS
 from app.ui.shell.start import build
 from app.ui.shell.window_controller import WindowController
 from app.ui.views.canvas.modes import CanvasTool, PathColourBy
 from app.ui.views.canvas.view_transform import ViewTransform as CanvasView
 from app.ui.views.cut.cell_colours import CutColourBy
+from app.ui.views.cut.cut_player import USUAL
 from app.ui.views.nc.motion_shapes import ViewSide
 from app.ui.views.nc.painting.motion_layer import MotionColourBy
 from app.ui.views.nc.program_text import program_text
+from app.ui.views.surfaces.panel import THE_SCENE
+from app.ui.views.surfaces.scene_computation import SceneState
+from app.ui.views.surfaces.scene_tabs import SCENE
+from app.ui.views.surfaces.view import ViewDirection
 from app.usecases.smoothing.result import SmoothOptions
 from tests.ui.traces import fixed_values, left_in, traces
 
 SIZE = (1280, 800)
+CHILDREN = Qt.FindChildOption.FindDirectChildrenOnly
 _COLOURS = [(colour, colour.value) for colour in CutColourBy]
 
 
@@ -75,6 +82,8 @@ class OneWindow:
         wiring = self._wiring
         if wiring is None or self._new is None:
             return
+        if wiring.window_.isHidden():  # a test closed it
+            wiring.window_.show()
         reset(wiring, self._view)
         self._put_back()
         self.left = left_in(wiring, self._new)
@@ -146,6 +155,8 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.canvas.cancel()
     window.document.load(empty.job)
     wiring.computation.forget()
+    wiring.computation.pixels = None
+    window.may_close = True
     wiring.nc.stop_comparing()
     window.views.nc.other.show_text("", program_text(b""))
     if wiring.nc.foreign:
@@ -160,7 +171,7 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     _forget_text(wiring)
     window.canvas.set_tool(CanvasTool.SELECT)
     window.actions_["tool_select"].setChecked(True)
-    for name, on in (("snap", True), ("ortho", False), ("grid", False), ("log", True)):
+    for name, on in (("snap", True), ("ortho", False), ("grid", False), ("log", True), ("backups", True)):
         window.actions_[name].setChecked(on)
     window.findings_list.hide()
     if window.preferences.settings.theme is not ThemeChoice.SYSTEM:
@@ -174,6 +185,7 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.canvas.set_colour_by(PathColourBy.TOOL)
     wiring.display_controller.show_view(View.DRAW)
     _forget_start(wiring)
+    _forget_scene(wiring)
     _forget_session(wiring)
     _close_what_stands_over(wiring)
     window.side.show_page("Drawing")  # it is filled while it is seen
@@ -222,6 +234,14 @@ def _close_what_stands_over(wiring: WindowController) -> None:
     wiring.tour.number = 0
     wiring.language.help.hide()
     wiring.language.help._laid_out.clear()
+    wiring.palette.hide()
+    wiring.palette._entries.clear()
+    wiring.palette.edit.clear()
+    wiring.palette.list.clear()
+    window = wiring.window_
+    for made in (*window.findChildren(InlayForm), *window.canvas.findChildren(QMenu, options=CHILDREN)):
+        made.setParent(None)
+        made.deleteLater()
 
 
 def _forget_start(wiring: WindowController) -> None:
@@ -237,12 +257,50 @@ def _forget_start(wiring: WindowController) -> None:
         field.show_value(value)
 
 
+def _forget_scene(wiring: WindowController) -> None:
+    """Take the scene away, with what its panel and its text show."""
+    work, side, view = wiring.scenes.work, wiring.window_.scene_side, wiring.window_.views.surfaces
+    work.cancel()
+    work.reading.worker.finish(20.0)
+    if work.document.open:
+        work.document.load("", None)
+        work.document.open = False
+        work.scene = work.shown = work.proven = None
+        view.colours.setCurrentIndex(0)
+        for switch in view.switches.values():
+            switch.setChecked(True)
+        view.show_nothing()
+        view.set_look(ViewDirection.SPACE)
+        side.show_page(SCENE)
+        side.points.show_points(())
+        side.panel._rows = {THE_SCENE: side.panel._rows[THE_SCENE]}
+        for section in (side.panel.surfaces, side.panel.passes, side.panel.tools):
+            section.fill((), side.panel._theme)
+        side.panel.form.show_asks("", (), False)
+        work._stand(SceneState.NONE)
+    work._resting.stop()
+
+
 def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
     """Return what nobody sees in a new window, and what is filled with what is shown before anybody does."""
     window, views = wiring.window_, wiring.window_.views
     cut, curves, reading = views.cut, window.curves_panel, window.drawing_page.reading
     form = window.panel.operation_form
+    tool = window.panel.tool_form
+    of_tool = [each for form in (tool, tool.hold) for each in vars(form).values() if isinstance(each, NumberField)]
+    picture, scene, surfaces = window.import_panel, window.scene_side, views.surfaces
     return (
+        *(tool, tool.hold, tool.hold.picture, *of_tool),
+        *(
+            wiring.inlay_controller,
+            views.cut.profile,
+            wiring.import_controller,
+            picture,
+            picture.despeckle,
+            picture.dpi,
+            picture.apart,
+        ),
+        *(wiring.scenes, wiring.scenes.work, scene.panel, scene.text, scene.text.editor, surfaces, surfaces.canvas),
         *(views.nc.path, views.curves.path),
         *(cut, cut.model, cut.render_scheduler, cut.playback, cut.overlay, cut.legend.key, window.cut_panel.histogram),
         *(reading.per_inch, reading.only, reading.layers, reading.types),
@@ -260,6 +318,10 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
 def _empty_what_is_hidden(wiring: WindowController) -> None:
     """Take away what forms and plots that are not seen any more were filled with."""
     window = wiring.window_
+    window.canvas.set_findings(())
+    wiring.cut_controller.player.speeds = dict(USUAL)
+    for choices in (window.panel.tool_form.proposal.stock, window.panel.tool_form.hold.holder):
+        choices.set_choices([])
     window.drawing_page.reading.units.set_choices([])
     window.drawing_page.reading.to_zero.show_value(False)
     window.drawing_page.reading.layout_.set_choices([("", MODEL_SPACE)])
@@ -271,6 +333,9 @@ def _empty_what_is_hidden(wiring: WindowController) -> None:
     window.views.curves.comb.setChecked(False)
     window.curves_panel.figures.clear()
     window.views.curves.deviation._cursor = None
+    for field in wiring.window_.panel.operation_form.fields.values():
+        if isinstance(field.field, ChoiceField):
+            _choose_nothing(field.field)
     for holder in (window.cut_panel.histogram, window.views.curves.deviation):
         if holder._plot is not None:
             holder._plot.setParent(None)
@@ -278,6 +343,8 @@ def _empty_what_is_hidden(wiring: WindowController) -> None:
             holder._plot = None
     window.findings_list._clear()
     window.findings_list._layers = frozenset()
+    for field in (window.import_panel.see, window.import_panel.ink, window.import_panel.measure):
+        _choose_nothing(field)
     card = window.card
     card.hide()
     card._clear()
@@ -311,7 +378,13 @@ def _forget_habits(wiring: WindowController) -> None:
     runner._last, runner.cursor = CanvasTool.LINE, (0.0, 0.0)
     runner._desk.numbers.clear()
     wiring.language.lines._line = ""
-    wiring.recovery_controller._timer.stop()
+    recovery = wiring.recovery_controller
+    recovery._timer.stop()
+    recovery._worker.finish(20.0)
+    recovery._close()
+    recovery._file, recovery._told = None, False
+    recovery._left.clear()
+    recovery._taken.clear()
 
 
 def _forget_changes(wiring: WindowController) -> None:

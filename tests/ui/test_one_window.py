@@ -14,7 +14,7 @@ from tests.ui.one_window import OneWindow
 from tests.ui.traces import differences, traces
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def own(qapp):
     made = OneWindow()
     yield made
@@ -29,12 +29,12 @@ def draw(qtbot, wiring: WindowController) -> None:
 
 
 def test_after_drawing_and_typing_the_window_is_as_new(qtbot, own: OneWindow) -> None:
-    first = own.lend(qtbot)
+    first, made = own.lend(qtbot), own.made
     draw(qtbot, first)
     own.take_back()
     assert "\n".join(own.left) == ""
     again = own.lend(qtbot)
-    assert again is first and own.made == 1
+    assert again is first and own.made == made
     assert not again.document.part.entities and not again.document.undo_name
     assert again.log.lines == []
 
@@ -57,11 +57,13 @@ def disable_an_action(wiring: WindowController) -> None:
 
 @pytest.mark.parametrize("leave", [hide_the_menus, remember_something, change_a_label, disable_an_action])
 def test_what_reset_does_not_know_of_is_seen_and_ends_the_window(qtbot, own: OneWindow, leave) -> None:
-    first = own.lend(qtbot)
+    first, made = own.lend(qtbot), own.made
     leave(first)
     own.take_back()
     assert own.left
-    assert own.lend(qtbot) is not first and own.made == 2
+    assert own.lend(qtbot) is not first and own.made == made + 1
+    own.take_back()
+    assert own.left == []
 
 
 def test_traces_see_values_of_every_kind(qtbot, own: OneWindow) -> None:
@@ -71,6 +73,7 @@ def test_traces_see_values_of_every_kind(qtbot, own: OneWindow) -> None:
     wiring.document.run("circle 0,0 5")
     told = differences(before, traces(wiring))
     assert any("radius" in line and "5.0" in line for line in told)
+    own.take_back()
 
 
 @pytest.mark.parametrize(

@@ -28,17 +28,36 @@ from tests.ui.fields_typed import enter
 SCROLL_BAR_PX = 8
 
 
-@pytest.fixture
-def document() -> Document:
-    return Document(Job(Part()))
+FIRST = Subject(SubjectKind.OPERATION, 0)
 
 
-@pytest.fixture
-def panel(qtbot, document):
+@pytest.fixture(scope="module")
+def shared(qapp) -> Iterator[tuple[Document, SidePanel]]:
+    """One panel for all tests: making its 400 widgets takes longer than most of what is asked of it."""
+    document = Document(Job(Part()))
     made = SidePanel(document)
-    qtbot.addWidget(made)
+    yield document, made
+    made.deleteLater()
+
+
+@pytest.fixture
+def document(shared) -> Document:
+    document, _ = shared
+    document.load(Job(Part()))
+    return document
+
+
+@pytest.fixture
+def panel(shared, document) -> Iterator[SidePanel]:
+    """The panel as it is when the window opens."""
+    _, made = shared
+    made.resize(made.sizeHint())
+    made.choose(FIRST)
+    for group in made.operation_form.groups:
+        group.group.fold.setChecked(False)
     made.show()
-    return made
+    yield made
+    made.hide()
 
 
 def test_notes_for_the_sheet_are_written_and_undone(qtbot, document, panel):

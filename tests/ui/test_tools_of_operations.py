@@ -3,9 +3,11 @@ computing.
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
+from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QLabel
 
 from app.core.errors import ParameterError
@@ -19,8 +21,8 @@ from app.ui.framework.labels import Elided
 from app.ui.framework.worker import Worker
 from app.ui.panels.side_panel import SidePanel
 from app.ui.views.stages.film_set import FilmRequest, film_set_of
-from app.usecases.bitmap_job import drawn_job
-from app.usecases.bitmap_options import BitmapSize
+from app.usecases.making.bitmap_job import drawn_job
+from app.usecases.pixels.options import BitmapSize
 from tests.part_shapes import circle, layered_part, square
 
 PART = layered_part({"a": [square(40), circle(3, 20, 20)]})
@@ -78,14 +80,25 @@ def test_it_is_computed_or_refused(qtbot, word, tool, way):
     assert computation.state is (ComputationState.FAILED if computation.error else ComputationState.CURRENT)
 
 
+@pytest.fixture(scope="module")
+def panel_and_document(qapp) -> Iterator[tuple[SidePanel, Document]]:
+    """A panel that is there already when a job is loaded, as in the window."""
+    document = Document(Job(PART))
+    panel = SidePanel(document)
+    panel.show()
+    yield panel, document
+    panel.hide()
+    panel.deleteLater()
+
+
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: tool.kind.value)
 @pytest.mark.parametrize("word", OPERATION_KINDS)
-def test_the_panel_marks_the_tool_at_once(qtbot, word, tool):
-    panel = SidePanel(Document(Job(PART, (tool,), (OPERATION_KINDS[word](CutParameters(1)),))))
-    qtbot.addWidget(panel)
-    panel.show()
+def test_the_panel_marks_the_tool_at_once(panel_and_document, word, tool):
+    panel, document = panel_and_document
+    document.load(Job(PART, (tool,), (OPERATION_KINDS[word](CutParameters(1)),)))
     reason = panel.operation_form.tool.reason
     assert (reason.text(), reason.isVisible()) == (refused(word, tool), bool(refused(word, tool)))
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)  # rows of the list before
     (in_list,) = [label for label in panel.operations.findChildren(Elided) if label.text() == f"T1 {tool.label}"]
     assert in_list.property("role") == ("error" if refused(word, tool) else "muted")
 

@@ -1,24 +1,10 @@
 """Ctrl+Z undoes the job's last change also while a field has the keyboard, unless something is being typed in it."""
 
-import pytest
 from PySide6.QtCore import Qt
 
 from app.ui.panels.changes import Subject, SubjectKind
-from app.ui.shell.start import build
 
 CTRL = Qt.KeyboardModifier.ControlModifier
-
-
-@pytest.fixture
-def wiring(qtbot):
-    window, made = build()
-    with qtbot.waitActive(window):
-        window.show()
-        window.activateWindow()
-    yield made
-    made.document.load(made.document.job)
-    window.close()
-    window.deleteLater()
 
 
 def test_undo_after_a_value_was_entered(qtbot, wiring):

@@ -6,19 +6,27 @@ from PySide6.QtGui import QWhatsThisClickedEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QApplication, QComboBox, QLineEdit, QWhatsThis, QWidget
 
+from app.ui.shell.help.what_is_this import PLACES
 from app.ui.shell.start import build
-from app.ui.shell.what_is_this import PLACES
+
+
+@pytest.fixture(scope="module")
+def explained(qapp):
+    """A window of their own: what explains itself once does so until the window ends."""
+    window, made = build()
+    window.resize(1280, 800)
+    yield made
+    window.close()
+    window.deleteLater()
 
 
 @pytest.fixture
-def wiring(qtbot):
-    window, made = build()
-    qtbot.addWidget(window)
-    window.resize(1280, 800)
-    window.show()
-    yield made
+def wiring(explained):
+    explained.window_.show()
+    yield explained
     QWhatsThis.leaveWhatsThisMode()
-    window.close()
+    explained.language.help.hide()
+    explained.window_.hide()
 
 
 def told(widget: QWidget | None) -> str:

@@ -37,6 +37,7 @@ from app.ui.shell.window_controller import WindowController
 
 _SIMPLE = (bool, int, float, str, bytes, Path, enum.Enum, type(None))
 _CODE = {FunctionType, MethodType, type}
+_MISSING = object()
 _UNTOLD = {
     "next_id",
     "_next_id",
@@ -95,13 +96,17 @@ def traces(wiring: WindowController) -> dict[str, object]:
     return dict(_walk(wiring))
 
 
-def _walk(wiring: WindowController) -> Iterator[tuple[str, object]]:
+def _walk(wiring: WindowController, before: Mapping[str, object] | None = None) -> Iterator[tuple[str, object]]:
+    """Yield every value and its way; `before` are those of an earlier walk, which need not be looked into again where
+    they are the same, as they cannot change.
+    """
     seen: set[int] = set()
+    known = before or {}
     fixed: dict[int, bool] = {}
     waiting: deque[tuple[str, object]] = deque([("wiring", wiring), ("window", wiring.window_)])
     while waiting:
         way, value = waiting.popleft()
-        if _is_fixed(value, fixed):
+        if known.get(way, _MISSING) is value or _is_fixed(value, fixed):
             yield way, value
         elif id(value) not in seen:
             seen.add(id(value))
@@ -226,7 +231,7 @@ def differences(before: dict[str, object], after: dict[str, object]) -> list[str
 
 def left_in(wiring: WindowController, before: dict[str, object], most: int = 100) -> list[str]:
     """Return a line for each value of a window that is not what it was; after so many nobody looks for more."""
-    return list(islice(_differing(before, _walk(wiring)), most))
+    return list(islice(_differing(before, _walk(wiring, before)), most))
 
 
 def _differing(before: dict[str, object], after: Iterable[tuple[str, object]]) -> Iterator[str]:
@@ -236,9 +241,6 @@ def _differing(before: dict[str, object], after: Iterable[tuple[str, object]]) -
         if not _alike(before.get(way, _MISSING), value):
             yield f"{way}: {before.get(way, '—')!r} -> {value!r}"
     yield from (f"{way}: {value!r} -> '—'" for way, value in before.items() if way not in met)
-
-
-_MISSING = object()
 
 
 def _alike(a: object, b: object) -> bool:

@@ -8,8 +8,9 @@ import pytest
 
 from app.core.resources import resource
 from app.formats.job.toml import read_job
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.model.moves import Purpose
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
 from tests.gcode.rs274_oracle import assert_same_motion
 
 JOB = """
@@ -50,6 +51,20 @@ def test_nothing_is_left_and_nothing_gouged(pocket: MakeResult) -> None:
     assert report["rapids_in_material"] == [] and report["cut"]["gouged_places"] == 0
 
 
+def test_where_less_is_engaged_the_feed_rises_and_the_angle_stays() -> None:
+    job = JOB + 'feed_up_to = 2.0\n[output]\npost = "fanuc"\n'
+    made, plain = made_of("rectangle 0,0 24,15\n", job), made_of("rectangle 0,0 24,15\n", job.replace("2.0", "1.0"))
+    (operation,) = json.loads(made.report.text())["operations"]
+    assert made.clean and operation["engaged"]["motions_above"] == 0
+    cuts = made.program.moves.purpose == Purpose.POCKET
+    feeds = made.program.moves.feed[cuts] / made.job.tools[0].feed_rate
+    assert feeds.min() == 1.0 and 1.5 <= feeds.max() <= 2.0
+    sizes = [each.program.moves.lengths().sum() for each in (made, plain)]
+    assert sizes[0] == pytest.approx(sizes[1], abs=0.05)
+    seconds = [json.loads(each.report.text())["time_s"] for each in (made, plain)]
+    assert seconds[0] < seconds[1] - 2
+
+
 def test_linuxcnc_reads_the_same_motion(pocket: MakeResult) -> None:
     assert_same_motion(pocket.program.moves, pocket.nc, pocket.job)
 
@@ -66,7 +81,7 @@ def test_other_controls_are_proven_as_well(post: str) -> None:
     [
         ("circle 7.3331,2.0004 8.1117\n", ""),
         ("rectangle 0,0 33.3333,14.1415\n", 'direction = "conventional"\n[origin]\nxy = "centre"\n'),
-        ("line 0,0 30,0 30,9 12,9 12,26 0,26 0,0\n", ""),
+        pytest.param("line 0,0 30,0 30,9 12,9 12,26 0,26 0,0\n", "", marks=pytest.mark.exhaustive),
     ],
 )
 def test_three_decimals_keep_the_limit_too(drawing: str, more: str) -> None:

@@ -19,9 +19,9 @@ from app.model.part import Units
 from app.model.scene import Boundary, CentreLimit, Passes, Scene, Surface
 from app.model.tool import Tool, ToolKind
 from app.surfaces.sections.compound import NO_SURFACE
-from app.usecases import surface_nc
-from app.usecases.surface import ComputedScene, compute
-from app.usecases.surface_nc import write_scene_nc
+from app.usecases.scene.compute import ComputedScene, compute
+from app.usecases.scene_program import nc as surface_nc
+from app.usecases.scene_program.nc import write_scene_nc
 from tests.surfaces.scenes import ball, plane
 from tests.surfaces.surface_places import no_data
 
@@ -32,6 +32,8 @@ SCENE = Scene(
     tools=(Tool(1, 6.0, ToolKind.BALL), Tool(2, 3.0, ToolKind.BULL, corner_radius=0.5)),
     passes=(Passes(1, pitch=4.0), Passes(2, pitch=4.0, angle_deg=90)),
 )
+FEW = (Passes(1, pitch=9.0), Passes(2, pitch=9.0, angle_deg=90))
+"""Passes of both tools, where their number has no part in what is tested."""
 
 
 def computed(**changes: object) -> ComputedScene:
@@ -41,7 +43,7 @@ def computed(**changes: object) -> ComputedScene:
 @pytest.mark.parametrize("post", post_names())
 @pytest.mark.parametrize("units", [Units.MM, Units.INCH])
 def test_every_control_reads_back_what_is_proven(post: str, units: Units) -> None:
-    scene = replace(SCENE, post=post, out_units=units, origin_xy=OriginXY.CENTRE, origin_z=OriginZ.TOP)
+    scene = replace(SCENE, passes=FEW, post=post, out_units=units, origin_xy=OriginXY.CENTRE, origin_z=OriginZ.TOP)
     try:
         done = write_scene_nc(compute(scene, SOURCES))
     except HitofudeError as error:
@@ -101,8 +103,8 @@ def test_comments_tell_the_surface_and_the_boundary_point_at_its_place() -> None
 
 def test_the_order_of_surfaces_changes_nothing_but_their_numbers() -> None:
     twice = Surface("another table", plane(0, 0, 30, 20))
-    one = computed(surfaces=(*SCENE.surfaces, twice))
-    other = computed(surfaces=(twice, *SCENE.surfaces[::-1]))
+    one = computed(surfaces=(*SCENE.surfaces, twice), passes=FEW)
+    other = computed(surfaces=(twice, *SCENE.surfaces[::-1]), passes=FEW)
     assert np.array_equal(one.moves.moves.end, other.moves.moves.end)
     # NO_SURFACE is the last
     names = [np.array([*each.names, "none"])[each.moves.surface].tolist() for each in (one, other)]

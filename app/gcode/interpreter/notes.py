@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
-from .notes_stock import StockBoxNote, bounds_of, box_of
-from .notes_tool import tool_of
-from .notes_words import MOST_BYTES, Comments, ProgramUnits
+from .notes_words import MOST_BYTES, Comments, ProgramUnits, StockBoxNote
 from .own_header import MARK, ProgramNotes, own_notes
 from .program import StockNote, ToolNote
 from .text import ProgramBuffer
@@ -69,6 +68,8 @@ def _merged(same: list[ToolNote]) -> ToolNote:
 
 def _told(comments: Comments, units: ProgramUnits) -> Iterator[ToolNote]:
     """Yield what each comment tells: first those at tool changes, where a bare size will do."""
+    from .notes_tool import tool_of  # patterns that no program of our own needs
+
     seen = set()
     for at, text, number in _at_changes(comments):
         seen.add(at)
@@ -80,8 +81,16 @@ def _told(comments: Comments, units: ProgramUnits) -> Iterator[ToolNote]:
             yield replace(note, number=note.number or _number_near(comments, at), line=comments.line(at))
 
 
-def _at_changes(comments: Comments) -> Iterator[tuple[int, str, int]]:
-    """Yield place and text of the comments beside and right above blocks with T and M6, and the T number."""
+class _ChangeComment(NamedTuple):
+    """A comment at a tool change: its place and text, and the T number of the block."""
+
+    at: int
+    text: str
+    number: int
+
+
+def _at_changes(comments: Comments) -> Iterator[_ChangeComment]:
+    """Yield the comments beside and right above blocks with T and M6."""
     for at in comments.places(_CHANGE_WORDS):
         begin, end = comments.line_begin(at), comments.line_end(at)
         block = comments.text(begin, end)
@@ -92,7 +101,7 @@ def _at_changes(comments: Comments) -> Iterator[tuple[int, str, int]]:
         alone = not _COMMENT.sub("", comments.text(above, begin)).strip()
         for match in _COMMENT.finditer(comments.text(above if alone else begin, end)):
             place = (above if alone else begin) + match.start() + 1
-            yield place, match[0].strip("();"), int(change[1])
+            yield _ChangeComment(place, match[0].strip("();"), int(change[1]))
 
 
 def _number_near(comments: Comments, at: int) -> int:
@@ -113,6 +122,8 @@ def _number_near(comments: Comments, at: int) -> int:
 
 def _stock(comments: Comments, units: ProgramUnits) -> StockNote | None:
     """Return the box, put together from what comments tell in the order of the text."""
+    from .notes_stock import bounds_of, box_of  # patterns that no program of our own needs
+
     box, first = StockBoxNote(), -1
     for at, text in sorted(comments.texts(_STOCK_WORDS)):
         more = box_of(text if any(c.isdigit() for c in text) else _next_line(comments, at), units.mm_at(at))

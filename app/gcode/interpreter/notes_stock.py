@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, field
 
-from .notes_words import NUMBER, UNIT, length_mm
-from .program import StockNote
+from .notes_words import NUMBER, UNIT, StockBoxNote, Three, length_mm
 
 _SIGNED = rf"([-+]?)\s?({NUMBER})\s{{0,3}}({UNIT})?"
 _TIMES = r"\s{0,3}(?:x|\*|\u00d7|by)\s{0,3}"
@@ -19,43 +17,6 @@ _TOP = re.compile(
     rf"top of (?:the )?(?:stock|material|workpiece)\b[^()]{{0,20}}?z\s{{0,2}}[=:]?\s{{0,2}}{_SIGNED}", re.IGNORECASE
 )
 _BOUND = re.compile(rf"(min|max)([xyz])\s?=\s?{_SIGNED}", re.IGNORECASE)
-
-Three = list[float]
-
-
-def _unknown() -> Three:
-    return [math.nan] * 3
-
-
-@dataclass
-class StockBoxNote:
-    """A box as far as it is told, mm: corners and size, NaN where they are not."""
-
-    low: Three = field(default_factory=_unknown)
-    high: Three = field(default_factory=_unknown)
-    size: Three = field(default_factory=_unknown)
-
-    def is_known(self) -> bool:
-        """Whether anything is."""
-        return any(not math.isnan(value) for value in (*self.low, *self.high, *self.size))
-
-    def merged(self, other: StockBoxNote) -> StockBoxNote:
-        """Return the box with what another tells beside it."""
-        return StockBoxNote(
-            *(
-                [b if math.isnan(a) else a for a, b in zip(mine, theirs, strict=True)]
-                for mine, theirs in ((self.low, other.low), (self.high, other.high), (self.size, other.size))
-            )
-        )
-
-    def note(self, line: int) -> StockNote:
-        """Return the note, with what follows: of low, high and size two give the third."""
-        low, high, size = list(self.low), list(self.high), list(self.size)
-        for k in range(3):
-            size[k] = high[k] - low[k] if math.isnan(size[k]) else size[k]
-            low[k] = high[k] - size[k] if math.isnan(low[k]) else low[k]
-            high[k] = low[k] + size[k] if math.isnan(high[k]) else high[k]
-        return StockNote((low[0], low[1], low[2]), (high[0], high[1], high[2]), (size[0], size[1], size[2]), line)
 
 
 def box_of(text: str, program_mm: float) -> StockBoxNote:

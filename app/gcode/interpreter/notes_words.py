@@ -5,8 +5,11 @@ them.
 from __future__ import annotations
 
 import bisect
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+from .program import StockNote
 
 LONGEST = 400
 """Characters of a comment that are looked at."""
@@ -41,6 +44,45 @@ def length_mm(number: str, unit: str | None, program_mm: float) -> float:
     if sign == "cm":
         return value * 10.0
     return value * (25.4 if sign or below else program_mm)
+
+
+Three = list[float]
+"""X, Y and Z, mm."""
+
+
+def _unknown() -> Three:
+    return [math.nan] * 3
+
+
+@dataclass
+class StockBoxNote:
+    """A box as far as it is told, mm: corners and size, NaN where they are not."""
+
+    low: Three = field(default_factory=_unknown)
+    high: Three = field(default_factory=_unknown)
+    size: Three = field(default_factory=_unknown)
+
+    def is_known(self) -> bool:
+        """Whether anything is."""
+        return any(not math.isnan(value) for value in (*self.low, *self.high, *self.size))
+
+    def merged(self, other: StockBoxNote) -> StockBoxNote:
+        """Return the box with what another tells beside it."""
+        return StockBoxNote(
+            *(
+                [b if math.isnan(a) else a for a, b in zip(mine, theirs, strict=True)]
+                for mine, theirs in ((self.low, other.low), (self.high, other.high), (self.size, other.size))
+            )
+        )
+
+    def note(self, line: int) -> StockNote:
+        """Return the note, with what follows: of low, high and size two give the third."""
+        low, high, size = list(self.low), list(self.high), list(self.size)
+        for k in range(3):
+            size[k] = high[k] - low[k] if math.isnan(size[k]) else size[k]
+            low[k] = high[k] - size[k] if math.isnan(low[k]) else low[k]
+            high[k] = low[k] + size[k] if math.isnan(high[k]) else high[k]
+        return StockNote((low[0], low[1], low[2]), (high[0], high[1], high[2]), (size[0], size[1], size[2]), line)
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ LEFT, MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton
 
 @pytest.fixture(scope="module")
 def picture():
-    return made_up(200)
+    return made_up(120)
 
 
 @pytest.fixture
@@ -33,7 +33,7 @@ def view(qtbot, picture):
     without_a_screen().release()
     made = CutView()
     qtbot.addWidget(made)
-    made.resize(900, 600)
+    made.resize(720, 480)
     made.set_theme(LIGHT)
     made.show()
     made.show_cut(picture)

@@ -2,7 +2,6 @@
 
 import pytest
 
-from app.ui.framework.computation import ComputationState
 from tests.ui.nc.opened import SMALL, WAIT_MS, nc_of, open_file
 
 
@@ -14,11 +13,7 @@ def small(qtbot, wiring, tmp_path):
 
 
 @pytest.fixture
-def computed(qtbot, wiring):
+def computed(qtbot, opened_sample):
     """The sample part, computed, and its program read."""
-    wiring.files.open_sample()
-    qtbot.waitUntil(
-        lambda: wiring.computation.state is ComputationState.CURRENT and nc_of(wiring).shown is not None,
-        timeout=WAIT_MS,
-    )
-    return wiring
+    qtbot.waitUntil(lambda: nc_of(opened_sample).shown is not None, timeout=WAIT_MS)
+    return opened_sample

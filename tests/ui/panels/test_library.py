@@ -1,5 +1,6 @@
 """The tool library in the side panel: search, feeds for a material, into the job undoably; files in and out."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import groupby
 
@@ -19,23 +20,37 @@ from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.tool_kinds import icon_of, listed_kinds, use_of
-from app.ui.shell.tool_exchange import IN, ToolExchange
+from app.ui.shell.files.tool_exchange import IN, ToolExchange
 from tests.formats.foreign_tools import fusion_archive, fusion_tool
 
 
-@pytest.fixture
-def document() -> Document:
-    return Document(Job(Part()))
-
-
-@pytest.fixture
-def panel(qtbot, document):
+@pytest.fixture(scope="module")
+def shared(qapp) -> Iterator[tuple[Document, SidePanel]]:
+    """One panel for all tests: making its 400 widgets takes longer than most of what is asked of it."""
+    document = Document(Job(Part()))
     made = SidePanel(document)
-    qtbot.addWidget(made)
+    yield document, made
+    made.deleteLater()
+
+
+@pytest.fixture
+def document(shared) -> Document:
+    document, _ = shared
+    document.load(Job(Part()))
+    return document
+
+
+@pytest.fixture
+def panel(shared, document) -> Iterator[SidePanel]:
+    """The panel with its library, as it is opened the first time."""
+    _, made = shared
+    made.choose(Subject(SubjectKind.OPERATION, 0))
+    made.library.search.clear()
     made.resize(328, 620)
     made.show()
     made.tools.library_button.click()
-    return made
+    yield made
+    made.hide()
 
 
 def search(qtbot, panel, text: str) -> None:
@@ -164,12 +179,9 @@ def test_arrows_walk_from_the_search_through_the_list(qtbot, panel):
 
 
 def test_the_list_has_the_rows_that_there_is_room_for(qtbot, panel):
-    heights = []
-    for height in (500, 900):
+    for height, rows in ((500, 4), (900, 13)):
         panel.resize(328, height)
-        qtbot.wait(20)
-        heights.append(panel.library.area.height())
-    assert heights == [4 * 28, 13 * 28]
+        qtbot.waitUntil(lambda rows=rows: panel.library.area.height() == rows * 28)
 
 
 def test_the_chosen_row_is_in_sight_when_the_library_opens_again(qtbot, panel):
@@ -217,7 +229,7 @@ def test_tools_are_imported_into_the_users_library_and_stay_there(tmp_path, exch
         exchange.take(tmp_path / name)
         assert notice.text.text() == f"1 tool of {name} in the library."
     assert {"Own cutter", "Other"} <= {tool.name for tool in exchange._panel.library.shown}
-    assert set(load_libraries()[0]) == {"lib", "mine", "metric-drills", "metric-mills", "threads-and-reamers"}
+    assert set(load_libraries().libraries) == {"lib", "mine", "metric-drills", "metric-mills", "threads-and-reamers"}
     exchange.take(tmp_path / "mine.csv")
     assert notice.text.text() == "There is a library mine already."
 
@@ -230,7 +242,7 @@ def test_a_tool_table_names_no_units_so_they_are_asked_for(tmp_path, exchange, w
     assert "It names no units; it was read in mm." in notice.text.text()
     assert notice.buttons[1].text() == "Read in inch"
     notice.buttons[1].click()
-    (tool,) = load_libraries()[0]["mill"].tools
+    (tool,) = load_libraries().libraries["mill"].tools
     assert (tool.diameter, tool.length_offset) == (pytest.approx(6.35), pytest.approx(50.8))
 
 

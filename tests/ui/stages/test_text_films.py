@@ -43,6 +43,7 @@ def test_a_text_is_chosen_at_the_head_and_its_steps_are_shown(qtbot, wiring):
     assert window.views.empty.isVisible(), "nothing is drawn, and the stages of a drawing say so"
 
 
+@pytest.mark.exhaustive
 def test_all_steps_are_written(qtbot, wiring, tmp_path):
     stages = show_text(qtbot, wiring, "E")
     wiring.film_controller.save(tmp_path)
