@@ -23,6 +23,7 @@ from .cli.main import BAD_INPUT  # noqa: E402 (all three first: importing makes 
 from .cli.main import main as command_line  # noqa: E402
 from .cli.output import say  # noqa: E402
 from .core.errors import shortened  # noqa: E402
+from .core.processor_level import lacking_here  # noqa: E402
 
 _LIBRARIES = (
     "libegl1 libgl1 libglib2.0-0 libfontconfig1 libdbus-1-3 libxkbcommon0 libxkbcommon-x11-0 libxcb-cursor0 "
@@ -37,6 +38,11 @@ def main() -> int:
         Exit status: 0 done, 1 done with findings, 2 bad input, 130 cancelled.
     """
     _hold_streams()
+    if missing := lacking_here():
+        return _refuse(
+            f"this processor lacks {', '.join(missing)}, which the libraries are built for; Hitofude needs one of the "
+            "level x86-64-v2, as PC processors are since 2009"
+        )
     arguments = sys.argv[1:]
     if not arguments:
         return _window(None)

@@ -1,8 +1,10 @@
 """The rules of the house, read from the source: who may know whom (contracts in pyproject.toml), what starts light."""
 
+import io
 import re
 import subprocess
 import sys
+import tokenize
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -60,6 +62,18 @@ def test_only_kernel_files_make_kernels() -> None:
     assert not offenders(others, lambda path: "core.jit import" in path.read_text("utf-8"))
 
 
+def comments_share(text: str) -> float:
+    """Comments of a text, by its lines."""
+    tokens = tokenize.generate_tokens(io.StringIO(text).readline)
+    return sum(token.type == tokenize.COMMENT for token in tokens) / text.count("\n")
+
+
+def test_kernels_say_why_they_compute_what_they_compute() -> None:
+    assert comments_share("x = 1  # why\ny = 2\n") == 0.5
+    kernels = [path for path in FILES if "kernels" in path.stem]
+    assert kernels and not offenders(kernels, lambda path: comments_share(path.read_text("utf-8")) < 0.02)
+
+
 def test_public_things_say_what_they_are() -> None:
     """What is said to the linter in a line does not count here."""
     judge = ["ruff", "check", "--ignore-noqa", "--select=D1", "--ignore=D105,D107", "--output-format=concise", "app"]
@@ -108,7 +122,7 @@ def test_the_session_of_1986_is_loaded_when_it_is_asked_for() -> None:
     }
 
 
-@pytest.mark.parametrize("door", ["app.cli.main", "app.usecases.make", "app.ui.shell.main_window"])
+@pytest.mark.parametrize("door", ["app.cli.main", "app.usecases.making.make", "app.ui.shell.main_window"])
 def test_exhibits_are_loaded_when_they_are_asked_for(door: str) -> None:
     code = f"import {door}, sys; print(*[name for name in sys.modules if name.startswith('app.exhibits')])"
     done = subprocess.run(
@@ -125,7 +139,9 @@ def test_kernel_modules_know_no_window() -> None:
     assert not modules_after(code) & (QT | COMPILER)
 
 
-PAGE = (ROOT / "resources" / "docs" / "architecture.md").read_text("utf-8")
+DOCS = ROOT / "resources" / "docs"
+PAGES = [DOCS / "architecture.md", *sorted((DOCS / "house").glob("*.md"))]
+PAGE = "\n".join(path.read_text("utf-8") for path in PAGES)
 
 
 def named_files(text: str) -> set[str]:
@@ -149,6 +165,11 @@ def test_the_page_of_the_house_names_files_that_are_there() -> None:
     there = [f"/{path.relative_to(ROOT)}" for path in (*FILES, *(ROOT / "tests").rglob("*.py"))]
     assert not {name for name in named_files(PAGE) if not any(path.endswith(f"/{name}") for path in there)}
     assert named_files("see `geometry/nowhere.py`") == {"geometry/nowhere.py"}
+
+
+def test_the_page_of_the_house_lists_its_other_pages() -> None:
+    listed = re.findall(r"`house/(\w+)\.md`", PAGES[0].read_text("utf-8"))
+    assert sorted(listed) == [path.stem for path in PAGES[1:]]
 
 
 def test_the_page_of_the_house_names_doors_that_are_there() -> None:

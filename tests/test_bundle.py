@@ -17,6 +17,7 @@ from tests.test_wheel import OPEN_AND_CLOSE
 
 pytestmark = pytest.mark.exhaustive
 
+PORTABLE = "HITOFUDE_PORTABLE"
 SHELL = ("/bin/sh", "/usr/bin/dirname", "/usr/bin/readlink")
 C_LIBRARY = ("libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "libutil.so.1", "libresolv.so.2")
 
@@ -71,6 +72,35 @@ def test_it_makes_the_same_program_without_anything_but_a_c_library(bare: Path, 
     subprocess.run(here, cwd=bare / "work", env=environment, check=True, capture_output=True, timeout=300)
     assert (bare / "work" / "fig2.ngc").read_bytes() == (tmp_path / "fig2.ngc").read_bytes()
     assert not [path for path in (bare / "home").rglob("*kernel*") if path.is_file()]
+
+
+@pytest.fixture
+def portable() -> Path:
+    """A folder that was packed for a level of processors, which takes half an hour: not for every run."""
+    packed = os.environ.get(PORTABLE, "")
+    if not packed:
+        pytest.skip(f"{PORTABLE} names no folder packed by: .ci/bundle FOLDER x86-64-v3")
+    return Path(packed)
+
+
+def test_another_processor_makes_the_same_program_with_the_kernels_that_came_along(
+    portable: Path, tmp_path: Path
+) -> None:
+    """An emulated Haswell, which has none of what this machine has beyond x86-64-v3."""
+    emulator = shutil.which("qemu-x86_64")
+    if emulator is None:
+        pytest.skip("the emulator qemu-x86_64 is not installed here")
+    shutil.copy2(ROOT / "resources/samples/fig2.dxf", tmp_path)
+    environment = {"LD_LIBRARY_PATH": str(portable / "lib"), "HOME": str(tmp_path / "home"), "PATH": os.environ["PATH"]}
+    python = next((portable / "bin").glob("python3*"))
+    command = [emulator, "-cpu", "Haswell", str(python), "-I", "-m", "hitofude"]
+    command += ["make", "fig2.dxf", "-o", "there.ngc"]
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=3600)
+    assert done.returncode == 0, done.stderr
+    here = [sys.executable, "-P", "-m", "app", "make", "fig2.dxf", "-o", "here.ngc"]
+    subprocess.run(here, cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(ROOT)}, check=True, capture_output=True)
+    assert (tmp_path / "there.ngc").read_bytes() == (tmp_path / "here.ngc").read_bytes()
+    assert not [path for path in (tmp_path / "home").rglob("*kernel*") if path.is_file()]
 
 
 def test_its_window_opens_and_draws(bundle: Path) -> None:

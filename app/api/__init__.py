@@ -22,14 +22,14 @@ from ..model.tool import Tool
 from ..model.tool_kind import ToolKind
 from ..model.vcarve_operation import VcarveOperation
 from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
-from ..usecases.cut import CutOptions
+from ..usecases.cutting.cut import CutOptions
+from ..usecases.cutting.ready_setup import SetupRequest
+from ..usecases.cutting.setup_stock import box_stock
 from ..usecases.examine import ExamineOptions
 from ..usecases.inlay import InlayFit, InlayOptions
-from ..usecases.machining import MachiningOptions
-from ..usecases.options import MakeOptions, Stepover
+from ..usecases.job.machining import MachiningOptions
+from ..usecases.job.options import MakeOptions, Stepover
 from ..usecases.proposal.propose import ProposalOptions
-from ..usecases.setup import SetupRequest
-from ..usecases.setup_stock import box_stock
 from ..usecases.smoothing.result import OutputForm, SmoothOptions
 from .calls import BatchPart, batch, check, cut, inlay, make, read, smooth, surface
 from .results import CheckedProgram, CutMetal, MadeInlay, MadeProgram, MadeSurface, SmoothedText

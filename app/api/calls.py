@@ -17,19 +17,19 @@ from ..model.job import Job
 from ..model.part import Units
 from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.tool import Tool
-from ..usecases import make as usecase
 from ..usecases.batch.lanes import ExecutorLane, ProcessLane
 from ..usecases.batch.run import BatchRun
 from ..usecases.batch.task import BatchKind, BatchResult, BatchTask
-from ..usecases.cut import CutOptions
-from ..usecases.cut import cut as cut_programs
-from ..usecases.cut_report import cut_report
+from ..usecases.cutting.cut import CutOptions
+from ..usecases.cutting.cut import cut as cut_programs
+from ..usecases.cutting.ready_setup import SetupRequest, setup_of
+from ..usecases.cutting.report import cut_report
+from ..usecases.cutting.setup_tools import ToolSource
 from ..usecases.examine import ExamineOptions, examine
 from ..usecases.inlay import InlayOptions, inlay_of
 from ..usecases.inlay import inlay as inlay_drawing
-from ..usecases.options import MakeOptions
-from ..usecases.setup import SetupRequest, setup_of
-from ..usecases.setup_tools import ToolSource
+from ..usecases.job.options import MakeOptions
+from ..usecases.making import make as usecase
 from ..usecases.smoothing.result import SmoothOptions
 from ..usecases.smoothing.smooth import smooth as smooth_text
 from .results import CheckedProgram, CutMetal, MadeInlay, MadeProgram, MadeSurface, SmoothedText
@@ -204,9 +204,9 @@ def surface(scene: FilePath, progress: Progress = NO_PROGRESS) -> MadeSurface:
         Cancelled: by progress.
     """
     from ..formats.scene.toml import read_scene, sources_of
-    from ..usecases.surface import compute
-    from ..usecases.surface_nc import write_scene_nc
-    from ..usecases.surface_report import surface_report
+    from ..usecases.scene.compute import compute
+    from ..usecases.scene_program.nc import write_scene_nc
+    from ..usecases.scene_program.report import surface_report
 
     path = Path(scene)
     sources = sources_of(_reader_beside(path))

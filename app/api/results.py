@@ -19,14 +19,14 @@ from ..model.job import Job
 from ..model.motion import Motions
 from ..model.moves import Moves
 from ..simulation.field.workpiece import Heights
-from ..usecases.cut import CutProgram
-from ..usecases.cut_report import CutReport
+from ..usecases.cutting.cut import CutProgram
+from ..usecases.cutting.report import CutReport
 from ..usecases.examine import ExaminedProgram
 from ..usecases.inlay import InlayFit, InlayPair
-from ..usecases.make import MakeResult
+from ..usecases.making.make import MakeResult
+from ..usecases.scene_program.nc import WrittenScene
+from ..usecases.scene_program.report import SurfaceReport
 from ..usecases.smoothing.result import SmoothedProgram
-from ..usecases.surface_nc import WrittenScene
-from ..usecases.surface_report import SurfaceReport
 
 Report = dict[str, Any]
 
@@ -103,7 +103,7 @@ class MadeProgram:
     def svg(self) -> str:
         """Return the picture of part and paths."""
         from ..formats.plot.plot import plot
-        from ..usecases.picture import picture_of
+        from ..usecases.making.picture import picture_of
 
         picture = picture_of(self.job.part.name, self.result.program, self.result.coverage)
         return plot(picture, ".svg").decode()
@@ -342,7 +342,7 @@ class MadeSurface(_Reported):
 
     def svg(self) -> str:
         """Return the paths in the order of cutting, by surface."""
-        from ..usecases.surface_plot import plot_surface
+        from ..usecases.scene.plot import plot_surface
 
         return plot_surface(self.result.computed, ".svg")[0].decode()
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 from ..usecases.batch.task import BatchKind
 from .command import OptionParser
+from .lanes import add_lane_options
 from .program import load_command
-from .values import number
 
 EPILOG = """\
 Writes each part's program below OUT, and results.csv and results.html, the table of verdict, time, length and
@@ -42,19 +42,7 @@ def add_batch_options(parser: OptionParser) -> None:
     kind = parser.add_mutually_exclusive_group()
     kind.add_argument("--check", action="store_true", help="check NC programs instead of making them of drawings")
     kind.add_argument("--smooth", action="store_true", help="smooth NC programs instead")
-    parser.add_argument(
-        "--jobs", metavar="N", type=jobs_given, help="parts at a time, each in its own process (default: one a core)"
-    )
-    parser.add_argument(
-        "--limit",
-        metavar="MIN",
-        type=number("limit", unit="min"),
-        default=60.0,
-        help="a part that takes longer is ended (default 60)",
-    )
-    parser.add_argument(
-        "--scheduler", metavar="tcp://HOST:PORT", help="work on the cluster of this Dask scheduler (hitofude[cluster])"
-    )
+    add_lane_options(parser, "parts")
     parser.add_argument("--reports", action="store_true", help="everything that was measured of each part, as JSON")
     parser.add_argument(
         "--images", choices=["svg", "png"], help="of make: a picture of part and paths beside each program"
@@ -64,14 +52,7 @@ def add_batch_options(parser: OptionParser) -> None:
     )
     parser.add_argument("--again", action="store_true", help="do all parts, whatever is done already")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
-    _add_passed(parser)
-
-
-def jobs_given(text: str) -> int:
-    """Return a number of processes, for argparse."""
-    if not text.isdecimal() or not 1 <= int(text) <= 1024:
-        raise argparse.ArgumentTypeError(f"is wrong: '{text}' is no number of jobs; write one from 1 to 1024")
-    return int(text)
+    add_passed(parser, BatchKind)
 
 
 class _Passed(argparse.Action):
@@ -89,10 +70,10 @@ class _Passed(argparse.Action):
         namespace.passed = [*kept, own]
 
 
-def _add_passed(parser: OptionParser) -> None:
-    """Add the options of the commands, each under the first command that has it."""
+def add_passed(parser: OptionParser, kinds: Iterable[BatchKind]) -> None:
+    """Add the options of commands, each under the first command that has it."""
     taken = {name for action in parser._actions for name in action.option_strings}
-    for kind in BatchKind:
+    for kind in kinds:
         group = parser.add_argument_group(f"options of {kind.value}")
         for action in actions_of(kind):
             names = [name for name in action.option_strings if name not in taken]

@@ -13,14 +13,15 @@ from ..core.digest import content_digest
 from ..core.errors import HitofudeError, InputError
 from ..core.input_file import read_input
 from ..core.settings import config_folder
+from ..usecases.batch.table import Files, results_csv, results_html
 from ..usecases.batch.task import BatchExtras, BatchKind, BatchRow, BatchTask, BatchVerdict
-from ..usecases.bitmap_options import is_picture
 from ..usecases.examine import ExamineOptions
-from ..usecases.options import MakeOptions
+from ..usecases.job.options import MakeOptions
+from ..usecases.pixels.options import is_picture
 from ..usecases.smoothing.result import SmoothOptions
 from .batch_list import ListedPart, listed_parts, named_outputs
 from .batch_options import kind_of
-from .batch_store import BatchStore
+from .batch_store import BatchStore, Table
 from .files import identity
 from .program import load_command
 
@@ -47,13 +48,13 @@ class PlannedBatch:
     """A batch that is ready to begin.
 
     Attributes:
-        title: of its table.
+        table: makes the files of its table.
         store: its folder.
         rows: of the table, one a part: of those that are done, and open ones. outputs: of their programs.
         pending: parts that are to be done.
     """
 
-    title: str
+    table: Table
     store: BatchStore
     rows: list[BatchRow]
     outputs: tuple[str, ...]
@@ -68,14 +69,33 @@ def planned(arguments: argparse.Namespace) -> PlannedBatch:
     """
     kind = kind_of(arguments)
     parts = listed_parts(arguments.parts, arguments.output, kind)
+    image, sheet = (f".{suffix}" if suffix else "" for suffix in (arguments.images, arguments.sheets))
+    extras = BatchExtras(arguments.reports, image, sheet)
+    title = f"{arguments.parts.resolve().name}: {kind.value}"
+
+    def table(rows: Sequence[BatchRow], files: Files) -> dict[str, bytes]:
+        return {"results.csv": results_csv(rows, files), "results.html": results_html(rows, files, title)}
+
+    return planned_parts(arguments, kind, parts, extras, table)
+
+
+def planned_parts(
+    arguments: argparse.Namespace, kind: BatchKind, parts: Sequence[ListedPart], extras: BatchExtras, table: Table
+) -> PlannedBatch:
+    """Return what of some parts is to be done.
+
+    Args:
+        extras: what else is written of each. table: what is told of all.
+
+    Raises:
+        HitofudeError: an option or the folder cannot be used.
+    """
     outputs = named_outputs(parts)
     _ensure_apart(parts, [arguments.output / each for each in outputs])
     passed = tuple(arguments.passed or ())
-    options = [_options_of(kind, (*passed, *part.options), is_picture(part.name)) for part in parts]
-    image, sheet = (f".{suffix}" if suffix else "" for suffix in (arguments.images, arguments.sheets))
-    extras = BatchExtras(arguments.reports, image, sheet)
+    options = [_options_of(kind, (*passed, *part.options), is_picture(part.path.name)) for part in parts]
     unread = [
-        BatchTask(part.name, b"", kind, own, output, extras)
+        BatchTask(part.name, b"", kind, own, output, extras, file=part.path.name)
         for part, output, own in zip(parts, outputs, options, strict=True)
     ]
     store = BatchStore(arguments.output)
@@ -84,7 +104,7 @@ def planned(arguments: argparse.Namespace) -> PlannedBatch:
     except BaseException:
         store.close()
         raise
-    return PlannedBatch(f"{arguments.parts.resolve().name}: {kind.value}", store, rows, tuple(outputs), pending)
+    return PlannedBatch(table, store, rows, tuple(outputs), pending)
 
 
 def _compared(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,11 +13,14 @@ from ..core.atomic import sweep, write_together
 from ..core.digest import sha256
 from ..core.errors import InputError
 from ..core.file_lock import FileLock
-from ..usecases.batch.table import results_csv, results_html
+from ..usecases.batch.table import Files
 from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
 
 RECORDS = ".hitofude"
 """The folder of what is known, in the batch's own."""
+
+Table = Callable[[Sequence[BatchRow], Files], Mapping[str, bytes]]
+"""What is told of all parts, by their rows and files: bytes by the name of a file in the batch's folder."""
 
 
 @dataclass(frozen=True)
@@ -123,11 +126,11 @@ class BatchStore:
         except (OSError, ValueError, KeyError, TypeError):
             return None
 
-    def write_table(self, rows: Sequence[BatchRow], outputs: Sequence[str], title: str) -> None:
-        """Write the table of all parts, both ways.
+    def write_table(self, rows: Sequence[BatchRow], outputs: Sequence[str], table: Table) -> None:
+        """Write the table of all parts.
 
         Args:
-            rows: of the table. outputs: of each part's program.
+            rows: of the table. outputs: of each part's program. table: makes the files.
 
         Raises:
             InputError: it cannot be written.
@@ -136,9 +139,4 @@ class BatchStore:
             () if row.verdict is BatchVerdict.OPEN else self.files(output)
             for row, output in zip(rows, outputs, strict=True)
         ]
-        write_together(
-            {
-                self.folder / "results.csv": results_csv(rows, files),
-                self.folder / "results.html": results_html(rows, files, title),
-            }
-        )
+        write_together({self.folder / name: data for name, data in table(rows, files).items()})

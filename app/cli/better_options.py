@@ -8,9 +8,9 @@ from pathlib import Path
 from ..gcode.interpreter.dialect import Dialect
 from ..gcode.posts.posts import load_post, post_names
 from ..usecases.better.result import BetterOptions
+from ..usecases.cutting.ready_setup import SetupRequest
+from ..usecases.cutting.setup_tools import ToolSource
 from ..usecases.examine import CONTROLS
-from ..usecases.setup import SetupRequest
-from ..usecases.setup_tools import ToolSource
 from ..usecases.smoothing.result import OutputForm
 from .command import OptionParser
 from .cut_options import stock_given, tool_given
@@ -18,12 +18,13 @@ from .cut_request import with_stock
 from .values import number, typed
 
 EPILOG = """\
-For programs that go over a surface in straight passes beside one another with one ball: as CAM systems write them from
-a polyhedron. The old program is cut; the facets that its passes lie on are told apart, and where they meet lies the
+For programs of one tool that go over surfaces in passes beside one another, as CAM systems write them from a
+polyhedron. The old program is cut; the facets that its passes lie on are told apart, and where they meet lies the
 true shape; a smooth surface through these places is machined anew, its passes become curves with a proof, and the new
 program is cut out of the same stock. Both cuts are compared cell by cell: nowhere may they differ by more than T, up or
-down. The surface can be kept as a scene. Exit status 0: better, and within T; 1: with findings; 2: bad input, or the
-tolerance does not hold the facets.
+down. The surface of straight passes of a ball can be kept as a scene; all other passes, of any cutter, bent, or over
+several surfaces, are lifted onto the smooth surfaces where they are. Exit status 0: better, and within T; 1: with
+findings; 2: bad input, or the tolerance does not hold the facets.
 """
 
 
@@ -47,7 +48,10 @@ def add_better_options(parser: OptionParser) -> None:
         "suits of a fiftieth and a twentieth of T)",
     )
     parser.add_argument(
-        "--pitch", metavar="P", type=number("pitch"), help="from pass to pass (mm; default as the old passes)"
+        "--pitch",
+        metavar="P",
+        type=number("pitch"),
+        help="from pass to pass, of straight passes of a ball (mm; default as the old passes)",
     )
     parser.add_argument(
         "--as",
@@ -64,7 +68,7 @@ def add_better_options(parser: OptionParser) -> None:
     )
     parser.add_argument(
         "--tool",
-        metavar="NUMBER=ball:DIAMETER",
+        metavar="NUMBER=KIND:DIAMETER",
         type=typed(tool_given),
         action="append",
         default=[],

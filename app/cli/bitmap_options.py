@@ -8,7 +8,7 @@ from typing import Any
 from ..core.errors import InputError
 from ..raster.frame import POINTS
 from ..raster.picture_options import InkMeaning, PictureOptions
-from ..usecases.bitmap_options import BitmapOptions, BitmapSize, is_picture
+from ..usecases.pixels.options import BitmapOptions, BitmapSize, is_picture
 from .values import number
 
 

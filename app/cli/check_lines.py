@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ..core.durations import minutes_words
 from ..gcode.interpreter.program import ProgramProblem, Severity
 from ..gcode.rework.compare import ProgramDifferences
 from ..usecases.examine import CONTROLS, ExaminedProgram
+
+LEAST_TOLD_S = 0.5
+"""Seconds; a shorter time is told as 0:00."""
 
 TOLD = 20
 """Problems and differences that are printed; the report has all."""
@@ -31,14 +36,22 @@ def examined_lines(examined: ExaminedProgram) -> list[str]:
             for axis, low, high in zip("XYZ", box.low, box.high, strict=True)
             if low == low
         )
-        lines.append(f"  {title}: {', '.join(sides) or 'nothing'} mm")
+        reached = ", ".join(sides)
+        lines.append(f"  {title}: {f'{reached} mm' if reached else 'nothing'}")
     cut, rapid, wait = (minutes_words(parts[name]) for name in ("cut", "rapid", "wait"))
     lines.append(
         f"  time: {minutes_words(report['time_s'])} min (cut {cut}, rapid {rapid}, dwells and tool changes {wait}), "
         f"machine: {examined.machine.title}"
     )
-    lines += [f"  {_tool_words(tool)}: {minutes_words(tool['time_s'])} min" for tool in report["tools"]]
+    lines += [
+        f"  {_tool_words(tool)}: {minutes_words(tool['time_s'])} min" for tool in report["tools"] if _counts(tool)
+    ]
     return lines
+
+
+def _counts(tool: dict[str, Any]) -> bool:
+    """Whether a tool's time is worth a line: not what a program does before its first tool, where that is no time."""
+    return bool(tool["number"]) or tool["time_s"] >= LEAST_TOLD_S
 
 
 def _problem_words(problem: ProgramProblem, file: str) -> str:

@@ -17,10 +17,10 @@ from ..formats.tools.holders import outline_of
 from ..model.operation import LEAST_LENGTH
 from ..model.tool import HolderPoint, Tool
 from ..model.tool_kind import ToolKind, tool_kinds
-from ..usecases.cut import CELLS, Engine
+from ..usecases.cutting.cut import CELLS, Engine
+from ..usecases.cutting.setup_stock import FINEST, box_stock
+from ..usecases.cutting.setup_tools import ToolHolding
 from ..usecases.examine import CONTROLS
-from ..usecases.setup_stock import FINEST, box_stock
-from ..usecases.setup_tools import ToolHolding
 from .command import OptionParser
 from .reading_options import NAMES, add_reading_options
 from .values import join_tolerance, number, typed

@@ -18,11 +18,11 @@ from ..gcode.interpreter.dialect import Dialect
 from ..gcode.tool_offsets import tool_offsets
 from ..model.part import Units
 from ..model.tool_table import TableRow, ToolTable, row_of
-from ..usecases.cut import CutOptions, Engine
+from ..usecases.cutting.cut import CutOptions, Engine
+from ..usecases.cutting.ready_setup import ReadySetup, SetupRequest
+from ..usecases.cutting.setup_stock import box_stock, read_stock
+from ..usecases.cutting.setup_tools import ToolSource
 from ..usecases.examine import ExaminedProgram, ExamineOptions, examine
-from ..usecases.setup import ReadySetup, SetupRequest
-from ..usecases.setup_stock import box_stock, read_stock
-from ..usecases.setup_tools import ToolSource
 from .cut_options import Corners
 from .files import check_outputs, named_files
 from .reading_options import reading

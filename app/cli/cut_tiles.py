@@ -1,4 +1,4 @@
-"""`cut --tiles`: heights of more cells than memory holds, by the processes that do the parts of a batch."""
+"""`cut --tiles`: heights of more cells than memory holds, by the processes or the cluster that do parts of batches."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import argparse
 import json
 import os
 import tempfile
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -17,13 +18,13 @@ from ..core.memory import budget_limit
 from ..core.progress import Progress
 from ..simulation.engines import Engine
 from ..simulation.field.workpiece import Grid
-from ..usecases.batch.lanes import ProcessLane
+from ..usecases.batch.cut_tiles import CutTile, CutTileTask, cut_tile, tiled_grid, tiles_of
+from ..usecases.batch.lanes import Lane
 from ..usecases.batch.run import BatchRun
 from ..usecases.batch.task import BatchResult, BatchVerdict
-from ..usecases.cut_setup import CutSetup
-from ..usecases.cut_tiles import CutTile, CutTileTask, cut_tile, tiled_grid, tiles_of
-from .batch_options import jobs_given
+from ..usecases.cutting.setup import CutSetup
 from .command import OptionParser
+from .lanes import add_scheduler_option, jobs_given, lanes_of
 
 _ALONE = ("image", "report", "against", "window", "facet")
 """What tiles do not do: they are cut, and nothing is judged."""
@@ -36,6 +37,7 @@ def add_tile_options(parser: OptionParser) -> None:
         "--tiles", action="store_true", help="cut tile by tile, in processes; --heights alone is written"
     )
     group.add_argument("--jobs", metavar="N", type=jobs_given, help="tiles at a time (default: one a core)")
+    add_scheduler_option(group)
 
 
 def check_tile_arguments(arguments: argparse.Namespace) -> None:
@@ -45,8 +47,9 @@ def check_tile_arguments(arguments: argparse.Namespace) -> None:
         InputError: one line that names them.
     """
     if not arguments.tiles:
-        if arguments.jobs is not None:
-            raise InputError("--jobs has no effect without --tiles; add it, or leave --jobs away")
+        for name in ("jobs", "scheduler"):
+            if getattr(arguments, name) is not None:
+                raise InputError(f"--{name} has no effect without --tiles; add it, or leave --{name} away")
         return
     if arguments.heights is None or arguments.heights.is_char_device():
         raise InputError("--tiles writes heights; add --heights OUT.npy")
@@ -66,11 +69,11 @@ def cut_by_tiles(arguments: argparse.Namespace, setup: CutSetup, progress: Progr
     """
     grid, path = tiled_grid(setup.stock.box, arguments.grid), arguments.heights
     tiles, waiting = list(tiles_of(grid)), _waiting(path)
-    jobs = min(arguments.jobs or os.cpu_count() or 1, len(tiles))
-    memory = budget_limit() // jobs
-    tasks = [CutTileTask(f"tile {number}", setup, tile, memory) for number, tile in enumerate(tiles, 1)]
     try:
-        low, high = _written(waiting, grid, tasks, jobs, progress)
+        with lanes_of(arguments, len(tiles), cut_tile) as lanes:
+            memory = None if arguments.scheduler else budget_limit() // len(lanes)  # other machines have their own
+            tasks = [CutTileTask(f"tile {number}", setup, tile, memory) for number, tile in enumerate(tiles, 1)]
+            low, high = _written(waiting, grid, tasks, lanes, progress)
         os.replace(waiting, path)
     except OSError as error:
         raise InputError(f"--heights {path}: it cannot be written: {error.strerror or error}") from error
@@ -86,7 +89,9 @@ def cut_by_tiles(arguments: argparse.Namespace, setup: CutSetup, progress: Progr
     )
 
 
-def _written(waiting: Path, grid: Grid, tasks: list[CutTileTask], jobs: int, progress: Progress) -> tuple[float, float]:
+def _written(
+    waiting: Path, grid: Grid, tasks: Sequence[CutTileTask], lanes: Sequence[Lane], progress: Progress
+) -> tuple[float, float]:
     """Write the heights of all tiles into a file; return the lowest and the highest, mm."""
     field = np.lib.format.open_memmap(waiting, "w+", np.float32, (grid.rows, grid.cols))
     spans: list[tuple[float, float]] = []
@@ -94,7 +99,7 @@ def _written(waiting: Path, grid: Grid, tasks: list[CutTileTask], jobs: int, pro
     def finished(place: int, result: BatchResult) -> None:  # on this thread
         spans.append(_take(field, tasks[place].tile, result))
 
-    BatchRun(tasks, [ProcessLane(cut_tile) for _ in range(jobs)], finished).run(progress)
+    BatchRun(tasks, lanes, finished).run(progress)
     field.flush()
     return min(low for low, _ in spans), max(high for _, high in spans)
 

@@ -15,7 +15,7 @@ from ..formats.tools.materials import stock_material, stock_materials
 from ..model.operation import LEAST_LENGTH
 from ..model.tool import Tool, ToolMaterial
 from ..toolpath.feeds.proposal import CutEngagement
-from ..usecases.feeds import FeedsOptions, engagement_at
+from ..usecases.job.feeds import FeedsOptions, engagement_at
 from .command import OptionParser
 from .cut_options import shape_given
 from .values import MACHINE_HELP, TOOLS_HELP, machine_named, number, typed

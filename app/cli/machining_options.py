@@ -10,7 +10,7 @@ from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import length
 from ..model.job import Copies
 from ..model.operation_kinds import parameters
-from ..usecases.machining import MachiningOptions, option_of
+from ..usecases.job.machining import MachiningOptions, option_of
 from .parameter_options import add_parameter_options, requested_values
 from .values import number
 

@@ -15,7 +15,7 @@ from ..formats.readers import offered_suffixes
 from ..formats.sheet import SUFFIXES
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
-from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover
+from ..usecases.job.options import LEAST_PER_CENT, MakeOptions, Stepover
 from .command import OptionParser
 from .files import check_outputs, named_files
 from .reading_options import add_reading_options, reading

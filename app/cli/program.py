@@ -45,6 +45,9 @@ SUMMARIES = {
     ),
     "surface": CommandSummary("surface SCENE.toml -o OUT", "tool paths over compound surfaces, each move proven"),
     "batch": CommandSummary("batch FOLDER -o OUT", "many parts made, checked or smoothed, and a table of them"),
+    "study": CommandSummary(
+        "study FILE -o OUT --vary O=V,V", "one file many ways: which tool, which tolerance, least time"
+    ),
     "stages": CommandSummary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
     "desktop": CommandSummary("desktop", "the entry of the desktop's menu, icon and kinds of files, for this user"),
     "manual": CommandSummary("manual -o OUT", "the manual as pages for browsers, with search, in both languages"),

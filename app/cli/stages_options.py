@@ -19,8 +19,8 @@ from ..exhibits.stages import Variant
 from ..fitting.point_curves.region_profile import RegionProfile, profile_of_formula, profile_of_table
 from ..formats.job.toml import read_job, read_units
 from ..formats.readers import offered_suffixes
-from ..usecases.machining import MachiningOptions
-from ..usecases.options import MakeOptions
+from ..usecases.job.machining import MachiningOptions
+from ..usecases.job.options import MakeOptions
 from .bitmap_options import add_bitmap_options, bitmap_options
 from .command import OptionParser
 from .files import check_outputs

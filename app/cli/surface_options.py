@@ -8,9 +8,9 @@ from pathlib import Path
 from ..core.errors import InputError
 from ..formats.plot.surface_plot import VIEWS, PlotColouring
 from ..usecases.better.result import BetterOptions
+from ..usecases.scene.plot import FORMATS, PlotScene, PlottedPart
+from ..usecases.scene_program.smooth import CurvesOverSurfaces
 from ..usecases.smoothing.result import OutputForm
-from ..usecases.surface_plot import FORMATS, PlotScene, PlottedPart
-from ..usecases.surface_smooth import CurvesOverSurfaces
 from .command import OptionParser
 from .files import check_outputs, named_files
 from .values import number

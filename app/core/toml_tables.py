@@ -35,6 +35,11 @@ class Keyword:
         """Return all of them by their words."""
         raise NotImplementedError
 
+    @classmethod
+    def other_words(cls) -> Mapping[str, str]:
+        """Return the words of those that are also called something else, by what they are called."""
+        return {}
+
 
 Range = tuple[float, float]
 

@@ -30,7 +30,7 @@ from ..simulation.sweeps.chains import Chains, chains_of
 from ..simulation.sweeps.course import Course
 from ..simulation.sweeps.sweeps import WORKERS
 from ..simulation.sweeps.trim import trim
-from ..usecases.cut import GRAPHICS
+from ..usecases.cutting.cut import GRAPHICS
 from .die_programs import PROGRAMS, SIZE, STOCK
 from .films.dexels import CutFilmInput
 

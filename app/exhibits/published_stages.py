@@ -15,8 +15,8 @@ from ..model.motion import Floats
 from ..raster.codes import PixelCode, Plane
 from ..raster.steps import StepState
 from ..raster.trace import PixelChain
-from ..usecases.bitmap_part import BitmapPart
-from ..usecases.bitmap_way import OperationPaths, PixelPath
+from ..usecases.pixels.part import BitmapPart
+from ..usecases.pixels.way import OperationPaths, PixelPath
 
 CODES = {
     PieceKind.CIRCLE: PixelCode.CIRCLE,

@@ -15,8 +15,8 @@ from ..formats.plot.page_png import page_png
 from ..usecases.better.improve import better
 from ..usecases.better.picture import stock_picture
 from ..usecases.better.result import BetterOptions
-from ..usecases.bitmap_options import BitmapOptions, BitmapSize
-from ..usecases.options import MakeOptions
+from ..usecases.job.options import MakeOptions
+from ..usecases.pixels.options import BitmapOptions, BitmapSize
 from .figure_eleven import FigureEleven, HeightMethod
 from .films.making import SAMPLES, make_film
 from .films.step import TEXTS, PublishedText
@@ -113,7 +113,7 @@ def _metal() -> bytes:
     """Return the metal of the sample of `better`, before and after."""
     name = "raster.ngc"
     done = better(name, resource("samples", name).read_bytes(), BetterOptions(cells=_FINE))
-    return stock_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed)
+    return stock_picture(done.old_cut.cut.workpiece, done.new_cut.cut.workpiece, done.smoothed.area)
 
 
 def _apparatus() -> PlotPage:

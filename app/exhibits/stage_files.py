@@ -17,11 +17,11 @@ from ..model.finding import Finding, worst_first
 from ..raster.codes import PixelCode, Plane
 from ..raster.frame import STAGES_BYTES
 from ..raster.steps import STEPS, StageObserver, StepState
-from ..usecases.bitmap_job import BitmapJob, bitmap_job
-from ..usecases.bitmap_options import is_picture
-from ..usecases.bitmap_way import BitmapProgram, compute_on_bitmap
-from ..usecases.options import MakeOptions
-from ..usecases.report import as_values
+from ..usecases.job.options import MakeOptions
+from ..usecases.making.bitmap_job import BitmapJob, bitmap_job
+from ..usecases.making.report import as_values
+from ..usecases.pixels.options import is_picture
+from ..usecases.pixels.way import BitmapProgram, compute_on_bitmap
 from .stages import Variant, stages
 
 Json = dict[str, Any]

@@ -23,8 +23,8 @@ from ..raster.published import published_marks, published_scan, wrong_pixels
 from ..raster.steps import StepState
 from ..raster.trace import PixelChain, chain_rows
 from ..raster.walls import Mask
-from ..usecases.bitmap_part import BitmapPart
-from ..usecases.bitmap_way import OperationPaths, PixelPath
+from ..usecases.pixels.part import BitmapPart
+from ..usecases.pixels.way import OperationPaths, PixelPath
 from .published_stages import long_line, published_angles, published_stages
 
 _CODES = {

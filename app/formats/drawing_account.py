@@ -15,7 +15,7 @@ from ..core.errors import InputError
 from ..core.wording import place_mm
 from ..geometry.affine import Affine, transformed
 from ..geometry.chaining.pieces import FARTHEST, straightened, within_reach
-from ..geometry.sample import bounds, union
+from ..geometry.sample import bounds, bounds_of_all
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from ..model.finding import Finding, FindingKind
 from ..model.notes import Mark
@@ -153,7 +153,7 @@ def size_of(part: Part, layers: tuple[str, ...] = ()) -> Size:
     requested = {layer.casefold() for layer in layers} or {
         layer.name.casefold() for layer in part.layers if layer.visible
     }
-    box = union([bounds(entity.curve) for entity in part.entities if entity.layer.casefold() in requested])
+    box = bounds_of_all(entity.curve for entity in part.entities if entity.layer.casefold() in requested)
     return (0.0, 0.0) if box is None else (box[2] - box[0], box[3] - box[1])
 
 

@@ -76,5 +76,8 @@ class DistanceField:
             kernels.inside_on_lines(self.rows, self.order, self.nodes, heights, first, points[along, 0], found)
             result[along] = found
             return result
-        kernels.inside_many(self.rows, self.order, self.nodes, points, result)
+        in_bands(
+            lambda part: kernels.inside_many(self.rows, self.order, self.nodes, points[part], result[part]),
+            len(points),
+        )
         return result

@@ -151,6 +151,7 @@ def build_tree(boxes):
         u = int((boxes[i, 0] + boxes[i, 2] - 2 * x0) / 2 / size * 65535)
         v = int((boxes[i, 1] + boxes[i, 3] - 2 * y0) / 2 / size * 65535)
         codes[i] = spread(u) | (spread(v) << 1)
+    # Morton order: rows that follow one another in it lie near one another, so leaves are small
     order = np.argsort(codes)
     leaves = 1
     while leaves * LEAF < n:
@@ -240,6 +241,7 @@ def nearest_from(rows, order, nodes, x, y, enough, limit, guess):
         while depth > 0:
             if both >> depth & 1 == 0:
                 both |= 1 << depth
+                # to the sibling, which was not looked at yet; its box may be out of reach by now
                 k = k + 1 if k % 2 == 1 else k - 1
                 if math.sqrt(_box_square(nodes, k, x, y)) < best:
                     break
@@ -292,6 +294,7 @@ def merge_within(points, owner, cell, columns, reach, group):
     most, first, last = reach * reach * (1 + 1e-12), 0, 0
     for i in range(len(points)):
         x, y, a = points[i, 0], points[i, 1], owner[i]
+        # of a row of cells the neighbours ahead are the same row's next cell and three cells of the next row
         while first < len(points) and cell[first] < cell[i] + columns - 1:
             first += 1
         last = max(last, first)
@@ -373,17 +376,19 @@ def _crossing_places(rows, j, y):
     """Return where row j crosses a height, infinity where it does not (half open in y).
 
     A row sweeps less than pi, so it has at most one y extremum; on a piece without one the circle's right side
-    is the one where a counter-clockwise arc rises.
+    is the one where a counter-clockwise arc rises. Whether a row crosses is told by its ends alone, by which its
+    neighbours tell it too: where one begins at its top, the circle's may be a rounding lower than the end.
     """
     ax, ay, bx, by, turn = rows[j, 0], rows[j, 1], rows[j, 2], rows[j, 3], rows[j, 7]
     if turn == 0.0:
         return (ax + (y - ay) / (by - ay) * (bx - ax) if (ay <= y) != (by <= y) else INF), INF
     cx, cy, r = rows[j, 4], rows[j, 5], rows[j, 6]
-    if abs(y - cy) > r:
+    if abs(y - cy) > r and (ay <= y) == (by <= y):
         return INF, INF
     h = math.sqrt(max(r * r - (y - cy) * (y - cy), 0.0))
     middle = by
     for end in (-r, r):
+        # the arc passes the extremum where it goes towards it at its beginning and away from it at its end
         if turn * (ax - cx) * end > 0.0 and turn * -end * (bx - cx) > 0.0:
             middle = cy + end
     first = cx + math.copysign(h, turn * (middle - ay)) if (ay <= y) != (middle <= y) else INF

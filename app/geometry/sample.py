@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -87,6 +88,32 @@ def union(boxes: list[Box]) -> Box | None:
         return None
     x0, y0, x1, y1 = zip(*boxes, strict=True)
     return (min(x0), min(y0), max(x1), max(y1))
+
+
+def bounds_of_all(curves: Iterable[Curve]) -> Box | None:
+    """Return the box round the bounds of all curves; None when there are none.
+
+    Of many splines few reach its sides: one whose control points lie within what others span is not asked, as it keeps
+    to their hull.
+    """
+    boxes, splines = list[Box](), list[Spline]()
+    for curve in curves:
+        if isinstance(curve, Spline) and min(curve.weights, default=1.0) > 0:
+            boxes.append(_box_of((curve.start, curve.end)))
+            splines.append(curve)
+        else:
+            boxes.append(bounds(curve))
+    box = union(boxes)
+    for spline in splines:
+        x0, y0, x1, y1 = _box_of(spline.control_points)
+        if box is None or x0 < box[0] or y0 < box[1] or x1 > box[2] or y1 > box[3]:
+            box = union([bounds(spline), *(() if box is None else (box,))])
+    return box
+
+
+def _box_of(points: Sequence[tuple[float, float]]) -> Box:
+    xs, ys = zip(*points, strict=True)
+    return (min(xs), min(ys), max(xs), max(ys))
 
 
 def quadrants(curve: Arc | Circle) -> list[tuple[float, float]]:

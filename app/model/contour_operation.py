@@ -22,11 +22,14 @@ from .operation import (
 _WITHIN = Condition(lambda operation: operation.side is Side.INSIDE, "a path inside", 'write side = "inside"')
 _FINISHED = Condition(lambda operation: operation.finish_width > 0, "a finish pass", "add finish_width = 0.2")
 _WORN = Condition(
-    lambda operation: operation.compensation is CutterCompensation.WEAR,
+    lambda operation: operation.compensation is not CutterCompensation.COMPUTER,
     "the wear word",
     'add compensation = "wear"',
     "--compensation wear",
 )
+
+_LEAST_LEFT = 0.1
+"""mm; of less stock to leave the contour's outer corners are arcs so small that rounding turns them anywhere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,11 +87,12 @@ class ContourOperation(Operation):
         CutterCompensation.COMPUTER,
         "compensation",
         "Compensation",
-        "who offsets the path: the computer, or by a wear word (G41, G42) also the control, from 0 on",
+        "who offsets the path: the computer; by a wear word (G41, G42) also the control, from 0 on; or the control "
+        "alone, by the tool's radius",
         Unit.CHOICE,
         option=True,
         group="Walls",
-        choices=("Computer", "Wear"),
+        choices=("Computer", "Wear", "Control"),
     )
     wear_range: float = parameter(
         0.1,
@@ -116,10 +120,10 @@ class ContourOperation(Operation):
                 "take them out."
             )
 
-        if self.compensation is CutterCompensation.WEAR:
-            self._check_wear()
+        if self.compensation is not CutterCompensation.COMPUTER:
+            self._check_compensated()
 
-    def _check_wear(self) -> None:
+    def _check_compensated(self) -> None:
         """Refuse what a control cannot offset."""
         if self.side is Side.ON:
             raise ParameterError("A path on the line has no side to offset it to; take compensation out.")
@@ -127,7 +131,9 @@ class ContourOperation(Operation):
             raise ParameterError(
                 "A control cannot offset dog-bones, where the path turns straight back; take them out, or compensation."
             )
-        if self.lead.kind is not LeadKind.LINE:
+        if self.compensation is CutterCompensation.CONTROL:
+            self._check_control()
+        elif self.lead.kind is not LeadKind.LINE:
             raise ParameterError(
                 'A control begins and ends compensation on a straight way; with compensation = "wear" the lead must be '
                 'straight: lead = "line".'
@@ -137,10 +143,34 @@ class ContourOperation(Operation):
                 f"Lead radius and lead overlap must be no less than the wear range, {self.wear_range:g} mm."
             )
 
+    def _check_control(self) -> None:
+        """Refuse what a control cannot offset by the whole radius."""
+        if self.lead.kind is not LeadKind.ARC:
+            raise ParameterError(
+                'With compensation = "control" the tool comes to the wall and leaves it by an arc, with a straight way '
+                'before and behind it for the control: lead = "arc".'
+            )
+        if self.most_engaged < 1:
+            raise ParameterError(
+                "The feed cannot be slowed by what is engaged where the control turns round corners by itself; with "
+                'compensation = "control" take most_engaged out.'
+            )
+        for name, left in (("stock to leave", self.cut.stock_to_leave), ("finish width", self.finish_width)):
+            if left and left < _LEAST_LEFT:
+                raise ParameterError(
+                    f'With compensation = "control" {name} is 0 or at least {_LEAST_LEFT:g} mm, not {left:g} mm: '
+                    "the contour is written that far from the wall, round its corners too."
+                )
+
     @property
     def wear(self) -> float:
         """How far the operator may offset its paths in the control, mm, either way; 0 = there is no word for it."""
-        return self.wear_range if self.compensation is CutterCompensation.WEAR else 0.0
+        return 0.0 if self.compensation is CutterCompensation.COMPUTER else self.wear_range
+
+    @property
+    def offset_by_control(self) -> bool:
+        """Whether its drawn contour is written, for the control to offset by the tool's whole radius."""
+        return self.compensation is CutterCompensation.CONTROL
 
     @property
     def wall_side(self) -> Side | None:

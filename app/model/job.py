@@ -273,10 +273,12 @@ class Job:
                 f"T{tool.number} is a drill, which cannot cut sideways; a {operation.WORD} operation needs a mill: "
                 "choose another tool, or make it a drill operation."
             )
-        if operation.CARVES and tool.kind is not ToolKind.V:
+        round_one = operation.CARVES_ROUND and tool.kind is ToolKind.BALL
+        if operation.CARVES and tool.kind is not ToolKind.V and not round_one:
+            either = " or a ball" if operation.CARVES_ROUND else ""
             raise ParameterError(
                 f"T{tool.number} {tool.label} is a {tool.kind.value} cutter; a {operation.WORD} operation needs a V "
-                "cutter with its angle: choose another tool, or give it kind and tip_angle."
+                f"cutter with its angle{either}: choose another tool, or give it kind and tip_angle."
             )
         return tool
 

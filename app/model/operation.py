@@ -50,10 +50,13 @@ class Side(Enum):
 
 
 class CutterCompensation(Enum):
-    """Who offsets a contour to its side: the program alone, or also the control, by the wear in the tool's register."""
+    """Who offsets a contour to its side: the program alone, also the control by the wear in the tool's register, or
+    the control alone, by the tool's whole radius.
+    """
 
     COMPUTER = "computer"
     WEAR = "wear"
+    CONTROL = "control"
 
 
 class Order(Enum):
@@ -220,6 +223,23 @@ STEPOVER = (
 
 
 @dataclass(frozen=True, slots=True)
+class CarvingCone:
+    """A cone all of which a cutter cuts, with which what is left of slanted walls is proven.
+
+    Attributes:
+        tip: radius of the flat at its end, mm; less by as much as it reaches over edges on purpose.
+        rate: mm of radius per mm of height.
+        greatest: how deep its tip goes at most, mm.
+        lifted: how much higher its tip is than the cutter's, mm.
+    """
+
+    tip: float
+    rate: float
+    greatest: float
+    lifted: float
+
+
+@dataclass(frozen=True, slots=True)
 class Operation:
     """What is to be done with one tool. A kind of operation is a subclass with parameters of its own, which `register`
     makes known.
@@ -236,6 +256,7 @@ class Operation:
         COARSE: whether its tool is the wide one, that goes over the area before others follow.
         FOLLOWS_WALLS: whether its path runs along the walls, or on the lines, and not over an area.
         CARVES: whether its cutter's cone makes slanted walls that end at the drawn lines, and no floor.
+        CARVES_ROUND: whether a ball makes such walls, too, hollow ones.
         FACES: whether it works on all of the stock's top, whatever is drawn.
     """
 
@@ -252,6 +273,7 @@ class Operation:
     COARSE: ClassVar[bool] = False
     FOLLOWS_WALLS: ClassVar[bool] = False
     CARVES: ClassVar[bool] = False
+    CARVES_ROUND: ClassVar[bool] = False
     FACES: ClassVar[bool] = False
 
     @property
@@ -312,14 +334,30 @@ class Operation:
         return None
 
     @property
+    def fastest_cut(self) -> float:
+        """Times the feed rate at which its tool goes at most, where less is engaged than at such an angle."""
+        return 1.0
+
+    @property
     def lift_between(self) -> float:
         """How high its tool goes between passes that keep to such an angle, over ground that is cut, mm."""
         return 0.0
+
+    def carved_by(self, tool: Tool) -> CarvingCone:
+        """Return the cone that its carving is proven with: that of its tool, narrower by what it reaches over edges."""
+        return CarvingCone(
+            tool.tip_diameter / 2 - self.over_edge, math.tan(tool.tip_angle / 2), self.deepest(tool), 0.0
+        )
 
     @property
     def wear(self) -> float:
         """How far the operator may offset its paths in the control, mm, either way; 0 = there is no word for it."""
         return 0.0
+
+    @property
+    def offset_by_control(self) -> bool:
+        """Whether its drawn contour is written, for the control to offset by the tool's whole radius."""
+        return False
 
     @property
     def outer_lead(self) -> Lead | None:
@@ -406,6 +444,17 @@ class AdaptiveOperation(Operation):
         math.radians(60), *MOST_ENGAGED, low=math.radians(15), high=math.radians(90), option=True, short="Most engaged"
     )
     lift: float = parameter(0.2, *LIFT, high=100.0, option=True)
+    feed_up_to: float = parameter(
+        1.0,
+        "feed_up_to",
+        "Feed up to",
+        "of the feed rate, along arcs where so little is engaged that chips are no thicker than at the angle; 100 %: "
+        "never faster",
+        Unit.SHARE,
+        low=1.0,
+        high=3.0,
+        option=True,
+    )
 
     open_edges: bool = parameter(False, *OPEN_EDGES, option=True)
 
@@ -425,6 +474,11 @@ class AdaptiveOperation(Operation):
     def opens_edges(self) -> bool:
         """Whether its area goes on past the stock's edges, where walls lie on them."""
         return self.open_edges
+
+    @property
+    def fastest_cut(self) -> float:
+        """Times the feed rate at which the tool goes at most, where less is engaged than at the angle."""
+        return self.feed_up_to
 
     @property
     def lift_between(self) -> float:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import NamedTuple
+
 from .chamfer_operation import ChamferOperation
 from .contour_operation import ContourOperation
 from .face_operation import FaceOperation
@@ -13,12 +16,29 @@ from .hole_operations import (
     TapOperation,
     ThreadOperation,
 )
-from .operation import AdaptiveOperation, DrillOperation, Operation, PocketOperation, RestOperation
+from .operation import AdaptiveOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from .slot_operation import SlotOperation
 from .vcarve_operation import VcarveOperation
 
 OPERATION_KINDS: dict[str, type[Operation]] = {}
 """By the words of job files, reports and NC headers; `register` adds to it."""
+
+
+@dataclass(frozen=True)
+class OperationAlias:
+    """What jobs may also call a kind of operation.
+
+    Attributes:
+        kind: its word. key, value: of the parameter that makes it what the other word says.
+    """
+
+    kind: str
+    key: str
+    value: object
+
+
+ALIASES = {"engrave": OperationAlias(ContourOperation.WORD, "side", Side.ON)}
+"""By the other word."""
 
 
 def register(kind: type[Operation]) -> None:
@@ -55,11 +75,18 @@ def declared() -> dict[str, ParameterPlace]:
     return {key: placed for kind in OPERATION_KINDS.values() for key, placed in declared_of(kind).items()}
 
 
-def parameters() -> dict[str, tuple[ParameterPlace, tuple[type[Operation], ...]]]:
+class UsedParameter(NamedTuple):
+    """A parameter, and the kinds of operation that it has an effect on."""
+
+    place: ParameterPlace
+    kinds: tuple[type[Operation], ...]
+
+
+def parameters() -> dict[str, UsedParameter]:
     """Return every parameter of every kind by key, and the kinds that it has an effect on."""
-    found: dict[str, tuple[ParameterPlace, tuple[type[Operation], ...]]] = {}
+    found: dict[str, UsedParameter] = {}
     for kind in OPERATION_KINDS.values():
         for key, placed in parameters_of(kind).items():
             first, kinds = found.get(key, (placed, ()))
-            found[key] = (first, (*kinds, kind))
+            found[key] = UsedParameter(first, (*kinds, kind))
     return found

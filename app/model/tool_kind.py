@@ -87,7 +87,7 @@ class ToolKind(_KindsAtHand):
         assumed_angle: full angle of its point where nobody tells it, radians; 0 = it must be told.
         usual_angle: full angle, radians, that a tool gets which becomes one of these and has none; 0 = it needs none.
         short_title: its name for people where there is little room; "" = the title.
-        aliases: other words for it in spreadsheets.
+        aliases: other words for it in spreadsheets and job files.
     """
 
     value: str
@@ -110,6 +110,11 @@ class ToolKind(_KindsAtHand):
     def words(cls) -> Mapping[str, ToolKind]:
         """Return every kind by its word."""
         return _KINDS
+
+    @classmethod
+    def other_words(cls) -> Mapping[str, str]:
+        """Return the words of kinds that are also called something else, by what they are called."""
+        return {alias: kind.value for kind in _KINDS.values() for alias in kind.aliases}
 
     @property
     def conical(self) -> bool:

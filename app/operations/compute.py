@@ -11,7 +11,6 @@ from ..core.effort import announce
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.overlay.overlay import OverlayResult, without_crossings
 from ..geometry.region import nested
-from ..model.face_operation import FaceOperation
 from ..model.finding import Finding, FindingKind, worst_first
 from ..model.job import Job
 from ..model.moves import Program
@@ -173,7 +172,7 @@ def in_order(job: Job) -> list[int]:
 
 def unfaced(job: Job, operations: Sequence[int]) -> list[Finding]:
     """Return that the first operation does not take off what stands above Z 0, though something does."""
-    if not job.stock.above or (operations and isinstance(job.operations[operations[0]], FaceOperation)):
+    if not job.stock.above or (operations and job.operations[operations[0]].FACES):
         return []
     text = (
         f"{job.stock.above:g} mm of the stock stand above Z 0, and the first operation does not face them off; the "

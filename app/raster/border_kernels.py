@@ -101,6 +101,8 @@ def borders(index, seen, starts, chain):
                 if seen[r, c] >> (level - before - 1) & 1:
                     continue
                 start[0], start[1], start[2] = r, c, level
+                # where `chain` is full, tracing goes on without writing, so that the caller learns how much room it
+                # needs
                 length = _trace_one(index, seen, start, chain[min(used, len(chain)) :])
                 if count < len(starts):
                     starts[count, 0], starts[count, 1], starts[count, 2] = r, c, level

@@ -63,6 +63,7 @@ def _envelope(height, first, stop, nearest, halves):
         # c is nearer than p where 2 x (c - p) > own - key of p
         while top >= 0 and own - key[top] < 2 * begins[top] * (c - place[top]):
             top -= 1
+        # the first whole x at which c wins: x > (own - key of p) / (2 (c - p))
         at = math.floor((own - key[top]) * halves[c - place[top]] + EXACT) + 1 if top >= 0 else first
         if at < stop:
             top += 1

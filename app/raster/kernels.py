@@ -40,6 +40,7 @@ def _touch(plane, u, v):
 @kernel("UniTuple(int64, 2)(float64, float64, int64)")
 def _centre_lines(a, b, count):
     """Return the range [first, stop) of centre lines i + 0.5 with min < i + 0.5 <= max, within the picture."""
+    # bounded first: a contour far off the picture must not become a loop of that many rows
     low = math.floor(min(max(min(a, b), -1.0), count + 1.0) - 0.5) + 1
     high = math.floor(min(max(max(a, b), -1.0), count + 1.0) - 0.5) + 1
     return max(int(low), 0), min(int(high), count)
@@ -49,6 +50,7 @@ def _centre_lines(a, b, count):
 def _draw_line(plane, left, u0, v0, u1, v1):
     first, stop = _centre_lines(v0, v1, plane.shape[0])
     for j in range(first, stop):
+        # clamped to the line's own ends, which rounding may leave by a bit
         u = u0 + (j + 0.5 - v0) / (v1 - v0) * (u1 - u0)
         _cross(plane, left, j, min(max(u, min(u0, u1)), max(u0, u1)))
     first, stop = _centre_lines(u0, u1, plane.shape[1])
@@ -176,6 +178,7 @@ def _trace_one(plane, r, c, chain):
         i += 1 if d in (0, 1, 7) else -1 if d in (3, 4, 5) else 0
         j -= 1 if d in (1, 2, 3) else -1 if d in (5, 6, 7) else 0
         plane[j, i] = 2
+        # two directions before the incoming one, the rule of step 202; see `trace`
         d = _next_direction(plane, j, i, (d + 6) % 8)
         if j == r and i == c and d == first:
             break

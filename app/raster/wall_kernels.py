@@ -30,6 +30,7 @@ def _mark(touched, u, v):
 @kernel("void(uint8[:, ::1], int64, float64)")
 def _flip(flips, row, u):
     """Note a crossing of a row's centre line: every pixel whose centre lies right of it changes sides."""
+    # pixel i has its centre at i + 0.5, so the first one right of u is the least i >= u - 0.5
     first = math.ceil(min(max(u, 0.0), flips.shape[1] + 1.0) - 0.5)
     if first < flips.shape[1]:
         flips[row, int(first)] ^= 1
@@ -116,6 +117,7 @@ def close_seams(rows, free):
             for j in range(
                 int(max(math.floor(min(a[1], b[1])), 0)), int(min(math.ceil(max(a[1], b[1])), free.shape[0]))
             ):
+                # of two free pixels the right one goes; of those above one another, the lower one
                 if free[j, i - 1] == 1:
                     free[j, i] = 0
         elif a[1] == b[1] and 0 < a[1] < free.shape[0]:

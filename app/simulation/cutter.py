@@ -86,6 +86,16 @@ class Cutter:
             else min(self.radius, self.rim_of_fillet + (height - top) / self.slope)
         )
 
+    def radii_at(self, heights: Floats) -> Floats:
+        """Return `radius_at` of heights (n,), mm."""
+        top = self.fillet - math.sqrt(max(self.fillet**2 - self.fillet_span**2, 0.0))
+        on_fillet = self.flat + np.sqrt(np.maximum(self.fillet**2 - (self.fillet - heights) ** 2, 0.0))
+        on_cone = np.full(len(heights), self.radius)
+        if not math.isinf(self.slope):
+            on_cone = np.minimum(self.radius, self.rim_of_fillet + (heights - top) / self.slope)
+        found: Floats = np.where(heights < 0, 0.0, np.where(heights < top, on_fillet, on_cone))
+        return found
+
     def grown(self, by: float) -> Cutter:
         """Return the cutter that cuts, at a point, at least as deep as this one does within `by` mm of it; by >= 0."""
         return replace(self, radius=self.radius + by, flat=self.flat + by)

@@ -40,9 +40,7 @@ def _ensure_whole(name: str, data: bytes) -> None:
         version = npy.read_magic(stream)
         shape, _, kind = (npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0)(stream)
         promised = math.prod(shape) * kind.itemsize
-    except (
-        Exception
-    ) as error:  # numpy has Python itself read the header: any fault of a tokenizer, a parser or a number may come
+    except Exception as error:  # Python itself reads the header: its tokenizer and parser raise whatever they meet
         said = (str(error).splitlines() or [type(error).__name__])[0][:_QUOTED]
         raise InputError(f"{what}, for its header is damaged ({said}); write it again with --heights.") from None
     rest = len(data) - stream.tell()

@@ -109,6 +109,7 @@ def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget
     while first < last:
         u, v, half = squares[first]
         first += 1
+        # half a diagonal: no point of the square is farther from its centre
         q = half * 1.4142135623730951
         off = math.hypot(max(0.0, -u, u - length), v)
         if off - q >= radius or (at_start and u + half <= 0.0) or (at_end and u - half >= length):
@@ -118,6 +119,7 @@ def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget
             return False
         x, y = ax + ux * u - uy * v, ay + uy * u + ux * v
         gap = beyond(rows, reach, order, nodes, best, trees, x, y, z, slack - q, slack + 1e-9)[0]
+        # distance changes by no more than the way gone, so all of the square is cut
         if gap + q <= slack:
             continue
         if gap > slack and off < radius:

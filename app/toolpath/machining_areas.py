@@ -29,7 +29,7 @@ from ..model.part import Contour, Region
 from ..model.stock_box import extent
 from .drawn_contours import DrawnContours
 from .drill_holes import CircleHole, circle_of, hole_regions, made_by_drills
-from .leads.lead import lead_size
+from .leads.lead import lead_size, straight_way
 from .open_edges import BoxSides, OpenedArea, opened
 from .selected import selected
 from .witness import grown_findings, region_findings
@@ -262,7 +262,7 @@ class MachiningAreas:
         """
         tool = self.job.tool(operation.cut.tool)
         wall = tool.radius + operation.roughed_allowance
-        return 2 * wall + lead_size(lead, tool) + _SPARE
+        return 2 * wall + lead_size(lead, tool) + straight_way(operation, tool) + operation.wear + _SPARE
 
 
 def lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.bool_]:

@@ -44,6 +44,7 @@ def beginnings(rows, purpose, heights):
             and (len(heights) == 0 or heights[i] == heights[i - 1])
             and math.hypot(rows[i, 4] - rows[i - 1, 4], rows[i, 5] - rows[i - 1, 5]) < _SAME_CENTRE
             and abs(rows[i, 6] - rows[i - 1, 6]) < _SAME_CENTRE
+            # an arc of a full turn begins where it ends, and controls read that as no move or as a whole circle
             and total + turn < _WHOLE
         )
         if goes_on:

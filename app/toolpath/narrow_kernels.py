@@ -39,8 +39,10 @@ def widest_way(room, side, pitch, start, end):
         for r in range(max(row - 1, 0), min(row + 2, side)):
             for c in range(max(column - 1, 0), min(column + 2, side)):
                 j = r * side + c
+                # discs that overlap leave no wall between the two points
                 if done[j] or room[k] + room[j] <= pitch * math.sqrt(float((r - row) ** 2 + (c - column) ** 2)):
                     continue
+                # a way is as wide as its narrowest point
                 least = min(widest[k], room[j])
                 if least > widest[j]:
                     widest[j], before[j] = least, k

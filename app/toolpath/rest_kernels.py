@@ -104,6 +104,8 @@ def _within_one(rows, order, nodes, chunk, limit):
             middle = point_distance(rows, j, mx, my)
             if middle > limit:
                 continue
+            # what lies within `limit` of a row that hardly bends is convex, so three points of a short chunk speak for
+            # all of it
             if middle + half <= limit or (
                 point_distance(rows, j, ax, ay) <= limit and point_distance(rows, j, bx, by) <= limit
             ):
@@ -160,6 +162,7 @@ def left_cells(rows, order, nodes, cutters, bound, bound_order, bound_nodes, rul
         while top > 0:
             top -= 1
             x, y, half = stack[top, 0], stack[top, 1], stack[top, 2]
+            # halves are exact but for rounding; of one cell the first point that is found is enough
             if half <= cell * 1.001:
                 if half >= cell * 0.999:
                     cell_x, cell_y, found = x, y, False
@@ -267,6 +270,7 @@ def _worth(size, span, start, first, seen, cleared, seen_by):
         if not cleared[c]:
             gain += seen_by[c] == 0
             seen_by[c] += 1
+    # rows at either end that clear nothing which no other row of the span clears go
     for side in range(2):
         while stop - begin > 1:
             i, needed = begin if side == 0 else stop - 1, False
@@ -317,6 +321,7 @@ def choose(size, spans, start, first, seen, cells, out):
         worth, begin, stop = _worth(size, spans[best], start, first, seen, cleared, seen_by)
         if worth <= 0.0:
             continue
+        # worths fall as cells are cleared, so one that is still the best when it is reckoned anew is taken
         if len(heap) > 0 and worth < -heap[0][0] * 0.999:
             heapq.heappush(heap, (-worth, best))
             continue

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from ..core.errors import GeometryError
@@ -16,8 +16,8 @@ from ..model.tool import Tool
 from ..operations.compute import regions_of
 from ..toolpath.advice.advise import Advice, RegionAdvice, ToolChoice, advise, standard_tools
 from ..toolpath.advice.time import CuttingPlan
-from .layers import with_layers_spelled
-from .plausible import read_plausible
+from .job.layers import with_layers_spelled
+from .job.plausible import read_plausible
 
 Json = dict[str, Any]
 
@@ -80,7 +80,7 @@ def advice_for(name: str, data: bytes, options: AdviceOptions, progress: Progres
     )
     job = Job(drawing.part, layer_names=options.layers)
     if options.join_tolerance is not None:
-        job = Job(drawing.part, layer_names=options.layers, join_tolerance=options.join_tolerance)
+        job = replace(job, join_tolerance=options.join_tolerance)
     regions, findings = regions_of(with_layers_spelled(job))
     if not regions:
         said = " ".join(finding.text for finding in findings[:3])

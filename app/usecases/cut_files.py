@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from ..formats.plot.height_image import HeightImage, height_image
 from ..simulation.heights_file import heights_files
-from .cut import CutProgram
-from .cut_report import CutReport
+from .cutting.cut import CutProgram
+from .cutting.report import CutReport
 
 
 def heights_of(done: CutProgram) -> tuple[bytes, bytes]:

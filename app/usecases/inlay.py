@@ -36,10 +36,10 @@ from ..model.stock_box import extent
 from ..operations.vcarve.paths import RIDGE, flat_tool_of
 from ..toolpath.drawn_contours import drawn_contours
 from ..toolpath.selected import selected
-from .cut import CutOptions, CutProgram, cut
-from .make import MakeResult, export, job_from_drawing
-from .options import MakeOptions
-from .plausible import read_for
+from .cutting.cut import CutOptions, CutProgram, cut
+from .job.options import MakeOptions
+from .job.plausible import read_for
+from .making.make import MakeResult, export, job_from_drawing
 
 SIDEWAYS = 0.005
 """mm beside a wall; by so much plug and pocket may overlap before it counts: wood gives way."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from .make import MakeResult
+from .making.make import MakeResult
 
 _JOB_HEAD = "# A job file of Hitofude for {}: `hitofude make DRAWING -o OUT.ngc --job` this file."
 
@@ -27,7 +27,7 @@ def other_files(made: MakeResult, requested: Mapping[str, Path], drawing: bytes 
         texts["write_job"] = ("\n".join([_JOB_HEAD.format(made.job.part.name), *job_lines(made.job)]) + "\n").encode()
     if "image" in requested:
         from ..formats.plot.plot import plot
-        from .picture import picture_of
+        from .making.picture import picture_of
 
         picture = picture_of(made.job.part.name, made.program, made.coverage)
         texts["image"] = plot(picture, requested["image"].suffix.lower())

@@ -15,13 +15,13 @@ from .better.report import findings as better_findings
 from .better.report import lines as better_lines
 from .better.report import report as better_report
 from .better.result import BetterOptions, BetterProgram
-from .surface import ComputedScene, compute
-from .surface_loop import closed_loop
-from .surface_nc import WrittenScene, write_scene_nc
-from .surface_plot import PlotScene, plot_surface
-from .surface_points import scene_points_csv
-from .surface_report import SurfaceReport, surface_report
-from .surface_smooth import CurvesOverSurfaces, SmoothedScene, smooth_scene, standing_off
+from .scene.compute import ComputedScene, compute
+from .scene.plot import PlotScene, plot_surface
+from .scene.points import scene_points_csv
+from .scene_program.loop import closed_loop
+from .scene_program.nc import WrittenScene, write_scene_nc
+from .scene_program.report import SurfaceReport, surface_report
+from .scene_program.smooth import CurvesOverSurfaces, SmoothedScene, smooth_scene, standing_off
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ def by_facets(written: WrittenScene, how: BetterOptions, progress: Progress = NO
     D): over a smooth surface through the places where facets meet, its cut within the tolerance of the facets' own.
 
     Raises:
-        InputError: several tools, another than a ball, passes that are not parallel, or a true edge among the facets.
+        InputError: several tools, passes that do not lie beside one another, or facets that tell of no smooth surface.
         HitofudeError: it cannot be computed. Cancelled: the job was asked to stop.
     """
     [file, *more] = written.files

@@ -103,8 +103,7 @@ def cutting_radius(moves: Moves, job: Job) -> Floats:
         if tool.kind.square:
             wide[mine] = tool.radius
         else:
-            cutter = cutter_of(tool)
-            wide[mine] = [cutter.radius_at(each) for each in height[mine].tolist()]
+            wide[mine] = cutter_of(tool).radii_at(height[mine])
     return wide
 
 

@@ -3,24 +3,25 @@
 Behind each place of a wall, along its normal, lies the largest disc that touches the wall there and holds no other: its
 centre c, its radius r. A cone as wide as r at c cuts all that lies between as deep as the wall is far. What cone there
 was, as wide as w round p, leaves nowhere between more than r - w + |c - p|, by the triangle's inequality: so what is
-left at c bounds what is left all the way to the wall. Discs are found by halving, on the distance field of the drawn
-curves alone; nothing is known of how the path was made.
+left at c bounds what is left all the way to the wall. Discs are found on the distance field of the drawn curves alone;
+nothing is known of how the path was made.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
+from ..core.pool import in_bands
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.distance import DistanceField
+from ..geometry.kernels import build_tree
 from ..geometry.primitives import CX, TURN, Primitives, R, lengths, points_at, sweeps
-from ..toolpath.linking.bridge import foot
+from . import carved_kernels as kernels
 
 Floats = NDArray[np.float64]
 
@@ -36,14 +37,11 @@ _FAN = math.radians(2)
 _ROUNDS = 10
 """Times that discs are put between those that are farther apart than STEP."""
 
-_SHRINKS, _HALVINGS = 12, 44
 _EMPTY = 1e-9
-_PORTION = 96
-_NEAR = 0.25
-"""mm; motions farther than this from a portion's discs are left aside, and asked where the others leave too much."""
+"""mm that a wall may reach into a disc that counts as empty."""
 
-_TOO_MUCH = 4e-3
-"""mm; less than counts as left."""
+_PORTION = 100_000
+"""Places between two looks at whether to stop."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,12 +99,9 @@ def prove_roof(path: ConePath, walls: Primitives, reported: float, progress: Pro
     discs = _discs(elements, DistanceField.of(walls.rows), most, progress.part(0.0, 0.5))
     blunt = discs.radius < path.tip
     left = np.zeros(len(blunt))
-    carving = _Carving.of(path)
-    chosen = np.flatnonzero(~blunt)
-    for first in range(0, len(chosen), _PORTION):
-        progress.step(0.5 + 0.5 * first / len(chosen), "Prove what is carved")
-        some = chosen[first : first + _PORTION]
-        left[some] = _uncarved(carving, discs.centres[some], discs.radius[some])
+    left[~blunt] = _Carving.of(path).uncarved(
+        discs.centres[~blunt], discs.radius[~blunt], reported * path.rate, progress.part(0.5, 1.0)
+    )
     height = left / path.rate
     worst = int(np.argmax(height))
     x, y = discs.centres[worst].tolist()
@@ -221,104 +216,81 @@ def _discs(walls: _Elements, field: DistanceField, most: float, progress: Progre
 
 
 def _largest(field: DistanceField, feet: Floats, normals: Floats, most: float, progress: Progress) -> Floats:
-    """Return the radius of the largest disc behind each foot that holds no wall, up to so many mm.
+    """Return the radius of the largest disc behind each foot that holds no wall, up to so many mm."""
+    found = np.empty(len(feet))
 
-    None that is empty is larger than the one through the foot and any place of a wall, so the place that is nearest to
-    a disc's centre makes it smaller until it is empty. What takes longer, as where a wall bends as much as the disc, is
-    found by halving: a smaller disc in an empty one is empty.
-    """
-    found, left = np.full(len(feet), most), np.arange(len(feet))
-    for k in range(_SHRINKS):
-        progress.step(k / _SHRINKS, "Prove what is carved")
-        centres = feet[left] + normals[left] * found[left, None]
-        far, row = field.nearest(centres)
-        full = far < found[left] - _EMPTY
-        left, centres, row = left[full], centres[full], row[full]
-        if not len(left):
-            return found
-        across = foot(field.rows[row], centres) - feet[left]
-        ahead = np.einsum("ni,ni->n", across, normals[left])
-        through = np.einsum("ni,ni->n", across, across) / np.maximum(2 * ahead, 1e-300)
-        found[left] = np.where(ahead > 0, np.minimum(through, found[left]), found[left])
-    low, high = np.zeros(len(left)), found[left]
-    for _ in range(_HALVINGS):
-        radius = (low + high) / 2
-        empty = field.nearest(feet[left] + normals[left] * radius[:, None])[0] >= radius - _EMPTY
-        low, high = np.where(empty, radius, low), np.where(empty, high, radius)
-    found[left] = low
+    def measure(some: slice) -> None:
+        kernels.largest_empty(
+            field.rows, field.order, field.nodes, feet[some], normals[some], most, _EMPTY, found[some]
+        )
+
+    _in_portions(measure, len(feet), progress)
     return found
+
+
+def _in_portions(work: Callable[[slice], None], count: int, progress: Progress) -> None:
+    """Have so many things done on all cores, in portions between which the job may be stopped."""
+    for first in range(0, count, _PORTION):
+        progress.step(first / count, "Prove what is carved")
+
+        def some(part: slice, begin: int = first) -> None:
+            work(slice(begin + part.start, begin + part.stop))
+
+        in_bands(some, min(_PORTION, count - first))
 
 
 @dataclass(frozen=True, eq=False)
 class _Carving:
-    """Motions of a cone, found by where they are.
+    """Motions of a cone, found by where they are and how wide it is there.
 
     Attributes:
-        low, high: (n, 2) corners of their boxes. wide: (n,) radius of the cone at the surface, where it is deepest, mm.
-        tree: of the boxes.
+        motions: (n, 7) as `kernels.least_left` wants them.
+        order, nodes: tree of their boxes. widest: of the cone on the motions below each node, mm.
     """
 
-    path: ConePath
-    low: Floats
-    high: Floats
-    wide: Floats
-    tree: shapely.STRtree
+    motions: Floats
+    order: NDArray[np.int64]
+    nodes: Floats
+    widest: Floats
 
     @staticmethod
     def of(path: ConePath) -> _Carving:
-        low, high = (pick(path.start[:, :2], path.end[:, :2]) for pick in (np.minimum, np.maximum))
-        wide = path.tip - np.minimum(path.start[:, 2], path.end[:, 2]) * path.rate
-        return _Carving(path, low, high, wide, shapely.STRtree(shapely.box(*low.T, *high.T)))
+        start, way = path.start[:, :2], path.end[:, :2] - path.start[:, :2]
+        size = np.hypot(*way.T)
+        unit = way / np.maximum(size, 1e-300)[:, None]
+        first = path.tip - path.start[:, 2] * path.rate
+        growth = (path.start[:, 2] - path.end[:, 2]) * path.rate
+        motions = np.column_stack([start, unit, size, first, growth])
+        boxes = np.hstack([pick(start, path.end[:, :2]) for pick in (np.minimum, np.maximum)])
+        order, nodes = build_tree(boxes) if len(boxes) else (np.zeros(0, np.int64), np.zeros((0, 4)))
+        widest = np.empty(len(nodes))
+        kernels.widest_below(motions, order, nodes, widest)
+        return _Carving(motions, order, nodes, widest)
 
-    def near(self, centres: Floats, radius: Floats, left: float, far: float) -> NDArray[np.int64]:
-        """Return the motions within a distance of some discs, mm, that may leave less of one of them than so much, mm.
+    def uncarved(self, centres: Floats, radius: Floats, reported: float, progress: Progress) -> Floats:
+        """Return by how much cones are too narrow or too far from discs, mm, each by the motion that is best for it.
 
-        A cone leaves at least the distance of its axis and the disc's radius, less its own at the surface.
+        Exact where it is more than `reported`, and where it is most of all.
         """
-        first, last = centres.min(axis=0), centres.max(axis=0)
-        around = shapely.box(*(first - far), *(last + far))
-        found: NDArray[np.int64] = np.sort(self.tree.query(around))
-        beside = np.hypot(*np.maximum(np.maximum(first - self.high[found], self.low[found] - last), 0).T)
-        near: NDArray[np.int64] = found[(radius.min() - self.wide[found] + beside <= left) & (beside <= far)]
-        return near
+        left = np.full(len(radius), np.inf)
+        if not len(self.motions):
+            return left
 
+        def measure(some: slice) -> None:
+            kernels.least_left(
+                self.motions,
+                self.order,
+                self.nodes,
+                self.widest,
+                centres[some],
+                radius[some],
+                reported,
+                0.0,
+                left[some],
+            )
 
-def _uncarved(carving: _Carving, centres: Floats, radius: Floats) -> Floats:
-    """Return by how much cones are too narrow or too far from discs, mm, each by the motion that is best for it."""
-    found = _by_motions(carving.path, carving.near(centres, radius, _NEAR, _NEAR), centres, radius)
-    again = np.flatnonzero(found > _TOO_MUCH)
-    if len(again):
-        near, small = centres[again], radius[again]
-        left = min(float(found[again].max()), float(small.max() + np.abs(carving.wide).max()))
-        far = max(_NEAR, float(carving.wide.max() - small.min()) + left)
-        more = _by_motions(carving.path, carving.near(near, small, left, far), near, small)
-        found[again] = np.minimum(found[again], more)
-    lost = np.flatnonzero(np.isinf(found))
-    if len(lost):
-        found[lost] = _by_motions(carving.path, np.arange(len(carving.wide)), centres[lost], radius[lost])
-    return found
-
-
-def _by_motions(path: ConePath, motions: NDArray[np.int64], centres: Floats, radius: Floats) -> Floats:
-    if not len(motions):
-        return np.full(len(radius), np.inf)
-    start, way = path.start[motions, :2], path.end[motions, :2] - path.start[motions, :2]
-    size = np.hypot(*way.T)
-    first = path.tip - path.start[motions, 2] * path.rate
-    growth = (path.start[motions, 2] - path.end[motions, 2]) * path.rate
-    unit = way / np.maximum(size, 1e-300)[:, None]
-    off = centres[:, None] - start[None]
-    along = np.einsum("mni,ni->mn", off, unit)
-    aside = np.abs(off[:, :, 0] * unit[:, 1] - off[:, :, 1] * unit[:, 0])
-    slope = growth / np.maximum(size, 1e-300)
-    gentle = np.clip(slope, -1 + 1e-12, 1 - 1e-12)
-    best = along + aside * gentle / np.sqrt(1 - gentle**2)
-    share = np.clip(best / np.maximum(size, 1e-300), 0.0, 1.0)
-    share = np.where(size > 0, share, np.where(growth > 0, 1.0, 0.0))
-    place = start[None] + way[None] * share[:, :, None]
-    apart = np.hypot(centres[:, None, 0] - place[:, :, 0], centres[:, None, 1] - place[:, :, 1])
-    left: Floats = (apart + radius[:, None] - first[None] - growth[None] * share).min(axis=1)
-    return left
+        _in_portions(measure, len(radius), progress)
+        return left
 
 
 def straightened(rows: Floats, heights: Sequence[tuple[float, float]] | Floats, chord: float) -> tuple[Floats, Floats]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -38,13 +38,37 @@ Trimming = Callable[[Mapping[int, Cutter], TrimOptions, Progress], Heights]
 """Cuts all programs with other cutters, and gives the heights that are left."""
 
 
-def certify(
-    before: Workpiece,
-    part: PartTarget,
-    cutters: Mapping[int, Cutter],
-    trimming: Trimming,
-    progress: Progress = NO_PROGRESS,
-) -> Certificate:
+@dataclass(frozen=True, eq=False)
+class HeightBounds:
+    """Heights that bound what is left all over each cell of a work piece, (rows, cols) float32 mm.
+
+    Attributes:
+        low: nowhere in the cell is metal cut deeper, rapids counted as cuts.
+        high: nowhere in it is more left, rapids counted as none.
+    """
+
+    low: Heights
+    high: Heights
+
+
+def bounded(
+    before: Workpiece, cutters: Mapping[int, Cutter], trimming: Trimming, progress: Progress = NO_PROGRESS
+) -> HeightBounds:
+    """Return what bounds the heights that are left: two cuts more, which need to know nothing of a part.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    pitch = before.grid.pitch
+    off = pitch / math.sqrt(2.0) + helix_chord(pitch)
+    wide = {number: cutter.grown(off) for number, cutter in cutters.items()}
+    slim = {number: cutter.shrunk(off) or replace(cutter, lift=NOWHERE) for number, cutter in cutters.items()}
+    progress.step(0.0, "Looking between the cells")
+    low = trimming(wide, TrimOptions(Rapids.CUT), progress.part(0.0, 0.5))
+    return HeightBounds(low, trimming(slim, TrimOptions(Rapids.IGNORED), progress.part(0.5, 1.0)))
+
+
+def certify(before: Workpiece, part: PartTarget, bounds: HeightBounds, progress: Progress = NO_PROGRESS) -> Certificate:
     """Return how far from the part any point can be that was cut or left.
 
     Rapids count as cuts for the one and as none for the other. Of metal left only what lies within reach is spoken of.
@@ -57,12 +81,7 @@ def certify(
     from ..simulation.field.judge_kernels import farthest
 
     pitch = before.grid.pitch
-    half, chord = pitch / math.sqrt(2.0), helix_chord(pitch)
-    wide = {number: cutter.grown(half + chord) for number, cutter in cutters.items()}
-    slim = {number: cutter.shrunk(half + chord) or replace(cutter, lift=NOWHERE) for number, cutter in cutters.items()}
-    progress.step(0.0, "Looking between the cells")
-    low = trimming(wide, TrimOptions(Rapids.CUT), progress.part(0.0, 0.4))
-    high = trimming(slim, TrimOptions(Rapids.IGNORED), progress.part(0.4, 0.8))
+    half = pitch / math.sqrt(2.0)
     target, stock = frozen(part.target.around), frozen(before.heights)
     spoken = frozen(np.where(part.reach, part.target.high, np.float32(np.inf)))
 
@@ -73,10 +92,10 @@ def certify(
             + ROUNDING
         )
 
-    gouge = worst(low, stock, 1)
+    gouge = worst(bounds.low, stock, 1)
     if part.solid is not None and gouge > pitch + 2 * half:
-        gouge = min(gouge, _in_solid(part.solid, part, low, before, progress.part(0.8, 1.0)) + ROUNDING)
-    return Certificate(gouge, worst(high, spoken, -1), pitch)
+        gouge = min(gouge, _in_solid(part.solid, part, bounds.low, before, progress.part(0.5, 1.0)) + ROUNDING)
+    return Certificate(gouge, worst(bounds.high, spoken, -1), pitch)
 
 
 def _in_solid(part: SolidPart, target: PartTarget, low: Heights, before: Workpiece, progress: Progress) -> float:

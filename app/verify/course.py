@@ -46,7 +46,9 @@ def course_of(program: NcProgram) -> KnownCourse:
     unknown = np.asarray(nowhere.any(axis=1))
     from_nowhere = from_nowhere_of(program, nowhere)
     curved = motions.kind >= MotionKind.ARC_CW
-    start = np.where(from_nowhere & ~curved[:, None], motions.end, motions.start)
+    start, moved = motions.start, from_nowhere & ~curved[:, None] & (motions.start != motions.end)
+    if moved.any():  # else it is not held twice
+        start = np.where(moved, motions.end, start)
     first = int(np.argmin(unknown)) if not unknown.all() else len(unknown)
     left_out = unknown | (curved & from_nowhere.any(axis=1))
     begins = bool(first < len(unknown) and not from_nowhere[first].any())

@@ -78,6 +78,9 @@ def _carve(part: FlatPart, bound: OperationBound, target: FlatTarget) -> None:
     What is left is spoken of where a pointed cone gets to the drawn depth; a flat tip leaves corners, and the middle of
     what is wider than the cone belongs to other tools.
     """
+    if balls := _balls(part, bound):
+        _carve_round(part, bound, balls, target)
+        return
     cones = [tool for tool in part.job.tools if tool.number in bound.tools and tool.kind is ToolKind.V]
     if not cones:
         return
@@ -99,6 +102,56 @@ def _carve(part: FlatPart, bound: OperationBound, target: FlatTarget) -> None:
         sharp = spoken & (depth < bound.floor)
         high[sharp] = surface[sharp] + slack
         target.reach[sharp] = True
+
+
+def _balls(part: FlatPart, bound: OperationBound) -> list[float]:
+    """Return the radii of the balls that carve what a bound speaks of, mm."""
+    tools = {part.job.operations[k].cut.tool for k in bound.operations}
+    return [tool.radius for tool in part.job.tools if tool.number in tools and tool.kind is ToolKind.BALL]
+
+
+def _carve_round(part: FlatPart, bound: OperationBound, balls: list[float], target: FlatTarget) -> None:
+    """Put in the hollow edges that a ball makes which goes so deep, as far over the drawn lines as the bound says.
+
+    Its axis comes to all places that are as far from the walls as its width at the surface less that; how far a cell
+    is from these is how far from the axis the ball cuts it.
+    """
+    grid, top = target.target.grid, np.float32(-part.origin[2])
+    x = np.asarray(grid.x0 + (np.arange(grid.cols) + 0.5) * grid.pitch + part.origin[0], float)
+    y = np.asarray(grid.y0 + (np.arange(grid.rows) + 0.5) * grid.pitch + part.origin[1], float)
+    radius, over = max(balls), max(-bound.leave, 0.0)
+    above = radius - bound.floor
+    wide = float(np.sqrt(radius**2 - above**2))
+    far = _in_walls(x, y, bound) + over
+    apart = _off_axes(x, y, bound, wide - over)
+
+    def height(off: Floats) -> NDArray[np.float32]:
+        return np.minimum(above - np.sqrt(np.maximum(radius**2 - off**2, 0.0)), 0.0).astype(np.float32) + top
+
+    inside, slack = far > 0, 2 * CHORD
+    low, high, goal = target.target.low, target.target.high, target.target.around
+    low[inside] = np.minimum(low, height(np.maximum(apart - slack, 0.0)))[inside]
+    spoken = inside & np.isinf(high) & (apart < wide)
+    goal[spoken] = height(apart)[spoken]
+    edge = spoken & (far < wide)
+    high[edge] = height(np.minimum(apart + slack, radius))[edge]
+    target.reach[edge] = True
+
+
+def _off_axes(x: Floats, y: Floats, bound: OperationBound, off: float) -> Floats:
+    """Return (rows, cols) how far places are from all that is so far from an area's walls, mm; 0 within it, inf where
+    there is nothing.
+    """
+    shapes = shapely.get_parts(grown(united(region_shapes(bound.area.regions, CHORD)), -off, CHORD))
+    rings = [np.asarray(shapely.get_coordinates(ring)) for ring in shapely.get_rings(shapes)]
+    if not rings:
+        return np.full((len(y), len(x)), np.inf)
+    rows = np.zeros((sum(len(ring) - 1 for ring in rings), 8))
+    rows[:, :4] = np.concatenate([np.hstack([ring[:-1], ring[1:]]) for ring in rings])
+    field = DistanceField.of(rows)
+    centres = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    far = np.where(field.inside(centres), 0.0, field.nearest(centres)[0])
+    return np.asarray(far.reshape(len(y), len(x)))
 
 
 def _in_walls(x: Floats, y: Floats, bound: OperationBound) -> Floats:

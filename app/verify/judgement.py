@@ -45,6 +45,9 @@ class Spot:
     motion: int = -1
 
 
+_TELLING_CELLS = 10.0
+"""A bound between the cells that is wider says nothing that a person could use."""
+
 BANDS = (-1.0, -0.1, -0.03, 0.03, 0.1, 1.0)
 """mm; where the bands beyond the tolerance end, those within it beside."""
 
@@ -71,6 +74,13 @@ class Certificate:
     gouge_mm: float
     left_mm: float
     pitch_mm: float
+
+    @property
+    def telling(self) -> bool:
+        """Whether the bound on gouges says something: beside a wall that may be missed by a cell it is the wall's
+        height.
+        """
+        return self.gouge_mm < _TELLING_CELLS * self.pitch_mm
 
 
 @dataclass(frozen=True, eq=False)

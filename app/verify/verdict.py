@@ -122,13 +122,16 @@ def gouge_depths(
         )
         if not len(mine):
             continue
-        deep, where = _beyond(
-            bound, rows[mine], radius[mine] + bound.leave, progress.part(k / len(bounds), (k + 1) / len(bounds))
+        cone = _on_cones(moves, job, chosen[mine]) if bound.carves else np.zeros(len(mine), np.bool_)
+        deep, where = np.empty(len(mine)), np.empty((len(mine), 2))
+        deep[~cone], where[~cone] = _beyond(
+            bound,
+            rows[mine][~cone],
+            (radius[mine] + bound.leave)[~cone],
+            progress.part(k / len(bounds), (k + 1) / len(bounds)),
         )
-        if bound.carves:
-            move, slanted, places_of = _slanted(bound, moves, job)
-            own, at = np.isin(chosen[mine], move), np.isin(move, chosen[mine])
-            deep[own], where[own] = slanted[at], places_of[at]
+        if cone.any():
+            deep[cone], where[cone] = _slanted(bound, moves, job, chosen[mine][cone])
         deep[exempt[mine]] = -np.inf
         too_deep = -low[mine] - bound.floor
         deeper = too_deep > np.maximum(deep, _SURFACE)
@@ -138,14 +141,6 @@ def gouge_depths(
     return MoveDepths(chosen, depth, np.column_stack([places, low]))
 
 
-class _SlantedReach(NamedTuple):
-    """Moves, how far they reach beyond walls, mm, and where, (n, 2)."""
-
-    move: NDArray[np.int64]
-    depth: Floats
-    places: Floats
-
-
 class _OutsideMoves(NamedTuple):
     """Moves whose end lies in no region, and how far outside, mm."""
 
@@ -153,24 +148,30 @@ class _OutsideMoves(NamedTuple):
     beyond: Floats
 
 
-def _slanted(bound: OperationBound, moves: Moves, job: Job) -> _SlantedReach:
-    """Return how far straight moves of a cone that go up or down reach beyond walls, each as wide as it is there."""
+def _on_cones(moves: Moves, job: Job, chosen: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Return which of some moves are those of a cone that goes up or down on a straight way along."""
+    cones = [tool.number for tool in job.tools if tool.kind is ToolKind.V]
+    start, end = moves.start[chosen], moves.end[chosen]
+    straight = np.isin(moves.tool[chosen], cones) & (moves.kind[chosen] <= MoveKind.LINE)
+    found: NDArray[np.bool_] = straight & (start[:, 2] != end[:, 2]) & (start[:, :2] != end[:, :2]).any(axis=1)
+    return found
+
+
+def _slanted(bound: OperationBound, moves: Moves, job: Job, chosen: NDArray[np.int64]) -> tuple[Floats, Floats]:
+    """Return how far moves of `_on_cones` reach beyond walls, mm, each as wide as it is there, and where, (n, 2)."""
     cones = {tool.number: tool.profile for tool in job.tools if tool.kind is ToolKind.V}
-    start, end = moves.start, moves.end
-    straight = np.isin(moves.tool, list(cones)) & (moves.kind <= MoveKind.LINE)
-    mine = np.flatnonzero(straight & (start[:, 2] != end[:, 2]) & (start[:, :2] != end[:, :2]).any(axis=1))
-    numbers = moves.tool[mine].tolist()
+    numbers = moves.tool[chosen].tolist()
     tip = np.array([cones[number].flat for number in numbers]) + bound.leave
     rate = np.array([1 / cones[number].cone for number in numbers])
     widest = np.array([job.tool(number).radius for number in numbers]) + bound.leave
-    slanted = SlantedMoves(start[mine], end[mine], tip, rate, widest)
+    slanted = SlantedMoves(moves.start[chosen], moves.end[chosen], tip, rate, widest)
     walls = np.concatenate([contour_rows(contour) for region in bound.area.regions for contour in region.contours])
     depth, places = reach_beyond(slanted, within_half_turn(walls))
-    rows = move_rows(moves)[mine]
+    rows = move_rows(moves)[chosen]
     outside, beyond = _outside(rows, bound.area.regions)
-    depth[outside] = np.maximum(slanted.width(np.ones(len(mine)))[outside], 0.0) + beyond
+    depth[outside] = np.maximum(slanted.width(np.ones(len(chosen)))[outside], 0.0) + beyond
     places[outside] = rows[outside, 2:4]
-    return _SlantedReach(mine, depth, places)
+    return depth, places
 
 
 def clear_moves(moves: Moves, depths: MoveDepths, within: float) -> NDArray[np.bool_]:

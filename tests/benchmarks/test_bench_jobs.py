@@ -17,7 +17,7 @@ import pytest
 
 from app.cli.main import main
 from app.formats.scene.toml import read_scene, sources_of
-from app.usecases.surface import compute
+from app.usecases.scene.compute import compute
 from tests.conftest import ROOT
 
 pytestmark = pytest.mark.benchmark

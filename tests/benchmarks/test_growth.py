@@ -17,8 +17,8 @@ import pytest
 from app.cli.timings import StageTimes
 from app.core.beside import one_after_another
 from app.core.progress import Progress
-from app.usecases.make import make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import make
 
 pytestmark = pytest.mark.benchmark
 SIZES = (100, 400, 1600)

@@ -16,8 +16,8 @@ import pytest
 from app.cli.timings import StageTimes
 from app.core.progress import Progress
 from app.formats.scene.toml import read_scene, sources_of
-from app.usecases.surface import compute
-from app.usecases.surface_nc import write_scene_nc
+from app.usecases.scene.compute import compute
+from app.usecases.scene_program.nc import write_scene_nc
 
 pytestmark = pytest.mark.benchmark
 MOST_TRIANGLES = int(os.environ.get("HITOFUDE_GROWTH_MOST", "1000000"))

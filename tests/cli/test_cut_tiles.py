@@ -15,9 +15,9 @@ from app.core.progress import NO_PROGRESS
 from app.core.resources import resource
 from app.simulation.field.workpiece import Grid
 from app.simulation.heights_file import read_heights
-from app.usecases.cut_setup import CutSetup
-from app.usecases.cut_tiles import heights_on, tiled_grid, tiles_of
-from app.usecases.setup import setup_of
+from app.usecases.batch.cut_tiles import heights_on, tiled_grid, tiles_of
+from app.usecases.cutting.ready_setup import setup_of
+from app.usecases.cutting.setup import CutSetup
 
 PLATE = (
     "G21 G90 G94\nT1 M6\nS9000 M3\nG0 X-5 Y3 Z5\nG1 Z-1.3 F100\nG1 X33.3 Y17.7 F300\nG3 X10 Y24 R15\n"
@@ -79,6 +79,22 @@ def test_processes_write_one_file_that_the_next_set_up_reads(
     assert {path.name for path in tmp_path.iterdir()} == {"plate.nc", "left.npy", "left.json"}
 
 
+@pytest.mark.exhaustive
+def test_two_workers_of_a_cluster_cut_the_same_tiles(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each worker may have 2 GB: the tiles lie bit for bit where one process puts them in the whole."""
+    distributed = pytest.importorskip("distributed", reason="Dask is not installed here; the extra `test` brings it")
+    monkeypatch.setattr("app.cli.cut_tiles.tiles_of", lambda grid: tiles_of(grid, 512))
+    program, out = tmp_path / "plate.nc", tmp_path / "left.npy"
+    program.write_text(PLATE)
+    command = ["cut", str(program), "--tool", "1=flat:6", "--stock=0,0,-5,40,30,0", "--heights", str(out)]
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, memory_limit="2GB", dashboard_address=None
+    ) as cluster:
+        assert main([*command, "--tiles", "--grid", "1500", "--scheduler", cluster.scheduler_address]) == 0
+    made = setup(*command[1:-2])
+    assert np.array_equal(np.load(out), heights_on(made, tiled_grid(made.stock.box, 1500)))
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
@@ -86,6 +102,7 @@ def test_processes_write_one_file_that_the_next_set_up_reads(
         (["--tiles", "--heights", "a.npy", "--image", "a.png"], "--image does not go with --tiles"),
         (["--tiles", "--heights", "a.npy", "--engine", "patent"], "--engine does not go with --tiles"),
         (["--jobs", "2"], "--jobs has no effect without --tiles"),
+        (["--scheduler", "tcp://x:1"], "--scheduler has no effect without --tiles"),
     ],
 )
 def test_what_does_not_go_with_tiles_is_one_line(

@@ -17,7 +17,7 @@ from app.core.errors import InputError
 from app.model.entry import EntryKind, LeadKind
 from app.model.job import Copies
 from app.model.operation import Side
-from app.usecases.machining import MachiningOptions
+from app.usecases.job.machining import MachiningOptions
 
 ROOT = Path(__file__).parents[2]
 FIG2 = ROOT / "resources/samples/fig2.dxf"

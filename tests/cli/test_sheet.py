@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
 
 from app.cli.main import main
+from app.core.resources import resource
 from tests.formats.pdf_words import pdf_pages
 
 OTHER = "G21 G90 G94\nT7 M6\nS9000 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG1 X30 F300\nG2 X40 Y10 I0 J10\nG0 Z5\nM30\n"
@@ -85,3 +88,22 @@ def test_errors_of_the_text_are_on_it(tmp_path: Path) -> None:
     program.write_text(OTHER.replace("G1 X30", "G1 X30 Q3 X31"))
     assert main(["sheet", str(program), "-o", str(tmp_path / "o.pdf"), "--quiet"]) == 1
     assert "do not run this program" in said(tmp_path / "o.pdf")
+
+
+@pytest.mark.exhaustive
+def test_a_browser_prints_it_on_one_page(tmp_path: Path) -> None:
+    browser = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if browser is None:
+        pytest.skip("no browser is installed here that prints")
+    page, printed = tmp_path / "a.html", tmp_path / "a.pdf"
+    command = ["make", str(resource("samples", "fig2.dxf")), "-o", str(tmp_path / "a.ngc"), "--sheet", str(page)]
+    assert main([*command, "--quiet"]) == 0
+    options = [
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        f"--user-data-dir={tmp_path}",
+        f"--print-to-pdf={printed}",
+    ]
+    subprocess.run([browser, *options, page.as_uri()], check=True, capture_output=True, timeout=300)
+    assert len(re.findall(rb"/Type\s*/Page\b", printed.read_bytes())) == 1

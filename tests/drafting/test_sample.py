@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from app.geometry.sample import bounds, sample, spline_points
+from app.geometry.sample import bounds, bounds_of_all, sample, spline_points, union
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 
 CURVES: list[Curve] = [
@@ -54,3 +54,18 @@ def test_a_weighted_spline_can_be_a_circle() -> None:
     h = math.sqrt(0.5)
     quarter = Spline(2, ((1, 0), (1, 1), (0, 1)), (0, 0, 0, 1, 1, 1), (1, h, 1))
     assert np.abs(np.hypot(*sample(quarter).T) - 1).max() < 1e-12
+
+
+def test_the_box_of_many_curves_is_the_union_of_theirs() -> None:
+    """Splines of which some bulge out of all others, and a rational one whose hull a weight below zero leaves."""
+    rng = np.random.default_rng(4)
+    knots = (0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0)
+    for count in (1, 2, 30):
+        places = rng.uniform(0, 50, (count, 1, 2)) + rng.normal(0, 6, (count, 4, 2))
+        splines = [Spline(3, tuple((float(x), float(y)) for x, y in each), knots) for each in places]
+        curves = [Line((20.0, 20.0), (30.0, 25.0)), *splines]
+        assert bounds_of_all(curves) == pytest.approx(union([bounds(curve) for curve in curves]), abs=1e-12)
+    outward = Spline(2, ((0.0, 0.0), (1.0, 1.0), (2.0, 0.0)), (0.0, 0.0, 0.0, 1.0, 1.0, 1.0), (1.0, -0.5, 1.0))
+    frame = [Line((-1.0, -0.5), (3.0, -0.5)), Line((-1.0, 1.0), (3.0, 1.0))]
+    assert bounds_of_all([*frame, outward]) == union([bounds(curve) for curve in (*frame, outward)])
+    assert bounds_of_all([]) is None

@@ -19,9 +19,9 @@ from app.raster.fill import fill
 from app.raster.frame import BitmapFrame
 from app.raster.peel import frame_pixels
 from app.raster.steps import STEPS, StepState
-from app.usecases.bitmap_job import BitmapJob, drawn_job
-from app.usecases.bitmap_options import BitmapSize
-from app.usecases.bitmap_way import BitmapProgram, compute_on_bitmap
+from app.usecases.making.bitmap_job import BitmapJob, drawn_job
+from app.usecases.pixels.options import BitmapSize
+from app.usecases.pixels.way import BitmapProgram, compute_on_bitmap
 from tests.conftest import ROOT
 from tests.part_shapes import fig2
 from tests.raster.peeling import frame_distance, shrink
@@ -215,8 +215,8 @@ def test_figure_5_in_codes() -> None:
 def test_the_published_rules_stand_beside_the_settled_ones_with_what_they_come_to() -> None:
     from app.core.resources import resource
     from app.exhibits.stage_files import run_stages
-    from app.usecases.bitmap_options import BitmapOptions, BitmapSize
-    from app.usecases.options import MakeOptions
+    from app.usecases.job.options import MakeOptions
+    from app.usecases.pixels.options import BitmapOptions, BitmapSize
 
     data = resource("samples", "fig2.dxf").read_bytes()
     options = MakeOptions(bitmap=BitmapOptions(BitmapSize(160)))

@@ -18,7 +18,7 @@ from app.model.finding import Finding, FindingKind
 from app.model.part import Units
 from app.model.read_options import DrawingOptions
 from app.model.reading import ReadingOptions
-from app.usecases.plausible import read_plausible
+from app.usecases.job.plausible import read_plausible
 
 
 def new(units: int = 4) -> Any:

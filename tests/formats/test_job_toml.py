@@ -60,7 +60,7 @@ def test_the_sample_names_every_key_of_every_kind(samples: Path) -> None:
     assert more == [
         ThreadOperation(CutParameters(4)),
         BoreOperation(cut, diameter=12.0),
-        ChamferOperation(CutParameters(3)),
+        ChamferOperation(CutParameters(3), down=0.5),
         SlotOperation(cut, 9.0, trochoidal=True),
         FaceOperation(cut),
     ]
@@ -436,3 +436,19 @@ def test_origins(text: str, expected: tuple[object, object]) -> None:
 def test_what_is_no_origin(text: str) -> None:
     with pytest.raises(InputError, match="is no origin"):
         parse_origin(text)
+
+
+@pytest.mark.parametrize("word", ["v-bit", "chamfer", "Countersink", "spot"])
+def test_a_cone_has_the_trade_s_names(word: str) -> None:
+    text = f'[[tool]]\nnumber = 1\nkind = "{word}"\ndiameter = 6.0\ntip_angle = 90\n'
+    assert read_job("j.toml", text.encode()).job.tools[0].kind is ToolKind.V
+
+
+def test_engrave_is_a_contour_on_the_lines() -> None:
+    text = '[[tool]]\nnumber = 1\ndiameter = 6.0\n[[operation]]\nkind = "engrave"\ntool = 1\ndepth = 0.3\n'
+    (operation,) = read_job("j.toml", text.encode()).job.operations
+    assert isinstance(operation, ContourOperation) and operation.side is Side.ON
+    assert operation.cut.depth == 0.3
+    assert read_job("j.toml", (text + 'side = "on"\n').encode()).job.operations == (operation,)
+    with pytest.raises(InputError, match=r"j.toml:8: side is told by the kind already.* kind = \"contour\""):
+        read_job("j.toml", (text + 'side = "inside"\n').encode())

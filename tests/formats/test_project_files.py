@@ -117,10 +117,10 @@ def test_a_picture_in_the_folder_moves_with_it_and_one_elsewhere_stays(tmp_path:
     for picture in (tmp_path / "one" / "pictures" / "plan b.png", tmp_path / "else.png"):
         project = Project(named("one").state, beside=ProjectExtras(Underlay(str(picture))))
         save_project(tmp_path / "one" / "a.hito", project)
-        assert load_project(tmp_path / "one" / "a.hito")[0].beside == project.beside
+        assert load_project(tmp_path / "one" / "a.hito").project.beside == project.beside
         (tmp_path / "two").mkdir(exist_ok=True)
         (tmp_path / "one" / "a.hito").replace(tmp_path / "two" / "a.hito")
-        place = load_project(tmp_path / "two" / "a.hito")[0].beside.underlay
+        place = load_project(tmp_path / "two" / "a.hito").project.beside.underlay
         assert place is not None
         assert place.path == str(picture).replace("/one/", "/two/")
 
@@ -146,7 +146,7 @@ def test_a_full_disk_leaves_file_and_backup(tmp_path: Path) -> None:
 )
 def test_any_name_will_do(tmp_path: Path, name: str) -> None:
     save_project(tmp_path / name, named("one"))
-    assert load_project(tmp_path / name)[0].state.job == named("one").state.job
+    assert load_project(tmp_path / name).project.state.job == named("one").state.job
 
 
 def test_what_could_not_be_read_again_is_not_written(tmp_path: Path) -> None:
@@ -172,4 +172,4 @@ def test_the_drawing_it_was_read_from_is_told_from_its_folder_where_it_lies_in_t
         project = Project(replace(named("one").state, source=DrawingSource(str(drawing), reading)))
         save_project(tmp_path / "p.hito", project)
         assert told in (tmp_path / "p.hito").read_text()
-        assert load_project(tmp_path / "p.hito")[0].state.source == DrawingSource(str(drawing), reading)
+        assert load_project(tmp_path / "p.hito").project.state.source == DrawingSource(str(drawing), reading)

@@ -17,8 +17,8 @@ from app.geometry.arcs.arcs import lines_and_arcs
 from app.geometry.chaining.chain import chain
 from app.geometry.primitives import curve_rows, lengths, points_at
 from app.model.curves import Arc, Curve, Ellipse, Line, Spline
-from app.usecases.make import make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import make
 
 DOTS = 8
 """Dots to the millimetre."""

@@ -13,8 +13,8 @@ from app.core.errors import HitofudeError
 from app.formats.job.toml import read_job
 from app.gcode.posts.posts import post_names
 from app.model.finding import FindingKind
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
 from tests.fuzz.any_job import FIELD, KINDS, AnyJob, any_job
 from tests.fuzz.dense_heights import DenseHeights
 from tests.fuzz.plain_nc import PlainReader

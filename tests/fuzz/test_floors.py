@@ -14,8 +14,8 @@ from app.model.curves import Circle, Curve
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.part import Entity, Part
-from app.usecases.make import MakeResult, export, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, export, make
 from tests.fuzz.apart import case
 from tests.fuzz.judge import wrong_floor
 from tests.fuzz.readers import reader

@@ -50,6 +50,28 @@ def test_a_ray_through_vertices_and_tops_of_arcs_counts_once() -> None:
     ]
 
 
+def test_a_ray_at_the_height_of_an_arc_that_begins_at_its_top_by_a_rounding_counts_it() -> None:
+    # the foot of a letter: the circle's lowest place is a rounding above the end that both arcs share
+    y = -503.3194909578027
+    foot = [117.56552603719315, -503.2826111969591, 117.20294708640321, y, 117.20294708640323, -501.518725317278]
+    next_to_it = [
+        117.20294708640321,
+        y,
+        116.83676803790294,
+        -503.28298108383683,
+        117.20294708640321,
+        -501.4649232512131,
+    ]
+    arcs = [[*foot, 1.8007656405247279, -1.0], [*next_to_it, 1.8545677065895916, -1.0]]
+    closing = [116.83676803790294, -503.28298108383683, 117.56552603719315, -503.2826111969591, 0.0, 0.0, 0.0, 0.0]
+    points = np.array([[300.0, y], [100.0, y], [117.2, y + 0.02], [117.2, y - 0.02]])
+    field = DistanceField.of(np.array([*arcs, closing]))
+    assert y - foot[5] < -arcs[0][6]  # else it is another case
+    assert field.inside(points).tolist() == [False, False, True, False]
+    level = np.column_stack([np.linspace(100.0, 300.0, 41), np.full(41, y)])
+    assert not field.inside(level[np.abs(level[:, 0] - 117.2) > 1]).any()  # many on one line are asked together
+
+
 def test_a_limit_cuts_the_search_short() -> None:
     field = DistanceField.of(contour_rows(circle(5)))
     distance, row = field.nearest(np.array([[0.0, 0.0], [4.0, 0.0]]), limit=2.0)

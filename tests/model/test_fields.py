@@ -33,9 +33,9 @@ from app.model.operation import CutParameters, DrillOperation, Operation, Side
 from app.model.operation_kinds import register
 from app.model.part import Part
 from app.model.tool import FeedRow, Tool, ToolKind, ToolMaterial
-from app.usecases.options import job_with_options
-from app.usecases.parameter_table import parameter_table
-from app.usecases.report_path import _parameters
+from app.usecases.job.options import job_with_options
+from app.usecases.making.report_path import _parameters
+from app.usecases.manual.parameter_table import parameter_table
 from tests.gcode.programs import job, two_tools
 
 
@@ -72,7 +72,7 @@ ASKED: dict[str, Any] = {"overcut": 1.25, "grain": Grain.ACROSS, "slant": math.r
 @pytest.fixture(autouse=True)
 def registered(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.setattr(operations, "OPERATION_KINDS", dict(operations.OPERATION_KINDS))
-    for module in ("app.formats.job.operations", "app.gcode.interpreter.own_header", "app.usecases.machining"):
+    for module in ("app.formats.job.operations", "app.gcode.interpreter.own_header", "app.usecases.job.machining"):
         monkeypatch.setattr(f"{module}.OPERATION_KINDS", operations.OPERATION_KINDS)
     register(EngraveOperation)
     yield
@@ -205,5 +205,5 @@ def test_the_manual_has_a_table_of_all() -> None:
     operations.OPERATION_KINDS.pop("engrave")
     page = resource("docs", "parameters.md")
     assert page.read_text("utf-8") == parameter_table(), (
-        "write the page anew: app.usecases.parameter_table.parameter_table()"
+        "write the page anew: app.usecases.manual.parameter_table.parameter_table()"
     )

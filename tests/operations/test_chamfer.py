@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+import shapely
 
 from app.core.errors import ParameterError
 from app.geometry.distance import DistanceField
@@ -149,3 +150,92 @@ def test_random_parts_against_dense_sampling(seed: int) -> None:
     wanted = -(0.8 - far)
     assert (heights >= wanted - 1e-3).all()
     assert np.abs(heights - wanted).max() < 0.01
+
+
+BALL = Tool(1, 6.0, ToolKind.BALL)
+
+
+@pytest.mark.parametrize(("width", "down"), [(0.8, None), (0.5, 0.9), (1.2, 0.7)])
+@pytest.mark.parametrize("side", [Side.INSIDE, Side.OUTSIDE])
+def test_a_ball_goes_through_both_ends_of_the_chamfer(width: float, down: float | None, side: Side) -> None:
+    """Round a circle: the meridian of the ball passes `width` beside the edge at the top and `down` below it."""
+    program = program_of(ChamferOperation(CutParameters(1), side, width, down=down), circle(10.0, 20, 30), tool=BALL)
+    ends = cutting(program)
+    (z,) = set(np.round(ends[:, 2], 9).tolist())
+    off = (np.hypot(*(ends[:, :2] - (20, 30)).T) - 10.0) * (1 if side is Side.OUTSIDE else -1)
+    assert np.ptp(off) < 1e-9
+    centre = np.array([off[0], z + BALL.radius])
+    assert np.hypot(*(centre - (-width, 0.0))) == pytest.approx(BALL.radius)
+    assert np.hypot(*(centre - (0.0, -(width if down is None else down)))) == pytest.approx(BALL.radius)
+    assert centre.min() > 0, "it undercuts neither the top nor the wall"
+    assert not program.findings
+
+
+def test_the_ball_of_equal_sides_in_closed_form() -> None:
+    """(c + w)^2 + c^2 = r^2: so much keeps the axis off, and so high is the centre."""
+    operation = ChamferOperation(CutParameters(1), Side.OUTSIDE, 0.8)
+    c = (-0.8 + math.sqrt(2 * 3.0**2 - 0.8**2)) / 2
+    ball = operation.ball(BALL)
+    assert ball is not None
+    assert (ball.off, ball.above) == (pytest.approx(c), pytest.approx(c))
+    assert operation.deepest(BALL) == pytest.approx(3.0 - c)
+
+
+@pytest.mark.parametrize(
+    ("operation", "tool", "words"),
+    [
+        (ChamferOperation(CutParameters(1), width=4.5), BALL, "it would undercut the edge"),
+        (ChamferOperation(CutParameters(1), width=0.8, down=0.1), BALL, "it would undercut the edge"),
+        (ChamferOperation(CutParameters(1), width=0.8, down=0.9), CONE, "makes chamfers of 0.8 mm 0.8000 mm deep"),
+        (ChamferOperation(CutParameters(1)), Tool(1, 6.0, ToolKind.BULL, corner_radius=1.0), "or a ball"),
+    ],
+)
+def test_what_a_ball_or_cone_cannot_break_is_refused(operation: ChamferOperation, tool: Tool, words: str) -> None:
+    with pytest.raises(ParameterError, match=words):
+        program_of(operation, square(20), tool=tool)
+
+
+def test_a_ball_keeps_off_a_neighbour_wall_and_tells() -> None:
+    neighbour = polygon_contour([(22.0, 8), (30, 8), (30, 12), (22.0, 12)])
+    operation = ChamferOperation(CutParameters(1, curves=on_layers(("a",))), Side.OUTSIDE, 0.8)
+    program = program_of(operation, square(20), tool=BALL, others=[neighbour])
+    (finding,) = [each for each in program.findings if each.kind is FindingKind.LEFT_OUT]
+    ball = operation.ball(BALL)
+    assert ball is not None
+    reach = ball.off + 0.8
+    assert finding.amount == pytest.approx(4 + 2 * math.sqrt(reach**2 - (2.0 - ball.off) ** 2), abs=0.02)
+    assert "smaller ball" in finding.text
+
+
+def test_a_hole_too_small_for_the_ball_is_told() -> None:
+    operation = ChamferOperation(CutParameters(1), Side.INSIDE, 0.8)
+    program = program_of(operation, circle(1.2, 5, 5), circle(9.0, 30, 5), tool=BALL)
+    (finding,) = [each for each in program.findings if each.kind is FindingKind.REGION_TOO_SMALL]
+    assert finding.counts and (finding.x, finding.y) == (pytest.approx(5.0, abs=0.01), pytest.approx(5.0, abs=0.01))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_ball_round_random_parts_against_dense_sampling(seed: int) -> None:
+    """Metal beside the walls of convex parts: as high as the ball's meridian, and nowhere deeper."""
+    made = np.random.default_rng(seed)
+    corners = made.uniform(-12, 12, (7, 2))
+    hull = shapely.MultiPoint(corners).convex_hull
+    contour = polygon_contour([tuple(each) for each in np.round(hull.exterior.coords[:-1], 3).tolist()])
+    operation = ChamferOperation(CutParameters(1), Side.OUTSIDE, 0.8, down=1.0)
+    moves = program_of(operation, contour, tool=BALL).moves
+    mine = np.flatnonzero(moves.purpose == Purpose.CONTOUR)
+    share = np.linspace(0, 1, 600)[:, None, None]
+    start, end = moves.start[mine], moves.end[mine]
+    path = (start + (end - start) * share)[:, moves.kind[mine] == MoveKind.LINE].reshape(-1, 3)
+    field = DistanceField.of(pack(nested([contour]).regions).rows)
+    points = made.uniform(-13, 13, (4000, 2))
+    far = field.nearest(points)[0]
+    points, far = (each[field.inside(points) & (far < 0.8)] for each in (points, far))
+    apart = np.hypot(points[:, None, 0] - path[None, :, 0], points[:, None, 1] - path[None, :, 1])
+    below = np.sqrt(np.maximum(BALL.radius**2 - apart**2, 0.0))
+    heights = np.where(apart < BALL.radius, path[None, :, 2] + BALL.radius - below, 0.0).min(axis=1)
+    ball = operation.ball(BALL)
+    assert ball is not None
+    wanted = ball.above - np.sqrt(BALL.radius**2 - (ball.off + far) ** 2)
+    assert (heights >= wanted - 1e-3).all()
+    assert np.median(np.abs(heights - wanted)) < 1e-3, "at corners the arcs are left out here"

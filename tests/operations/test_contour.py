@@ -20,8 +20,8 @@ from app.model.part import Contour, Part
 from app.model.tool import Tool
 from app.operations.compute import compute
 from app.toolpath.leads import contour_path
-from app.usecases.make import make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import make
 from tests import plain_distance
 from tests.operations.contour_jobs import about, contour_job, outside, rows_of
 from tests.part_shapes import circle, fig2, square

@@ -15,8 +15,8 @@ from app.model.part import Entity, Part
 from app.operations.compute import compute, regions_of
 from app.operations.effort import Workload, over_area, workload_of
 from app.operations.reckoning import job_effort
-from app.usecases.make import export
-from app.usecases.options import MakeOptions, job_with_options
+from app.usecases.job.options import MakeOptions, job_with_options
+from app.usecases.making.make import export
 
 WITHIN = 3.0
 START_S = 1.0

@@ -21,7 +21,7 @@ from app.model.vcarve_operation import VcarveOperation
 from app.operations.compute import compute
 from app.operations.vcarve.branches import AxisBranch
 from app.operations.vcarve.graph import graph_of, prune, trails
-from app.operations.vcarve.paths import VCutter, carved
+from app.operations.vcarve.paths import VCutter, carved, nearest_next
 from tests.part_shapes import circle, layered_part, square
 
 RIGHT = math.radians(90)
@@ -141,3 +141,24 @@ def test_random_areas_are_carved_to_the_walls(seed: int) -> None:
     carved_to = (discs[None, :, 2] - apart).max(axis=1)
     assert (carved_to <= far + 6e-4).all()
     assert (far - carved_to).max() < 0.02  # the samples along the moves are up to 0.1 mm apart
+
+
+def test_the_nearest_end_is_next() -> None:
+    made = np.random.default_rng(5)
+    ways = [AxisBranch(np.column_stack([made.uniform(0, 50, (2, 2)), [1.0, 1.0]])) for _ in range(60)]
+    at, left = (0.0, 0.0), list(ways)
+    for way in nearest_next(ways, at):
+        ends = [(math.dist(each.discs[k, :2], at), each, k) for each in left for k in (0, -1)]
+        _, nearest, begins = min(ends, key=lambda each: each[0])
+        assert np.array_equal(way.discs, nearest.discs if begins == 0 else nearest.discs[::-1])
+        left = [each for each in left if each is not nearest]
+        at = (float(way.discs[-1, 0]), float(way.discs[-1, 1]))
+    assert not left
+
+
+def test_ends_that_are_a_little_apart_are_one_node() -> None:
+    def way(*places: tuple[float, float]) -> AxisBranch:
+        return AxisBranch(np.array([(x, y, 1.0) for x, y in places]))
+
+    graph = graph_of([way((0, 0), (5, 0)), way((5 + 8e-6, 0), (9, 0)), way((5 + 3e-5, 0), (5, 7))])
+    assert graph.ends == [(0, 1), (1, 2), (3, 4)] and graph.at == [[0], [0, 1], [1], [2], [2]]

@@ -98,6 +98,8 @@ def test_the_radius_at_a_height_is_the_profile_turned_round(name: str) -> None:
         widest = radii[cutter.heights(radii) <= height + 1e-12].max()
         assert cutter.radius_at(height) == pytest.approx(widest, abs=1.5e-4 + 2e-6 / max(height, 1e-6) ** 0.5)
     assert cutter.radius_at(-0.1) == 0.0
+    heights = np.linspace(-0.5, 4.0, 91)
+    assert cutter.radii_at(heights).tolist() == [cutter.radius_at(each) for each in heights.tolist()]
 
 
 def slotted(width: float) -> SolidStock:

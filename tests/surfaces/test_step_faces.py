@@ -10,7 +10,7 @@ import pytest
 from app.core.errors import InputError
 from app.formats.scene.toml import read_scene, sources_of
 from app.surfaces.patches.step_faces import step_triangles
-from app.usecases.surface import compute
+from app.usecases.scene.compute import compute
 from tests.conftest import ROOT
 
 PLATE = (ROOT / "tests" / "data" / "meshes" / "dome.step").read_bytes()

@@ -32,7 +32,7 @@ from app.toolpath.advice.advise import Advice, RegionAdvice, SizedPlace, advise
 from app.toolpath.advice.reach import FITS, centres
 from app.toolpath.advice.time import CuttingPlan, distances, times
 from app.toolpath.coverage.flat import region_shapes
-from app.usecases.written import write_and_check
+from app.usecases.making.written import write_and_check
 from tests.examples import examples
 from tests.part_shapes import bulged, circle, fig2, random_part, square
 

@@ -20,7 +20,7 @@ from app.toolpath.build import Stroke
 from app.toolpath.depth.depth import pass_heights
 from app.toolpath.entry.entry import EntryContext
 from app.toolpath.entry.links import keeps_off_walls
-from app.usecases.make import export
+from app.usecases.making.make import export
 from tests.examples import examples
 from tests.part_shapes import circle, square
 from tests.toolpath.emitting import TOOL, contour_operation, emitted, lifts, loop, path, setting_of

@@ -10,10 +10,10 @@ import pytest
 from app.core.tolerances import NOMINAL
 from app.model.finding import FindingKind
 from app.model.operation import Side
-from app.usecases.bitmap_options import BitmapOptions, BitmapSize
-from app.usecases.machining import MachiningOptions
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.machining import MachiningOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
+from app.usecases.pixels.options import BitmapOptions, BitmapSize
 
 WIDTH = 3.175
 

@@ -17,9 +17,9 @@ from app.model.moves import Moves, Program
 from app.operations.compute import compute
 from app.toolpath.coverage.coverage import Coverage, measure, measure_beside_clear
 from app.toolpath.coverage.settled import one_floor, settled
-from app.usecases.make import job_from_drawing
-from app.usecases.options import MakeOptions
-from app.usecases.plausible import read_for
+from app.usecases.job.options import MakeOptions
+from app.usecases.job.plausible import read_for
+from app.usecases.making.make import job_from_drawing
 from app.verify.verdict import clear_moves, gouge_depths
 
 

@@ -25,9 +25,9 @@ from app.model.part import Contour, Entity, Part
 from app.operations import compute
 from app.toolpath import drawn_contours, machining_areas, witness
 from app.toolpath.witness import grown_findings
-from app.usecases.machining import MachiningOptions
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.machining import MachiningOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
 from tests.geometry.meeting_shapes import OFFSETS
 from tests.part_shapes import circle, layered_part, random_part, square
 

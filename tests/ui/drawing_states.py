@@ -16,8 +16,8 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.drafting.document import Document
 from app.model.part import Part
 from app.ui.framework.view import View
-from app.ui.shell.keys_window import KeysWindow
-from app.ui.shell.tour import STEPS
+from app.ui.shell.help.keys_window import KeysWindow
+from app.ui.shell.help.tour import STEPS
 from app.ui.shell.window_controller import WindowController
 from app.ui.views.canvas.modes import CanvasTool as T
 

@@ -15,6 +15,9 @@ from PySide6.QtWidgets import QWidget
 
 from app.core.resources import resource
 from app.formats.job.toml import read_job
+from app.model.curve_selectors import read_selector
+from app.model.hole_operations import BoreOperation
+from app.model.operation import Operation
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
 from app.ui.shell.window_controller import WindowController
@@ -25,18 +28,47 @@ DOCS = resource("docs")
 SAMPLES = resource("samples")
 OPERATION_PAGES = (
     ("adaptive", "fig2.dxf", "adaptive.toml", View.PATHS),
+    ("bore", "holes.draw", "holes.toml", View.PATHS),
     ("chamfer", "holes.draw", "holes.toml", View.CUT),
     ("contour", "plate.draw", "", View.PATHS),
+    ("counterbore", "holes.draw", "holes.toml", View.CUT),
+    ("countersink", "holes.draw", "holes.toml", View.CUT),
+    ("drill", "holes.draw", "holes.toml", View.PATHS),
     ("engrave", "nameplate.draw", "", View.PATHS),
     ("face", "holes.draw", "holes.toml", View.PATHS),
     ("holes", "holes.draw", "holes.toml", View.PATHS),
     ("inlay", "inlay.draw", "inlay.toml", View.CUT),
     ("open_edges", "open.draw", "open.toml", View.CUT),
     ("pocket", "fig2.dxf", "", View.PATHS),
+    ("ream", "holes.draw", "holes.toml", View.PATHS),
     ("slots", "slots.draw", "slots.toml", View.PATHS),
+    ("spot", "holes.draw", "spot.toml", View.CUT),
+    ("tap", "holes.draw", "holes.toml", View.PATHS),
+    ("thread", "holes.draw", "holes.toml", View.PATHS),
     ("vcarve", "fig2.dxf", "vcarve.toml", View.CUT),
 )
 """Page, sample and job (none: what the window proposes), and the view that is photographed."""
+
+_LAYER_OF = {
+    "bore": "bored",
+    "counterbore": "bored",
+    "countersink": "countersunk",
+    "ream": "reamed",
+    "tap": "tapped",
+    "thread": "threaded",
+}
+"""The layer of holes.toml whose operations a page shows; together they lie one over the other."""
+
+
+def _shown_on(page: str, operation: Operation) -> bool:
+    """Return whether a page shows an operation of holes.toml."""
+    if page == "face" or operation.FACES:
+        return page == "face" and operation.FACES
+    if page == "drill":
+        return operation.WORD == "drill"
+    if page == "bore" and isinstance(operation, BoreOperation) and operation.diameter is not None:
+        return False
+    return page not in _LAYER_OF or operation.cut.curves == (read_selector(f"layer:{_LAYER_OF[page]}"),)
 
 
 def typed_lines(page: str) -> list[str]:
@@ -132,9 +164,7 @@ class ManualTour:
         if job:
             read = read_job(job, (SAMPLES / job).read_bytes()).job
             if job == "holes.toml":  # it makes both pages' paths, one over the other
-                read = replace(
-                    read, operations=tuple(each for each in read.operations if (page == "face") == each.FACES)
-                )
+                read = replace(read, operations=tuple(each for each in read.operations if _shown_on(page, each)))
             self.wiring.document.change_job("job", replace(read, part=self.wiring.document.part))
         self._compute()
         self._show(view, page, self.wiring.window_.views)

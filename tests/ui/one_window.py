@@ -18,7 +18,7 @@ from app.ui.framework.fields import ChoiceField, NumberField
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.reading_section import MODEL_SPACE
-from app.ui.shell.inlay_controller import InlayForm
+from app.ui.shell.drawing.inlay_controller import InlayForm
 from app.ui.shell.new_job import MATERIALS
 from app.ui.shell.start import build
 from app.ui.shell.window_controller import WindowController

@@ -5,8 +5,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 
 from app.drafting.document import Document
-from app.ui.shell.command_completion import completions
-from app.ui.shell.command_line import GOES_ON, CommandLine
+from app.ui.shell.bars.command_completion import completions
+from app.ui.shell.bars.command_line import GOES_ON, CommandLine
 from app.ui.views.canvas.modes import CanvasTool
 
 RETURN, TAB = Qt.Key.Key_Return, Qt.Key.Key_Tab
@@ -277,3 +277,14 @@ def test_an_unknown_word_is_answered_with_those_that_are_like_it(qtbot, wiring) 
         wiring.window_.command_line.entered.emit(text)
         qtbot.waitUntil(lambda said=said: len(wiring.document.log) > said)  # the first line may go to another thread
         assert answer in wiring.document.log[-1].reply
+
+
+def test_what_was_begun_goes_when_a_tool_is_taken_or_esc_is_pressed_on_the_canvas(qtbot, wiring) -> None:
+    canvas, edit = wiring.window_.canvas, wiring.window_.command_line.edit
+    qtbot.keyClicks(canvas, "f")
+    assert edit.text() == "f"
+    wiring.window_.actions_["tool_circle"].trigger()
+    assert edit.text() == ""
+    qtbot.keyClicks(edit, "12,")
+    qtbot.keyClick(canvas, Qt.Key.Key_Escape)
+    assert edit.text() == ""

@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.ui.framework.fuzzy import fit
-from app.ui.shell.command_palette import _ENTRY
+from app.ui.shell.bars.command_palette import _ENTRY
 
 
 def open_palette(qtbot, wiring):

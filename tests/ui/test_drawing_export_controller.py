@@ -8,7 +8,7 @@ import pytest
 from app.formats.readers import read_drawing
 from app.model.curves import Circle
 from app.model.notes import Mark
-from app.ui.shell.drawing_export_controller import offered
+from app.ui.shell.files.drawing_export_controller import offered
 from tests.ui.conftest import WAIT_MS
 
 LINES = (

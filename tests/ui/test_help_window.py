@@ -6,8 +6,8 @@ from PySide6.QtCore import Qt, QUrl
 from app.core.resources import resource
 from app.ui.framework.catalogue import set_language
 from app.ui.framework.theme import DARK
-from app.ui.shell.help_pages import rendered
-from app.ui.shell.help_window import HelpWindow
+from app.ui.shell.help.help_pages import rendered
+from app.ui.shell.help.help_window import HelpWindow
 
 
 @pytest.fixture

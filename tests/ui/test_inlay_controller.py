@@ -8,7 +8,7 @@ import pytest
 
 from app.core.resources import resource
 from app.formats.job.toml import read_job
-from app.ui.shell.inlay_controller import InlayForm
+from app.ui.shell.drawing.inlay_controller import InlayForm
 from app.usecases.inlay import InlayOptions
 
 WAIT_MS = 60_000

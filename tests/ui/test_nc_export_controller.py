@@ -7,7 +7,7 @@ from app.model.operation import CutParameters, PocketOperation
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
 from app.ui.panels.changes import with_tool
-from app.ui.shell.nc_export_controller import ExportPlace, post_filters
+from app.ui.shell.files.nc_export_controller import ExportPlace, post_filters
 from tests.ui.conftest import WAIT_MS
 
 

@@ -16,7 +16,7 @@ from app.model.vcarve_operation import VcarveOperation
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.figures import clock
 from app.ui.framework.view import View
-from app.ui.shell.nc_export_controller import ExportPlace
+from app.ui.shell.files.nc_export_controller import ExportPlace
 from app.ui.views.surfaces.scene_computation import SceneState
 from tests.ui.conftest import WAIT_MS
 

@@ -11,7 +11,7 @@ from app.model.operation import DrillOperation, PocketOperation, Side
 from app.model.slot_operation import SlotOperation
 from app.ui.framework.computation import ComputationState
 from app.ui.panels.changes import Subject, SubjectKind
-from app.ui.shell.proposal_controller import NOTHING_DRAWN, NOTHING_SELECTED
+from app.ui.shell.drawing.proposal_controller import NOTHING_DRAWN, NOTHING_SELECTED
 
 WAIT_MS = 20_000
 PLATE = ("rectangle 0,0 80,50", "rectangle 25,15 55,35", "circle 12,25 3", "circle 68,25 3")

@@ -342,7 +342,7 @@ def test_a_project_keeps_how_its_drawing_was_read_and_opens_without_a_question(q
     ask(qtbot, wiring, path)
     answer(qtbot, wiring, "Take it as mm")
     save_to(qtbot, wiring, tmp_path / "yard.hito")
-    assert load_project(tmp_path / "yard.hito")[0].state.source == source(wiring)
+    assert load_project(tmp_path / "yard.hito").project.state.source == source(wiring)
     assert 'path = "drawn.dxf"' in (tmp_path / "yard.hito").read_text("utf-8")
     wiring.files.new()
     with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):

@@ -91,14 +91,13 @@ def test_a_clean_end_leaves_nothing(qtbot, wiring):
 
 def test_what_a_crash_left_comes_back(qtbot, wiring, crashed):
     window = wiring.window_
-    otherwise: list[int] = []
-    wiring.recovery_controller.offer(lambda: otherwise.append(1))
+    wiring.recovery_controller.offer()
     assert "ended before plate.hito was saved" in window.notice.text.text()
     assert [button.text() for button in window.notice.buttons] == ["Recover", "Discard", "Later"]
     with qtbot.waitSignal(wiring.recovery_controller.kept, timeout=WAIT_MS):
         press(wiring, "Recover")
     assert len(wiring.document.part.entities) == 2
-    assert wiring.document.modified and wiring.document.path == crashed and otherwise == []
+    assert wiring.document.modified and wiring.document.path == crashed
     assert window.canvas.view.scale == 20.0
     assert len(kept()) == 1
     with qtbot.waitSignal(wiring.files.save_controller.saved, timeout=WAIT_MS):
@@ -106,13 +105,14 @@ def test_what_a_crash_left_comes_back(qtbot, wiring, crashed):
     assert len(read_project("x", crashed.read_bytes()).state.job.part.entities) == 2
 
 
-def test_a_start_offers_it_before_the_last_files(qtbot, wiring, crashed):
+def test_a_start_offers_it_over_the_last_files(qtbot, wiring, crashed):
     start.begin(wiring, None)
-    assert "plate.hito" in wiring.window_.notice.text.text()
+    assert "plate.hito" in wiring.window_.notice.text.text() and wiring.window_.notice.isVisible()
     assert not wiring.window_.worker.busy
-    assert not wiring.window_.views.starting
-    press(wiring, "Discard")
     assert wiring.window_.views.starting
+    press(wiring, "Recover")
+    qtbot.waitUntil(lambda: len(wiring.document.part.entities) == 2, timeout=WAIT_MS)
+    assert not wiring.window_.views.starting
 
 
 def test_a_start_with_a_file_offers_it_once_that_is_open(qtbot, wiring, crashed):
@@ -134,13 +134,12 @@ def test_the_file_that_changed_after_the_crash_is_not_overwritten(qtbot, wiring,
     assert stamp_of(crashed) == stamp
 
 
-def test_discard_takes_it_away_and_goes_on(wiring, crashed):
-    otherwise: list[int] = []
-    wiring.recovery_controller.offer(lambda: otherwise.append(1))
+def test_discard_takes_it_away(wiring, crashed):
+    wiring.recovery_controller.offer()
     press(wiring, "Discard")
-    assert kept() == [] and otherwise == [1]
-    wiring.recovery_controller.offer(lambda: otherwise.append(2))
-    assert otherwise == [1, 2]
+    assert kept() == []
+    wiring.recovery_controller.offer()
+    assert wiring.window_.notice.isHidden()
 
 
 def test_later_leaves_it_for_the_next_start(wiring, crashed):
@@ -154,12 +153,10 @@ def test_later_leaves_it_for_the_next_start(wiring, crashed):
 def test_a_damaged_recovery_file_is_told_and_stops_nothing(qtbot, wiring, crashed):
     (file,) = kept()
     file.write_bytes(b"\xff\xff")
-    otherwise: list[int] = []
-    wiring.recovery_controller.offer(lambda: otherwise.append(1))
+    wiring.recovery_controller.offer()
     assert "a new drawing" in wiring.window_.notice.text.text()
     press(wiring, "Recover")
-    qtbot.waitUntil(lambda: otherwise == [1], timeout=WAIT_MS)
-    assert "damaged" in wiring.window_.notice.text.text()
+    qtbot.waitUntil(lambda: "damaged" in wiring.window_.notice.text.text(), timeout=WAIT_MS)
     assert kept() == [] and file.with_suffix(".damaged").read_bytes() == b"\xff\xff"
 
 

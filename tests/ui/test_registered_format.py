@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from app.ui.shell.drawing_export_controller import offered
 from app.ui.shell.file_controller import open_filter
+from app.ui.shell.files.drawing_export_controller import offered
 from tests.formats.test_registry import registered  # noqa: F401 (a fixture for each test here)
 from tests.ui.conftest import WAIT_MS
 

@@ -1,7 +1,12 @@
 """The window stays live while the largest sample computes: measured, printed, and bounded outside the quick run."""
 
+import os
+import subprocess
+import sys
+
 import pytest
 
+from tests.conftest import ROOT
 from tests.ui.measure_window import DRAWING, measure_gaps, measure_usable
 
 WANTED_MS, WANTED_S = 50, 2.0
@@ -24,3 +29,12 @@ def test_window_is_usable_soon(capsys):
     with capsys.disabled():
         print(f"\nwindow usable after {took:.2f} s (wanted {WANTED_S})")
     assert took < WANTED_S
+
+
+@pytest.mark.exhaustive
+def test_the_window_loads_nothing_on_the_way_once_it_is_warm(tmp_path):
+    command = [sys.executable, "-m", "tests.ui.loaded_late"]
+    own = os.environ | {"QT_QPA_PLATFORM": "offscreen", "HITOFUDE_CONFIG": str(tmp_path)}
+    done = subprocess.run(command, cwd=ROOT, env=own, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == ""

@@ -13,7 +13,7 @@ from app.formats.project.project import Project, read_project
 from app.model.underlay import Underlay
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
-from app.ui.shell.nc_export_controller import ExportPlace
+from app.ui.shell.files.nc_export_controller import ExportPlace
 from tests.ui.conftest import WAIT_MS
 
 
@@ -327,7 +327,7 @@ def test_a_picture_that_has_gone_is_told_and_its_place_is_not_lost(qtbot, wiring
     assert "gone.png is not there" in wiring.log.lines[-1].reply and wiring.log.lines[-1].error
     with qtbot.waitSignal(wiring.files.save_controller.saved, timeout=WAIT_MS):
         wiring.files.save_controller.save()
-    assert load_project(tmp_path / "a.hito")[0].beside.underlay == place
+    assert load_project(tmp_path / "a.hito").project.beside.underlay == place
     wiring.window_.actions_["underlay_remove"].trigger()
     assert wiring.underlay_controller.underlay is None and wiring.files.save_controller.beside.unsaved
 

@@ -6,22 +6,29 @@ import re
 
 import pytest
 
+from app.core.errors import HitofudeError
 from app.core.resources import resource
+from app.core.toml_tables import EXPECTED
+from app.drafting.expressions.values import kind_of
+from app.formats.readers import read_drawing
+from app.formats.scene.toml import read_scene
 from app.model.fields import Unit, declared_of
 from app.model.finding import FindingKind
 from app.model.operation_kinds import OPERATION_KINDS, parameters
 from app.model.tool import Tool
 from app.ui.framework.catalogue import Catalogue, catalogue
 from app.ui.panels.parameter_fields import sentence, spec_of
-from app.usecases.parameter_table import parameter_table
+from app.usecases.examine import ExamineOptions, examine
+from app.usecases.manual.parameter_table import parameter_table
+from tests.ui.errors import errors_of, errors_of_the_program
 from tests.ui.sentences import HOLE, Sentence, said_in, sentences, written_in
 
 JAPANESE = catalogue("ja")
 FILLERS = ("7", "Xyz")
 ENGLISH = re.compile(r"[a-z]{3,} [a-z]{2,}|^[A-Z][a-z]{3,}$")
 NUMBERS = (Unit.LENGTH, Unit.ANGLE, Unit.SHARE, Unit.COUNT, Unit.TIME)
-KEPT = re.compile(r"--[\w-]+( \w+)?|\((Page|Ctrl|Shift)[^)]*\)")
-"""Options and keys, which stand in Japanese sentences as they are."""
+KEPT = re.compile(r"--[\w-]+( \w+)?|\((Page|Ctrl|Shift)[^)]*\)|`[^`]+`")
+"""Options, keys and lines to type, which stand in Japanese sentences as they are."""
 WORDS = re.compile("[A-Za-z]{2,}")
 OF_BOTH = {"mm", "px", "kB", "rpm", "NC", "rrggbb", "Home", "Draw", "in", "Space", "Left", "Right", "End", "Shift"}
 OF_BOTH |= {"Page", "up", "down"}
@@ -51,6 +58,47 @@ def test_every_sentence_has_a_japanese_one() -> None:
     assert missing(said) == []
 
 
+def test_every_error_has_a_japanese_one() -> None:
+    raised = errors_of_the_program()
+    assert len(raised) > 900
+    assert missing(raised) == []
+
+
+def test_what_errors_quote_is_japanese_too() -> None:
+    words = [*EXPECTED.values(), *(kind_of(value) for value in (1.0, (1.0, 2.0)))]
+    words += [name.replace("_", " ") for name in declared_of(Tool) if "_" in name]
+    assert [each for each in words if not in_japanese(each)] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("a.dxf", "hello", "a.dxf: DXF ファイルではなく、"),
+        ("a.draw", "line 0,0 0,0", "a.draw:1: 1 桁目: 点 2 は点 1, (0.000, 0.000) と同じです。"),
+        ("a.svg", "<svg", "a.svg:1: XML が壊れています (列 1: "),
+        ("a.hito", "format = 1", 'a.hito: format = "hitofude" がないため、Hitofude のプロジェクトではありません。'),
+        ("s.toml", "[[tool]]\nnumber = 1\n", "s.toml:1: diameter がこの [[tool]] にありません。diameter = … を"),
+        ("s.toml", "foo = 1", "s.toml:1: foo は使えません。使えるのは name, stock, surface, passes です。"),
+        ("p.ngc", "G1 X3 Q2 F100\nM30", "p.ngc:1:7: Q2: このブロックのどのコードもこのワードを使いません。"),
+        ("p.ngc", "#1=", "p.ngc:1:4: 数、#、[、関数のどれかが要ります (行末 があります)。"),
+    ],
+)
+def test_errors_are_put_together_in_japanese(name: str, text: str, told: str) -> None:
+    """As they reach the window: with the place before, parts put together by helpers, and words to type as they are."""
+    assert (JAPANESE.look_up(_error_of(name, text.encode())) or "").startswith(told)
+
+
+def _error_of(name: str, data: bytes) -> str:
+    """Return the first thing that is wrong in a file, as the program says it."""
+    try:
+        if name.endswith(".ngc"):
+            return examine(name, data, ExamineOptions()).problems[0].message(name)
+        read_scene(name, data) if name.endswith(".toml") else read_drawing(name, data)
+    except HitofudeError as error:
+        return str(error)
+    return ""
+
+
 @pytest.mark.parametrize("kind", FindingKind, ids=lambda kind: kind.value)
 def test_every_kind_of_finding_has_japanese_words(kind: FindingKind) -> None:
     assert in_japanese(kind.words) or in_japanese(sentence(kind.words))
@@ -70,7 +118,7 @@ def test_every_parameter_is_explained_in_japanese() -> None:
 def test_the_japanese_table_of_parameters_is_that_of_the_declarations() -> None:
     made = parameter_table(lambda words: JAPANESE.look_up(words) or words)
     page = resource("docs", "parameters_ja.md")
-    assert page.read_text("utf-8") == made, "write the page anew: app.usecases.parameter_table.parameter_table(tr)"
+    assert page.read_text("utf-8") == made, "write it anew: usecases.manual.parameter_table.parameter_table(tr)"
     assert not re.search(r"\| [A-Z]?[a-z]{3,} [a-z]{2,} [a-z]", made)
 
 
@@ -98,6 +146,32 @@ def test_what_is_said_is_found_in_a_source() -> None:
     }
     written = 'NOTE = "The scan begins here."\nraise InputError("This is an error.")\ndef f():\n    """Say it now."""\n'
     assert [each.text for each in written_in(written, "x.py")] == ["The scan begins here."]
+
+
+def test_what_can_go_wrong_is_found_in_a_source() -> None:
+    source = (
+        'MEND = "mend the line"\n'
+        "class WrongError(InputError):\n    pass\n"
+        "class Other(ValueError):\n    pass\n"
+        "def f(n, table):\n"
+        "    if n > 3:\n"
+        "        raise WrongError(f'A hole is {n} mm; {MEND}')\n"
+        "    if n > 2:\n"
+        "        raise table.error('depth', f'is {n}; use less')\n"
+        "    if n > 1:\n"
+        "        raise ValueError('never shown')\n"
+        "    if n > 0:\n"
+        "        raise Other('nor is this one')\n"
+        "    return GeometryError('Nothing is left of it.')\n"
+    )
+    base = "class InputError(HitofudeError):\n    pass\nclass GeometryError(HitofudeError):\n    pass\n"
+    said = errors_of({"core/errors.py": base, "x.py": source})
+    assert {each.text for each in said} >= {
+        f"A hole is {HOLE} mm; mend the line",
+        f"{HOLE} is {HOLE}; use less",
+        "Nothing is left of it.",
+    }
+    assert "never shown" not in {each.text for each in said}
 
 
 def test_a_sentence_that_is_half_english_counts_as_missing() -> None:

@@ -4,9 +4,9 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.core.settings import Settings, load_settings
-from app.ui.shell.actions import menus
-from app.ui.shell.keys_window import FIXED, KeysWindow
-from app.ui.shell.shortcuts import Shortcuts
+from app.ui.shell.bars.actions import menus
+from app.ui.shell.bars.shortcuts import Shortcuts
+from app.ui.shell.help.keys_window import FIXED, KeysWindow
 
 
 @pytest.fixture

@@ -3,8 +3,8 @@
 import pytest
 
 from app.ui.framework.verdict import VerdictLevel, VerdictSummary
-from app.ui.shell.badge import Badge
-from app.ui.shell.status_bar import StatusBar
+from app.ui.shell.bars.badge import Badge
+from app.ui.shell.bars.status_bar import StatusBar
 
 
 @pytest.fixture

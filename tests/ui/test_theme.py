@@ -9,7 +9,7 @@ from app.core.resources import resource
 from app.ui.framework.icons import pixmap
 from app.ui.framework.style import style_sheet
 from app.ui.framework.theme import DARK, LIGHT, text_font
-from app.ui.shell.actions import SEPARATOR, menus
+from app.ui.shell.bars.actions import SEPARATOR, menus
 
 LEAST_CONTRAST = 4.5
 

@@ -7,8 +7,8 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
 from app.ui.framework.view import View
-from app.ui.shell.actions import menus
-from app.ui.shell.tool_strip import GROUPS, SIDE
+from app.ui.shell.bars.actions import menus
+from app.ui.shell.bars.tool_strip import GROUPS, SIDE
 from app.ui.views.canvas.modes import CanvasTool
 
 LEFT, RIGHT = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton

@@ -21,8 +21,8 @@ from app.ui.framework.labels import Elided
 from app.ui.framework.worker import Worker
 from app.ui.panels.side_panel import SidePanel
 from app.ui.views.stages.film_set import FilmRequest, film_set_of
-from app.usecases.bitmap_job import drawn_job
-from app.usecases.bitmap_options import BitmapSize
+from app.usecases.making.bitmap_job import drawn_job
+from app.usecases.pixels.options import BitmapSize
 from tests.part_shapes import circle, layered_part, square
 
 PART = layered_part({"a": [square(40), circle(3, 20, 20)]})

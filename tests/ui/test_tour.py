@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 
 from app.core.settings import load_settings
-from app.ui.shell.tour import SEEN, STEPS
+from app.ui.shell.help.tour import SEEN, STEPS
 
 
 @pytest.fixture

@@ -9,19 +9,20 @@ import unicodedata
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QStyleOptionViewItem, QWidget
 
-from app.core.resources import resource
 from app.core.settings import Language, load_settings
-from app.ui.framework.catalogue import Catalogue, catalogue, set_language, tr
+from app.ui.framework.catalogue import Catalogue, catalogue, catalogue_files, set_language, tr
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
 from app.ui.framework.theme import TEXT_PX
-from app.ui.shell.actions import menus, plain
+from app.ui.shell.bars.actions import menus, plain
 from app.ui.shell.translation import code_of, translate_all
 from app.ui.views.canvas.prompt_tool import PromptTool
 from app.ui.views.canvas.tool_table import TOOLS
+from app.ui.views.nc.places_panel import ListedPlace, PlacesPanel, PlaceWeight
 
-ENTRIES: dict[str, str] = tomllib.loads(resource("translations", "ja.toml").read_text("utf-8"))["words"]
+FILES = {path: tomllib.loads(path.read_text("utf-8"))["words"] for path in catalogue_files("ja")}
+ENTRIES: dict[str, str] = {text: other for words in FILES.values() for text, other in words.items()}
 HOLE = re.compile(r"\{n?\}")
 NUMBERED = re.compile(r"\{(\d+)\}")
 OWN_NAMES = {"English", "日本語", "NC"}
@@ -62,6 +63,10 @@ def test_entries_keep_their_holes_and_say_something() -> None:
     assert not wrong
 
 
+def test_every_entry_stands_in_one_file() -> None:
+    assert len(FILES) > 5 and sum(map(len, FILES.values())) == len(ENTRIES)
+
+
 def holes_agree(text: str, other: str) -> bool:
     """Every hole stands in the translation too: as it is, or all of them by their numbers, in any order."""
     numbered = {int(number) for number in NUMBERED.findall(other)}
@@ -94,7 +99,7 @@ def test_what_is_said_later_is_looked_up_before_it_is_seen(qtbot, japanese) -> N
     japanese.files.ask_new()
     QApplication.processEvents()
     window.grab()
-    assert window.notice.text.text() == "新しい図面を始めますか。 この図面はまだどのファイルにも保存されていません。"
+    assert window.notice.text.text() == "新しい図面を始めますか。この図面はまだどのファイルにも保存されていません。"
     assert "作図を続ける" in [button.text() for button in window.notice.buttons]
     japanese.cancel()
     japanese.display_controller.show_hovered("Cancelled; nothing has changed.")
@@ -137,6 +142,30 @@ def test_one_entry_serves_menu_tip_and_button() -> None:
     assert words.look_up("Undo {x}") == "元に戻す: {x}"
     assert words.look_up("Close") is None
     assert words.look_up("") is None
+
+
+def test_a_sentence_is_found_behind_its_place_and_choices_stay_as_they_are() -> None:
+    words = Catalogue(
+        {"{} is wrong{}{}; use {}": "{} は誤り{}{}。{}", "passes": "回", "It ends: so": "終わる", "a.b": "甲"}
+    )
+    assert words.look_up("f.toml:3: x is wrong; use pitch, passes") == "f.toml:3: x は誤り。pitch, passes"
+    assert words.look_up("a.b: 7: It ends: so") == "a.b: 7: 終わる"
+    assert words.look_up("passes is wrong!; use passes") == "回 は誤り!。回"
+    assert words.look_up("f.toml:3: nobody knows") is None
+
+
+def test_rows_of_problems_are_painted_in_the_language_that_is_spoken(qtbot) -> None:
+    panel = PlacesPanel("problem", "N")
+    qtbot.addWidget(panel)
+    words = "1:7   Q2: no code in this block takes this word."
+    panel.show_places("1 error", [ListedPlace(words, "", PlaceWeight.ERROR)])
+    painted = []
+    for code in ("ja", "en"):
+        set_language(code)
+        option = QStyleOptionViewItem()
+        panel.list.itemDelegate().initStyleOption(option, panel.list.indexFromItem(panel.list.item(0)))
+        painted.append(option.text)
+    assert painted == ["1:7   Q2: このブロックのどのコードもこのワードを使いません。", words]
 
 
 def test_what_the_catalogue_lacks_stays_english() -> None:
@@ -245,3 +274,18 @@ def test_holes_for_numbers_let_sentences_be() -> None:
     assert words.look_up("2 of 12") == "2 / 12"
     assert words.look_up("The end of the line") is None
     assert words.look_up("Arc: centre") == "円弧: 中心"
+
+
+def test_sentences_are_looked_up_before_an_entry_swallows_them_and_lists_name_by_name():
+    words = Catalogue(
+        {
+            "Found: {}.": "発見: {}。",
+            "no gouge": "食込みなし",
+            "Zoom in.": "拡大。",
+            "Drill": "穴あけ",
+            "Pocket": "ポケット",
+        }
+    )
+    assert words.look_up("Found: no gouge. Zoom in.") == "発見: 食込みなし。拡大。"
+    assert words.look_up("Found: drill, pocket.") == "発見: 穴あけ、ポケット。"
+    assert words.look_up("Found: drill, saw.") == "発見: drill, saw。", "half a list is none"

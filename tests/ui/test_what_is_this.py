@@ -6,8 +6,8 @@ from PySide6.QtGui import QWhatsThisClickedEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QApplication, QComboBox, QLineEdit, QWhatsThis, QWidget
 
+from app.ui.shell.help.what_is_this import PLACES
 from app.ui.shell.start import build
-from app.ui.shell.what_is_this import PLACES
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,7 @@ from app.ui.framework.theme import DARK, LIGHT
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.file_controller import FIRST_START
-from app.ui.shell.nc_export_controller import ExportPlace
+from app.ui.shell.files.nc_export_controller import ExportPlace
 from app.ui.shell.window_geometry import fit_onto
 from app.ui.views.canvas.modes import CanvasTool, PathColourBy
 from tests.ui.conftest import WAIT_MS

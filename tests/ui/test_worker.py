@@ -7,6 +7,7 @@ import weakref
 
 import numpy as np
 import pytest
+from shiboken6 import delete
 
 from app.core.errors import InputError
 from app.core.memory import ask, within
@@ -145,3 +146,38 @@ def test_memory_that_runs_out_is_no_mistake_of_the_program(qtbot, worker, capsys
         worker.start(lambda progress: np.empty(1 << 55), 1)
     assert "ran out" in caught.args[0].error and "menu Compute" in caught.args[0].error
     assert capsys.readouterr().err == ""
+
+
+def test_what_a_job_returns_is_taken_on_the_window_thread(qtbot, worker):
+    taken: list[object] = []
+    with qtbot.waitSignal(worker.done):
+        worker.start(lambda progress: time.sleep(0.2) or "older", 1, lambda answer: taken.append("older"))
+        worker.start(lambda progress: 42, 1, lambda answer: taken.append((answer, threading.get_ident())))
+    assert taken == [(42, threading.get_ident())], "of a job that a newer one replaced nobody takes anything"
+    with qtbot.waitSignal(worker.failed):
+        worker.start(lambda progress: 1 / 0, 1, taken.append)
+    assert len(taken) == 1
+
+
+@pytest.mark.parametrize("remarks", [False, True])
+def test_a_job_whose_window_has_gone_ends_without_a_word(qtbot, capfd, remarks):
+    going, gone, threads = threading.Event(), threading.Event(), []
+
+    def work(progress: Progress) -> object:
+        threads.append(threading.current_thread())
+        going.set()
+        gone.wait(10.0)
+        for step in range(3):
+            time.sleep(0.05)
+            progress.step(step / 3, "rings")
+            if remarks:
+                progress.remark("a large part")
+        return None
+
+    worker = Worker(head_start_s=0.0)
+    worker.start(work, 1)
+    assert going.wait(10.0)
+    delete(worker)
+    gone.set()
+    threads[0].join(10.0)
+    assert not threads[0].is_alive() and capfd.readouterr().err == ""

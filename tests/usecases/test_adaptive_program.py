@@ -8,8 +8,9 @@ import pytest
 
 from app.core.resources import resource
 from app.formats.job.toml import read_job
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.model.moves import Purpose
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
 from tests.gcode.rs274_oracle import assert_same_motion
 
 JOB = """
@@ -48,6 +49,20 @@ def test_nothing_is_left_and_nothing_gouged(pocket: MakeResult) -> None:
     report = json.loads(pocket.report.text())
     assert report["left"]["reachable_mm2"] == 0 and report["gouge"]["max_mm"] < 1e-6
     assert report["rapids_in_material"] == [] and report["cut"]["gouged_places"] == 0
+
+
+def test_where_less_is_engaged_the_feed_rises_and_the_angle_stays() -> None:
+    job = JOB + 'feed_up_to = 2.0\n[output]\npost = "fanuc"\n'
+    made, plain = made_of("rectangle 0,0 24,15\n", job), made_of("rectangle 0,0 24,15\n", job.replace("2.0", "1.0"))
+    (operation,) = json.loads(made.report.text())["operations"]
+    assert made.clean and operation["engaged"]["motions_above"] == 0
+    cuts = made.program.moves.purpose == Purpose.POCKET
+    feeds = made.program.moves.feed[cuts] / made.job.tools[0].feed_rate
+    assert feeds.min() == 1.0 and 1.5 <= feeds.max() <= 2.0
+    sizes = [each.program.moves.lengths().sum() for each in (made, plain)]
+    assert sizes[0] == pytest.approx(sizes[1], abs=0.05)
+    seconds = [json.loads(each.report.text())["time_s"] for each in (made, plain)]
+    assert seconds[0] < seconds[1] - 2
 
 
 def test_linuxcnc_reads_the_same_motion(pocket: MakeResult) -> None:

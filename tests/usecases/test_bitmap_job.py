@@ -8,8 +8,8 @@ from app.core.errors import GeometryError
 from app.model.finding import FindingKind
 from app.raster.picture import thresholded
 from app.raster.picture_options import PictureOptions
-from app.usecases.bitmap_job import BitmapJob, picture_job
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.bitmap_job import BitmapJob, picture_job
 from tests.raster.test_doubts import plate
 
 

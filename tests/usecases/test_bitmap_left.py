@@ -10,7 +10,7 @@ from app.cli.main import main
 from app.geometry.region import polygon_contour
 from app.model.finding import FindingKind
 from app.model.part import Contour
-from app.usecases.make import MakeResult, finish
+from app.usecases.making.make import MakeResult, finish
 from tests.usecases.test_bitmap_way import job_of, made
 
 

@@ -16,10 +16,10 @@ from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.toolpath.coverage.flat import move_rows
-from app.usecases.bitmap_job import drawn_job
-from app.usecases.bitmap_part import BitmapSize
-from app.usecases.bitmap_way import BitmapProgram, compute_on_bitmap
-from app.usecases.make import finish
+from app.usecases.making.bitmap_job import drawn_job
+from app.usecases.making.make import finish
+from app.usecases.pixels.part import BitmapSize
+from app.usecases.pixels.way import BitmapProgram, compute_on_bitmap
 from tests.conftest import ROOT
 from tests.part_shapes import random_part
 from tests.plain_distance import distance, inside

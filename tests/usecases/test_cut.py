@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from app.core.resources import resource
-from app.usecases.cut import CutProgram
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.usecases.cutting.cut import CutProgram
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
 
 
 @cache

@@ -13,12 +13,12 @@ from app.simulation.engines import Compute, Cutters, Engine, Graphics, quads
 from app.simulation.field.workpiece import Heights, Workpiece
 from app.simulation.gpu.graphics import is_software, renderer_of, standalone_context
 from app.simulation.sweeps.course import Course
-from app.usecases.cut import CutOptions, CutProgram, cut
-from app.usecases.cut_report import cut_report
+from app.usecases.cutting.cut import CutOptions, CutProgram, cut
+from app.usecases.cutting.ready_setup import ReadySetup, SetupRequest, setup_of
+from app.usecases.cutting.report import cut_report
+from app.usecases.cutting.setup_stock import box_stock
+from app.usecases.cutting.setup_tools import ToolSource
 from app.usecases.examine import ExamineOptions, examine
-from app.usecases.setup import ReadySetup, SetupRequest, setup_of
-from app.usecases.setup_stock import box_stock
-from app.usecases.setup_tools import ToolSource
 
 FIRST = "G21 G90 G17 G54\nT1 M6\nG0 Z5\nX10 Y10\nG1 Z-2 F100\nX40 Z-3\nG2 X30 Y20 I-10 J0\nG0 Z5\nG0 X20\nM2\n"
 SECOND = "G21 G90 G17 G54\nT2 M6\nG0 Z5\nX10 Y18\nG1 Z-1 F100\nX40 Y4\nG0 Z-0.5\nX10 Y10\nZ5\nM2\n"

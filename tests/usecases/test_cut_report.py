@@ -11,11 +11,11 @@ from app.model.finding import FindingKind
 from app.model.stock_box import StockBox
 from app.model.tool import Tool
 from app.simulation.field.workpiece import BoxStock
-from app.usecases.cut import CutOptions, cut
-from app.usecases.cut_report import CutReport, cut_report
+from app.usecases.cutting.cut import CutOptions, cut
+from app.usecases.cutting.ready_setup import SetupRequest, setup_of
+from app.usecases.cutting.report import CutReport, cut_report
+from app.usecases.cutting.setup_tools import ToolSource
 from app.usecases.examine import ExamineOptions, examine
-from app.usecases.setup import SetupRequest, setup_of
-from app.usecases.setup_tools import ToolSource
 
 STOCK = BoxStock(StockBox(0.0, 0.0, -10.0, 60.0, 40.0, 0.0))
 TOLD = (ToolSource("--tool", {1: Tool(1, 6.0), 2: Tool(2, 4.0)}),)

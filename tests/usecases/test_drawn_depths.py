@@ -23,9 +23,9 @@ from app.model.operation import CutParameters, DrillOperation, Operation, Pocket
 from app.model.part import Part
 from app.model.tool import Tool
 from app.model.tool_kind import ToolKind
-from app.usecases.drawn_depths import with_drawn_depths
-from app.usecases.make import make
-from app.usecases.options import MakeOptions
+from app.usecases.job.drawn_depths import with_drawn_depths
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import make
 
 Draw = Callable[[Any], None]
 

@@ -16,6 +16,7 @@ from scipy.interpolate import BSpline, CubicSpline
 from scipy.spatial import cKDTree
 
 from app.core.errors import InputError
+from app.fitting.point_curves.correction import CorrectionOptions
 from app.fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
 from app.fitting.point_curves.effective_points import EffectiveOptions
 from app.usecases.smoothing.report import report
@@ -73,7 +74,11 @@ def facet_ends(shape: str, sag: float) -> Floats:
 
 def faceted(shape: str, sag: float) -> bytes:
     """A program along the facets, with points within each."""
-    ends = facet_ends(shape, sag)
+    return along_facets(facet_ends(shape, sag))
+
+
+def along_facets(ends: Floats) -> bytes:
+    """A program along chords, with points within each."""
     share = np.arange(1, INNER + 2) / (INNER + 1)
     points = (ends[:-1, None] + (ends[1:] - ends[:-1])[:, None] * share[None, :, None]).reshape(-1, 2)
     first = "G21 G90 G17 G94\nG0 X{:.4f} Y{:.4f} Z5\nG1 Z-1 F200\nF900\n".format(*ends[0])
@@ -144,6 +149,27 @@ def test_the_curve_goes_along_the_shape_and_not_along_the_facets(shape: str, sag
 def test_corrected_points_lead_nearer_to_the_shape_than_all_points(shape: str, sag: float, form: OutputForm) -> None:
     corrected, by_all = (off(shape, cut(written(shape, sag, form, method))) for method in (2, 0))
     assert corrected <= max(by_all / 3, 6 * DIGIT)
+
+
+@pytest.mark.parametrize("form", [OutputForm.ARCS, OutputForm.NURBS], ids=lambda form: form.value)
+@pytest.mark.parametrize("correct", [None, second_embodiment()], ids=["effective", "corrected"])
+@pytest.mark.parametrize("sag", [0.005, pytest.param(0.03, marks=pytest.mark.exhaustive)])
+def test_a_line_that_goes_on_into_an_arc_stays_a_line(
+    sag: float, correct: CorrectionOptions | None, form: OutputForm
+) -> None:
+    """A long line is no facet: nothing is corrected across it, and the curve beside it leaves in its direction."""
+    count = math.ceil(math.pi / (2 * math.acos(1 - sag / 20)))
+    turn = np.linspace(0, math.pi, count + 1)
+    arc = np.column_stack([40 + 20 * np.sin(turn), 20 - 20 * np.cos(turn)])
+    program = along_facets(np.vstack([[0, 0], arc, [0, 40]]))
+    tolerance, choose = 2.5 * sag + 5 * DIGIT, EffectiveOptions(max(sag / 10, 2 * DIGIT))
+    done = smooth("a.ngc", program, SmoothOptions(tolerance, form, effective=EffectiveMethod(choose, correct)))
+    places = cut(done)
+    from_line = np.where(places[:, 1] < 20, np.abs(places[:, 1]), np.abs(40 - places[:, 1]))
+    from_arc = np.abs(np.hypot(places[:, 0] - 40, places[:, 1] - 20) - 20)
+    away = np.where(places[:, 0] < 40, from_line, from_arc).max()
+    assert done.nearness is not None
+    assert away <= (done.nearness if correct is None else 2 * done.nearness) < sag / 3
 
 
 def test_the_certificate_states_both_limits_and_each_point() -> None:

@@ -21,16 +21,16 @@ from app.simulation.field.workpiece import BoxStock
 from app.surfaces.passes.facet_crossings import facet_crossings
 from app.surfaces.patches.facets import SurfaceFacets
 from app.surfaces.sections.compound import CuttingPlanes
-from app.usecases.bitmap_job import BitmapJob, drawn_job
-from app.usecases.bitmap_options import BitmapSize
-from app.usecases.bitmap_way import compute_on_bitmap
-from app.usecases.cut import CutOptions, CutSetup, cut
-from app.usecases.effort import cut_effort
-from app.usecases.make import finish
+from app.usecases.cutting.cut import CutOptions, CutSetup, cut
+from app.usecases.cutting.effort import cut_effort
+from app.usecases.making.bitmap_job import BitmapJob, drawn_job
+from app.usecases.making.make import finish
+from app.usecases.pixels.options import BitmapSize
+from app.usecases.pixels.way import compute_on_bitmap
+from app.usecases.scene.compute import compute
 from app.usecases.smoothing.effort import smooth_effort
 from app.usecases.smoothing.result import OutputForm, SmoothOptions
 from app.usecases.smoothing.smooth import smooth
-from app.usecases.surface import compute
 from tests.conftest import ROOT
 from tests.operations.test_reckoning import holes, job_of, square, wavy
 
@@ -153,7 +153,7 @@ def test_what_is_said_of_jobs_on_pixels_is_within_a_factor_of_three(
     made(on_pixels(square(50.0), 256, 6.0), stop)  # loads the code
     said: list[Reckoning] = []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("app.usecases.bitmap_way.announce", lambda effort, progress: said.append(effort))
+        patch.setattr("app.usecases.pixels.way.announce", lambda effort, progress: said.append(effort))
         took = made(on_pixels(curves, points, diameter), stop)
     assert took / WITHIN < said[0].seconds < took * WITHIN, f"said {said[0].seconds:.1f} s, took {took:.1f} s"
 

@@ -15,8 +15,8 @@ from app.formats.plot.layout import PlotOptions, lay_out
 from app.formats.plot.surface_plot import VIEWS, PlotColouring, Projection
 from app.formats.scene.toml import read_scene, sources_of
 from app.model.moves import Purpose
-from app.usecases.surface import ComputedScene, compute
-from app.usecases.surface_plot import FORMATS, PlotScene, PlottedPart, boundary_name, by_surface, plot_surface
+from app.usecases.scene.compute import ComputedScene, compute
+from app.usecases.scene.plot import FORMATS, PlotScene, PlottedPart, boundary_name, by_surface, plot_surface
 from tests.conftest import ROOT
 from tests.formats.hpgl_player import Plotter
 

@@ -19,8 +19,8 @@ from app.gcode.posts.posts import post_names
 from app.model.finding import FindingKind
 from app.model.moves import MoveKind, Purpose
 from app.operations.compute import compute
-from app.usecases.make import MakeResult, finish, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, finish, make
 from tests.gcode.rs274_oracle import exact_motions
 
 TOOLS = """
@@ -54,6 +54,10 @@ diameter = 5.1
 number = 6
 kind = "thread-mill"
 diameter = 4.0
+[[tool]]
+number = 7
+kind = "ball"
+diameter = 6.0
 """
 PLATE = "rectangle 0,0 60,40\ncircle 15,20 3\ncircle 45,20 3\n"
 DRILL = '[[operation]]\nkind = "drill"\ntool = 2\ndepth = 10\nthrough = 0.5\nleast = 5\nmost = 6\n'
@@ -90,11 +94,26 @@ def assert_same_cuts(made: MakeResult) -> None:
 
 BORE = '[[operation]]\nkind = "bore"\ntool = 1\ndepth = 4\nstepdown = 1\n'
 CHAMFER = '[[operation]]\nkind = "chamfer"\ntool = 4\nwidth = 1.0\ntip_offset = 0.3\nside = "{}"\n'
+ROUND = '[[operation]]\nkind = "chamfer"\ntool = 7\nwidth = 1.0\nchamfer_depth = 0.8\nside = "{}"\n'
+
+
+def groove(side: float) -> float:
+    """The volume of the groove of a ball of 6 mm that breaks the edge of a circle of 20 mm, 1 mm wide and 0.8 mm deep:
+    its axis is where both ends of the chamfer are 3 mm from the centre, and a segment of its meridian is turned.
+    """
+    middle, across = np.array([-1.0, -0.8]) / 2, np.array([0.8, 1.0]) / math.hypot(1.0, 0.8)
+    off, above = middle + across * math.sqrt(9 - 0.41)
+    segment = 9 * math.acos(above / 3) - above * math.sqrt(9 - above**2)
+    return math.tau * (10 + side * off) * segment
+
+
 KINDS = {
     "bore": (BORE, "circle 20,20 8\n", math.pi * 64 * 4),
     "countersink": ('[[operation]]\nkind = "countersink"\ntool = 4\n', PLATE, 2 * math.pi * 9 * 3 / 3),
     "chamfer inside": (CHAMFER.format("inside"), "circle 20,20 10\n", math.tau * 9.7 * 1.3**2),
     "chamfer outside": (CHAMFER.format("outside"), "circle 20,20 10\n", math.tau * 10.3 * 1.3**2),
+    "ball inside": (ROUND.format("inside"), "circle 20,20 10\n", groove(-1)),
+    "ball outside": (ROUND.format("outside"), "circle 20,20 10\n", groove(1)),
     "face": ('[[operation]]\nkind = "face"\ntool = 1\n', "rectangle 0,0 60,40\n", 76 * 56 * 0.5),
 }
 """Operations, a drawing, and what they remove, mm3."""
@@ -154,6 +173,8 @@ def broken(made: MakeResult, operation: int, **off: float) -> MakeResult:
         ("countersink", "z", 0.02, FindingKind.LEFT_REACHABLE),
         ("chamfer inside", "z", -0.02, FindingKind.GOUGE),
         ("chamfer outside", "z", 0.02, FindingKind.LEFT_REACHABLE),
+        ("ball inside", "z", -0.02, FindingKind.GOUGE),
+        ("ball outside", "z", 0.02, FindingKind.LEFT_REACHABLE),
     ],
 )
 def test_a_path_that_is_off_is_found(kind: str, axis: str, by: float, found: FindingKind) -> None:

@@ -14,9 +14,9 @@ from app.core.errors import ParameterError
 from app.core.resources import resource
 from app.formats.job.toml import read_job
 from app.usecases.inlay import InlayFit, InlayJobs, InlayOptions, InlayPair, fit_of, inlay, inlay_jobs
-from app.usecases.make import export, job_from_drawing
-from app.usecases.options import MakeOptions
-from app.usecases.plausible import read_for
+from app.usecases.job.options import MakeOptions
+from app.usecases.job.plausible import read_for
+from app.usecases.making.make import export, job_from_drawing
 
 JOB = """
 [stock]

@@ -17,8 +17,8 @@ from app.model.contour_operation import ContourOperation
 from app.model.layer_rules import LayerRule, depth_in
 from app.model.operation import CutParameters, DrillOperation, PocketOperation, Side
 from app.model.part import Layer
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
 
 TEMPLATE = resource("samples", "layers.toml")
 SQUARES = ("Pocket 4mm", "POCKET_2.5mm", "Marks", "Cut out", "Notes")

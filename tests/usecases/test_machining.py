@@ -21,9 +21,9 @@ from app.model.operation import CutParameters, DrillOperation, Order, PocketOper
 from app.model.operation_kinds import parameters
 from app.model.part import Layer, Part
 from app.model.tool import Tool, ToolKind
-from app.usecases.machining import MachiningOptions, check_order
-from app.usecases.make import export, make
-from app.usecases.options import MakeOptions, Stepover, job_with_options, layers_of_drawing
+from app.usecases.job.machining import MachiningOptions, check_order
+from app.usecases.job.options import MakeOptions, Stepover, job_with_options, layers_of_drawing
+from app.usecases.making.make import export, make
 
 HOLES = Job(Part(), (Tool(1, 3.0),), (DrillOperation(CutParameters(1)),))
 NO_OPTIONS = MakeOptions()

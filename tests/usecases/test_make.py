@@ -23,9 +23,9 @@ from app.model.operation import CutParameters, PocketOperation, RestOperation
 from app.model.part import Part, Units
 from app.model.stock_box import stock_box, work_origin
 from app.model.tool import ToolKind
-from app.usecases.machining import MachiningOptions
-from app.usecases.make import MakeResult, finish, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.machining import MachiningOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, finish, make
 from tests.gcode.rs274_oracle import assert_same_motion, canonical_calls
 from tests.usecases.truth import assert_left_is_true
 

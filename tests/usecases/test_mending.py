@@ -12,9 +12,9 @@ from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.operation import CutParameters, DrillOperation, PocketOperation, RestOperation
 from app.model.tool import Tool, ToolKind
-from app.usecases.make import MakeResult, export
+from app.usecases.making.make import MakeResult, export
+from app.usecases.making.program_lines import operation_of_line
 from app.usecases.mending import Fault, mends
-from app.usecases.program_lines import operation_of_line
 from tests.part_shapes import circle, layered_part, square
 
 PART = layered_part({"0": [square(40.0)]})

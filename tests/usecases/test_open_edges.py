@@ -12,7 +12,7 @@ from app.model.finding import FindingKind
 from app.model.moves import MoveKind, Purpose
 from app.toolpath.drawn_contours import drawn_contours
 from app.toolpath.machining_areas import MachiningAreas
-from app.usecases.make import MakeResult
+from app.usecases.making.make import MakeResult
 from tests.usecases.test_holes_program import assert_same_cuts, made_of, report_of
 
 STOCK = "[stock]\nthickness = 10.0\n"

@@ -14,8 +14,8 @@ from app.model.operation import CutParameters, Direction, PocketOperation
 from app.model.operation_kinds import parameters
 from app.model.part import Part
 from app.model.tool import Tool
-from app.usecases.machining import MachiningOptions
-from app.usecases.options import MakeOptions, Stepover, job_with_options
+from app.usecases.job.machining import MachiningOptions
+from app.usecases.job.options import MakeOptions, Stepover, job_with_options
 
 
 def made(**options: Any) -> Job:

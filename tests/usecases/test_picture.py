@@ -11,7 +11,7 @@ from app.formats.plot.picture import CONTOUR, LINK, POCKET, RAPID
 from app.geometry.primitives import lengths
 from app.model.moves import Moves, Program, Purpose
 from app.toolpath.coverage.coverage import Coverage, UncutPlace
-from app.usecases.picture import picture_of
+from app.usecases.making.picture import picture_of
 from tests.gcode.programs import Path, square
 
 

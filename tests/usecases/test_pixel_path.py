@@ -26,10 +26,10 @@ from app.raster.levels import offset_area
 from app.raster.walls import free_pixels, wall_rows
 from app.toolpath.coverage.coverage import coverage_findings, measure
 from app.toolpath.coverage.flat import move_rows
-from app.usecases.bitmap_job import drawn_job
-from app.usecases.bitmap_options import BitmapSize
-from app.usecases.make import finish
-from app.usecases.pixel_path import TOLERANCE_PX, WallLimits, chain_points, clearance, pixel_path
+from app.usecases.making.bitmap_job import drawn_job
+from app.usecases.making.make import finish
+from app.usecases.pixels.options import BitmapSize
+from app.usecases.pixels.path import TOLERANCE_PX, WallLimits, chain_points, clearance, pixel_path
 from tests.part_shapes import circle, fig2, square
 from tests.plain_distance import distance
 from tests.raster.shapes import KINDS

@@ -13,9 +13,9 @@ from app.core.errors import InputError, ParameterError
 from app.core.resources import resource
 from app.formats.scene.toml import read_scene, sources_of
 from app.model.scene import Passes, Scene, Strategy
-from app.usecases.plane_rules import expanded
-from app.usecases.surface import compute
-from app.usecases.surface_nc import write_scene_nc
+from app.usecases.scene.compute import compute
+from app.usecases.scene.plane_rules import expanded
+from app.usecases.scene_program.nc import write_scene_nc
 from tests.scene_text import write_scene
 
 

@@ -20,10 +20,10 @@ from app.simulation.field.workpiece import BoxStock
 from app.simulation.sweeps.course import TrimOptions
 from app.simulation.sweeps.sweeps import CutField
 from app.simulation.sweeps.trim import trim
-from app.usecases.cut import CutOptions, CutProgram, CutSetup
-from app.usecases.cut import cut as cut_setup
-from app.usecases.playback import Playback, PlayFrame
-from app.usecases.timeline import Timeline, TimelinePlace
+from app.usecases.cutting.cut import CutOptions, CutProgram, CutSetup
+from app.usecases.cutting.cut import cut as cut_setup
+from app.usecases.cutting.playback import Playback, PlayFrame
+from app.usecases.cutting.timeline import Timeline, TimelinePlace
 from app.verify.course import course_of
 from tests.usecases.test_cut import cut
 

@@ -23,9 +23,9 @@ from app.model.operation import DrillOperation, PocketOperation, RestOperation, 
 from app.model.stock_box import stock_box
 from app.model.tool import Tool, ToolKind
 from app.toolpath.coverage.flat import region_shapes
-from app.usecases.machining import MachiningOptions
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.machining import MachiningOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
 from app.usecases.proposal.propose import SPARE, Proposal, ProposalOptions, ProposalRule, as_in_1986, propose
 from tests.part_shapes import circle, layered_part, square
 

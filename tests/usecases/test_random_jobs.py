@@ -14,7 +14,7 @@ from app.model.job import Job
 from app.model.operation import CutParameters, Direction, PocketOperation
 from app.model.part import Entity, Part
 from app.model.tool import Tool
-from app.usecases.make import export
+from app.usecases.making.make import export
 from tests.usecases.truth import assert_left_is_true
 
 Points = list[tuple[float, float]]

@@ -14,7 +14,7 @@ import pytest
 
 from app.cli.main import main
 from app.simulation.cutter import Cutter
-from app.usecases.ridges import ridges
+from app.usecases.scene_program.ridges import ridges
 from tests.surfaces.closing_oracle import Surface, Window, cut, reach
 from tests.surfaces.solids import pocketed_block
 from tests.usecases.test_scene_findings import DOME, MESH, told

@@ -17,12 +17,12 @@ from app.model.operation import PocketOperation, RestOperation
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.workpiece import BoxStock
+from app.usecases.cutting.ready_setup import ReadySetup, SetupRequest, setup_of
+from app.usecases.cutting.setup_tools import ToolSource
 from app.usecases.examine import ExamineOptions, examine
-from app.usecases.machining import MachiningOptions
-from app.usecases.make import make
-from app.usecases.options import MakeOptions
-from app.usecases.setup import ReadySetup, SetupRequest, setup_of
-from app.usecases.setup_tools import ToolSource
+from app.usecases.job.machining import MachiningOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import make
 from app.verify.parts import FlatPart
 
 CUT = "G0 Z5\nX10 Y10\nG1 Z-2 F100\nX40 Y20\nG0 Z5\n"

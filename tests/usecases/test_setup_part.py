@@ -23,8 +23,8 @@ from app.operations.compute import followed_lines, machined_regions
 from app.toolpath.coverage.flat import region_shapes
 from app.toolpath.drawn_contours import drawn_contours
 from app.toolpath.machining_areas import MachiningAreas
+from app.usecases.cutting.ready_setup import SetupRequest, setup_of
 from app.usecases.examine import ExamineOptions, examine
-from app.usecases.setup import SetupRequest, setup_of
 from app.verify.parts import FlatPart
 from tests.gcode.programs import Path
 

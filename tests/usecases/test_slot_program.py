@@ -11,8 +11,8 @@ from app.core.resources import resource
 from app.formats.job.toml import read_job
 from app.gcode.posts.posts import post_names
 from app.operations.compute import compute
-from app.usecases.make import MakeResult, finish, make
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, finish, make
 from tests.usecases.test_holes_program import assert_same_cuts, made_of, report_of
 
 SLOT = '[[operation]]\nkind = "slot"\ntool = 1\ndepth = 4\nstepdown = 2\n'

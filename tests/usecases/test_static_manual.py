@@ -13,8 +13,8 @@ from urllib.parse import unquote
 import pytest
 
 from app.cli.main import main
-from app.usecases.manual_pages import FIRST, LANGUAGES, LAST
-from app.usecases.static_manual import linked, static_manual
+from app.usecases.manual.pages import FIRST, LANGUAGES, LAST
+from app.usecases.manual.site import linked, static_manual
 from tests.ui.manual_tour import OPERATION_PAGES
 
 DOCS = Path(__file__).resolve().parents[2] / "resources/docs"

@@ -19,9 +19,9 @@ from app.model.part import Units
 from app.model.scene import Boundary, CentreLimit, Passes, Scene, Surface
 from app.model.tool import Tool, ToolKind
 from app.surfaces.sections.compound import NO_SURFACE
-from app.usecases import surface_nc
-from app.usecases.surface import ComputedScene, compute
-from app.usecases.surface_nc import write_scene_nc
+from app.usecases.scene.compute import ComputedScene, compute
+from app.usecases.scene_program import nc as surface_nc
+from app.usecases.scene_program.nc import write_scene_nc
 from tests.surfaces.scenes import ball, plane
 from tests.surfaces.surface_places import no_data
 

@@ -18,8 +18,8 @@ from app.surfaces.sections.compound import (
     CuttingPlanes,
     SectionRun,
 )
-from app.usecases.surface import ComputedScene, compute
-from app.usecases.surface_points import COLUMNS, ToolSurface, points_csv, scene_points_csv
+from app.usecases.scene.compute import ComputedScene, compute
+from app.usecases.scene.points import COLUMNS, ToolSurface, points_csv, scene_points_csv
 from tests.conftest import ROOT
 
 SAMPLES = ROOT / "resources" / "samples"

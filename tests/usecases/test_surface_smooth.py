@@ -16,11 +16,11 @@ from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import Floats, MotionKind
 from app.usecases.better.result import BetterOptions
+from app.usecases.scene.compute import compute
+from app.usecases.scene_program.nc import write_scene_nc
+from app.usecases.scene_program.smooth import CurvesOverSurfaces, chords_of, smooth_scene
 from app.usecases.smoothing.result import OutputForm
-from app.usecases.surface import compute
 from app.usecases.surface_files import MadeScene, SceneOutputs, scene_files
-from app.usecases.surface_nc import write_scene_nc
-from app.usecases.surface_smooth import CurvesOverSurfaces, chords_of, smooth_scene
 
 BALL, MAJOR, MINOR, T = 3.0, 20.0, 10.0, 0.02
 OUT = Path("o.ngc")

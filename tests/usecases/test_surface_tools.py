@@ -12,8 +12,8 @@ from scipy.spatial import cKDTree
 from app.formats.scene.toml import read_scene, sources_of
 from app.model.tool import Tool, ToolKind
 from app.surfaces.patches.patch import patches_of
-from app.usecases.surface import ComputedScene, compute
-from app.usecases.surface_nc import write_scene_nc
+from app.usecases.scene.compute import ComputedScene, compute
+from app.usecases.scene_program.nc import write_scene_nc
 from tests.surfaces.surface_places import no_data
 from tests.surfaces.test_drop_cutter import rise
 

@@ -13,9 +13,9 @@ from app.core.resources import resource
 from app.formats.job.toml import read_job
 from app.model.finding import FindingKind
 from app.operations.compute import compute
-from app.usecases.cut import CutOptions, cut
-from app.usecases.make import MakeResult, finish, make
-from app.usecases.options import MakeOptions
+from app.usecases.cutting.cut import CutOptions, cut
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, finish, make
 from tests.gcode.rs274_oracle import assert_same_motion
 
 JOB = """

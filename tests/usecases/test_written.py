@@ -21,9 +21,9 @@ from app.model.finding import FindingKind
 from app.model.machine import Machine
 from app.model.moves import MoveKind
 from app.model.part import Units
-from app.usecases.make import MakeResult, finish, make
-from app.usecases.options import MakeOptions
-from app.usecases.written import write_and_check
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, finish, make
+from app.usecases.making.written import write_and_check
 
 FIG2 = Path(__file__).resolve().parents[2] / "resources/samples/fig2.dxf"
 

@@ -7,7 +7,7 @@ import shapely
 
 from app.model.moves import MoveKind
 from app.toolpath.coverage.flat import lines, move_rows, region_shapes
-from app.usecases.make import MakeResult
+from app.usecases.making.make import MakeResult
 
 DOUBT = 0.01
 """mm; points nearer than this to the edge of a cut or of a piece that is left decide nothing."""

@@ -10,7 +10,7 @@ from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.solid import SolidStock
 from app.simulation.field.workpiece import BoxStock
-from app.usecases.cut import CutOptions, CutProgram, CutSetup, cut
+from app.usecases.cutting.cut import CutOptions, CutProgram, CutSetup, cut
 from app.verify import fine_stock, narrow_rapids, path_hits
 from app.verify.parts import SolidPart
 from tests.simulation.test_target import box

@@ -12,7 +12,7 @@ from app.model.finding import Finding, FindingKind
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.workpiece import BoxStock
-from app.usecases.cut import CutOptions, CutSetup, cut
+from app.usecases.cutting.cut import CutOptions, CutSetup, cut
 from app.verify import path_hits
 from tests.surfaces.solids import pocketed_block, stl
 from tests.verify.test_judge import program

@@ -15,9 +15,9 @@ from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.solid import SolidStock
 from app.simulation.field.workpiece import BoxStock
-from app.usecases.cut import CutOptions, CutProgram, CutSetup, cut
-from app.usecases.make import MakeResult, make
-from app.usecases.options import MakeOptions
+from app.usecases.cutting.cut import CutOptions, CutProgram, CutSetup, cut
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, make
 from app.verify.judgement import SpotKind
 from app.verify.parts import SolidPart
 from tests.simulation.test_target import box

@@ -18,7 +18,7 @@ from app.simulation.cutter import cutter_of
 from app.simulation.field.solid import SolidStock, read_solid
 from app.simulation.field.triangle_tree import TriangleTree
 from app.simulation.field.workpiece import BoxStock
-from app.usecases.cut import CutOptions, CutProgram, CutSetup, cut
+from app.usecases.cutting.cut import CutOptions, CutProgram, CutSetup, cut
 from app.verify.parts import SolidPart
 from app.verify.solid_depth import CutColumns, DepthInSolid
 from app.verify.solid_gouges import APART, apart

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from ...core.errors import InputError
 from ...core.input_file import read_input
 from ...formats.scene.write import scene_text
 from ...usecases.better.improve import better
@@ -26,10 +27,14 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     done = better(arguments.program.name, read_input(arguments.program), asked, setup, progress)
     files = {outputs["output"]: done.data}
     if "scene" in outputs:
+        if done.scene is None:
+            raise InputError(
+                f"{done.name}: its passes were lifted where they are, which makes no scene; leave --scene out."
+            )
         files[outputs["scene"]] = scene_text(done.scene).encode()
     if "image" in outputs:
         pair = done.old_cut.cut.workpiece, done.new_cut.cut.workpiece
-        files[outputs["image"]] = stock_picture(*pair, done.smoothed)
+        files[outputs["image"]] = stock_picture(*pair, done.smoothed.area)
     if "report" in outputs:
         files[outputs["report"]] = report_text(done).encode()
     found = findings(done)

@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import argparse
 
-from ...usecases.cut import cut
 from ...usecases.cut_files import cut_texts
-from ...usecases.cut_report import cut_report
-from ...usecases.setup import setup_of
+from ...usecases.cutting.cut import cut
+from ...usecases.cutting.ready_setup import setup_of
+from ...usecases.cutting.report import cut_report
 from ..command import CliCommand, OptionParser
 from ..cut_options import EPILOG, add_cut_options, check_cut_arguments
 from ..cut_request import cut_files, ensure_window, examined_programs, requested_look, setup_request

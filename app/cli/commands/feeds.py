@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from ...formats.tools.files import write_tools
 from ...toolpath.feeds.proposal import FeedProposal, proposed_feeds
-from ...usecases.feeds import feeds_report
+from ...usecases.job.feeds import feeds_report
 from ..command import CliCommand
 from ..feeds_options import (
     EPILOG,

@@ -8,7 +8,7 @@ from pathlib import Path
 from ...core.input_file import read_input
 from ...formats.job.toml import read_job
 from ...usecases.inlay import InlayOptions, inlay
-from ...usecases.options import MakeOptions
+from ...usecases.job.options import MakeOptions
 from ..command import CliCommand, OptionParser
 from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome

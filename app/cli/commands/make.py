@@ -10,8 +10,8 @@ from pathlib import Path
 from ...core.beside import one_after_another
 from ...core.errors import InputError
 from ...core.input_file import read_input
-from ...usecases.make import make
 from ...usecases.make_files import other_files
+from ...usecases.making.make import make
 from ..command import CliCommand
 from ..files import identity, shown_progress
 from ..make_options import EPILOG, add_make_options, make_files, read_make_options

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...core.errors import InputError
 from ...core.resources import resource
-from ...usecases.static_manual import static_manual
+from ...usecases.manual.site import static_manual
 from ..command import CliCommand, OptionParser
 from ..files import shown_progress
 from ..outcome import CommandOutcome

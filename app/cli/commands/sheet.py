@@ -10,10 +10,10 @@ from ...core.input_file import read_input
 from ...core.progress import Progress
 from ...formats.sheet import SUFFIXES
 from ...formats.sheet.write import sheet_bytes
-from ...usecases.cut import cut
-from ...usecases.cut_report import cut_report
+from ...usecases.cutting.cut import cut
+from ...usecases.cutting.ready_setup import SetupRequest, setup_of
+from ...usecases.cutting.report import cut_report
 from ...usecases.examine import ExaminedProgram
-from ...usecases.setup import SetupRequest, setup_of
 from ...usecases.sheet.program import SheetCut, SheetNotes, program_sheet
 from ..command import CliCommand, OptionParser
 from ..cut_options import add_cut_options, check_cut_arguments

@@ -47,6 +47,14 @@ class Kernel:
         """Run it."""
         return self._call(*arguments)
 
+    def load(self) -> None:
+        """Have it ready before its first call, which may be on a thread that must not wait.
+
+        Raises:
+            HitofudeError: it cannot be compiled.
+        """
+        self._call = self._ready()
+
     def __repr__(self) -> str:
         return f"<kernel {self.name}>"
 

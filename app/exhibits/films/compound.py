@@ -18,8 +18,8 @@ from ...model.scene import LineType
 from ...model.scene_curves import SceneFiles
 from ...surfaces.patches.patch import BsplineSurface
 from ...surfaces.sections.compound import NO_SURFACE, BoundaryKind, PlaneSection
-from ...usecases.surface import ComputedFamily, ComputedScene, compute
-from ...usecases.surface_nc import WrittenScene, write_scene_nc
+from ...usecases.scene.compute import ComputedFamily, ComputedScene, compute
+from ...usecases.scene_program.nc import WrittenScene, write_scene_nc
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
 from .step_drawing import BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, INK, LINE, RED, StepDrawing, seen
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...simulation.cutter import cutter_of
+from ...usecases.cutting.ready_setup import SetupRequest, setup_of
 from ...usecases.examine import ExamineOptions, examine
-from ...usecases.setup import SetupRequest, setup_of
 from ...verify.course import course_of
 from .dexels import CutFilmInput
 

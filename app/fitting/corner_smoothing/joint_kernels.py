@@ -64,6 +64,7 @@ def _between(points, a, b, arc, lines):
     """
     first, last = lines[0], lines[1]
     cross = first[2] * last[3] - first[3] * last[2]
+    # lines that nearly follow one another (within 1.1 degrees) leave the centre undetermined
     if abs(cross) < 0.02:
         return False
     # the centre lies at turn * r to the left of both: it moves along a line as r grows, c = c0 + r k
@@ -78,6 +79,7 @@ def _between(points, a, b, arc, lines):
             kx, ky = x - c0x, y - c0y
     r = arc[2]
     for _ in range(8):
+        # Gauss-Newton in the one unknown: the residual of a point is |p - c(r)| - r, its derivative by r the slope
         top = bottom = 0.0
         for k in range(a, b + 1):
             dx, dy = points[k, 0] - c0x - r * kx, points[k, 1] - c0y - r * ky
@@ -125,6 +127,7 @@ def make_tangent(points, ends, carriers, joined, tolerance):
                 two = False
         if not done and (one or two):
             line = before if one else after
+            # one line alone: the centre moves square to it until it is a radius away, the radius stays
             off = arc[3] * arc[2] - _side(line, arc[0], arc[1])
             arc[0], arc[1] = arc[0] - off * line[3], arc[1] + off * line[2]
             if _worst(points, ends[k], ends[k + 1], arc) > 1.5 * tolerance:
@@ -147,6 +150,7 @@ def _slide(arc, fixed, line, along):
         return False
     ux, uy = (line[2], line[3]) if along else (dx / length, dy / length)
     lean, reach = dx * ux + dy * uy, arc[2] + fixed[2]
+    # |d + step u| = reach, solved for the step; of its two roots the one on the side where the arc is now
     square = lean * lean + reach * reach - length * length
     if square < 0.0:
         return False
@@ -229,6 +233,7 @@ def _touching(a, b, x, y):
         ax, ay = _foot(a, x, y)
         bx, by = _foot(b, x, y)
         return (ax + bx) / 2, (ay + by) / 2
+    # circles touch on the line of centres: from inside on the smaller one's far side, else between them
     way = -1.0 if a[3] == b[3] and a[2] < b[2] else 1.0
     return a[0] + way * a[2] * dx / length, a[1] + way * a[2] * dy / length
 
@@ -270,6 +275,7 @@ def rows_between(carriers, joints, rows):
         chord = dx * dx + dy * dy
         if carriers[k, 4] == 0.0 or chord == 0.0:
             continue
+        # as much of (centre - chord's middle) as lies along the chord goes: the bisector is what is left
         along = ((carriers[k, 0] - (ax + bx) / 2) * dx + (carriers[k, 1] - (ay + by) / 2) * dy) / chord
         cx, cy = carriers[k, 0] - along * dx, carriers[k, 1] - along * dy
         rows[k, 4], rows[k, 5], rows[k, 6], rows[k, 7] = cx, cy, math.hypot(ax - cx, ay - cy), carriers[k, 3]
@@ -279,6 +285,7 @@ def rows_between(carriers, joints, rows):
 def _within(row, x, y):
     """Tell whether a point lies in the sector of an arc, which may sweep up to a full turn."""
     ax, ay, bx, by, vx, vy = row[0] - row[4], row[1] - row[5], row[2] - row[4], row[3] - row[5], x - row[4], y - row[5]
+    # after the beginning and before the end, by cross products; of more than half a turn either one is enough
     behind, ahead = row[7] * (ax * vy - ay * vx) >= 0.0, row[7] * (vx * by - vy * bx) >= 0.0
     return (behind and ahead) if row[7] * (ax * by - ay * bx) >= 0.0 else (behind or ahead)
 
@@ -327,6 +334,7 @@ def deviations(points, ends, carriers, rows, worst):
         for i in range(a, b + 1):
             x, y = points[i, 0], points[i, 1]
             off = _distance(rows[k], x, y)
+            # neighbours are asked only where the point would count, as few do
             if off > worst[k, 0] or off > worst[k, 1]:
                 off = min(off, _distance(rows[k - 1], x, y), _distance(rows[(k + 1) % n], x, y))
                 worst[k, 0] = max(worst[k, 0], off)

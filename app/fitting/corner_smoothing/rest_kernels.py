@@ -102,6 +102,7 @@ def anchor(points, path, bent, anchors):
         steps = ends[k + 1] - ends[k]
         if rows[k, 7] != 0.0:
             _half_way(rows[k], nodes[k, 0])
+            # the points are there three times: one round later there are points before and behind each
             middle = _nearest(points, ends[k], ends[k + 1], (nodes[k, 0, 0], nodes[k, 0, 1]))
             _look(points, middle + period, max(steps // WINDOW, 2), sums, nodes[k, 0])
             nodes[k, 1] = nodes[k, 0]
@@ -182,6 +183,7 @@ def smoothed(points, path, bent, made, told):
         origin[count : count + 4] = k
         free[count : count + 4] = False
         if bent[k]:
+            # the bend at the path's first point begins in the round before it
             a = at[before, 1] - (period if k == 0 else 0)
             if not _put_biarc(points, period, (nodes[before, 1], nodes[k, 0], a, at[k, 0]), made, count):
                 bent[k] = whole = False
@@ -193,6 +195,7 @@ def smoothed(points, path, bent, made, told):
         first, a = (nodes[k, 0], at[k, 0]) if bent[k] else (own[0], ends[k])
         last, b = (nodes[k, 1], at[k, 1]) if bent[after] else (own[1], ends[k + 1])
         arc = rows[k, 7] != 0.0
+        # an arc keeps one true end only: from its middle, where the other bend's biarc ends, a biarc leads to that end
         if arc and bent[k] != bent[after]:
             if not _put_biarc(points, period, (first, last, a, b), made, count):
                 bent[k] = bent[after] = whole = False

@@ -46,6 +46,7 @@ def _arc_holds(points, a, steps, sums, tolerance):
     if r <= tolerance:
         return False
     cx, cy = cx + points[a, 0], cy + points[a, 1]
+    # squares are compared, so that no point needs a root
     low, high = (r - tolerance) ** 2, (r + tolerance) ** 2
     px, py = points[a, 0] - cx, points[a, 1] - cy
     if not low <= px * px + py * py <= high:
@@ -57,9 +58,12 @@ def _arc_holds(points, a, steps, sums, tolerance):
         if not low <= x * x + y * y <= high or step * way < 0.0 or step == 0.0:
             return False
         way = step
+        # r^2 times the sine of the step's angle; angles are small, so the sum over r^2 is nearly the sweep
         gone += abs(step)
         px, py = x, y
     sweep = gone / (r * r)
+    # once round is 2 pi, a closed path's last step may reach a little beyond; the sagitta of a sweep s is r (1 - cos
+    # s/2)
     return sweep < 6.5 and (sweep > math.pi or r * (1 - math.cos(sweep / 2)) > 2 * tolerance)
 
 
@@ -72,6 +76,7 @@ def _longest_line(points, a, most, filled, sums, tolerance):
         filled: sums are there for so many points from a on.
     """
     good, steps, bad = 1, min(8, most), most + 1
+    # doubling keeps the work in proportion to the run that is found, wherever it ends
     while steps > good:
         if steps + 1 > filled:
             add_up(points, a, filled, steps + 1, sums)
@@ -365,6 +370,7 @@ def _turned(points, count, tolerance, breaks, kinds, found):
     for k in range(first, found - 1):
         breaks[made], kinds[made] = old_breaks[k], old_kinds[k]
         made += 1
+    # the last run and the first were cut by where the path happens to begin: they are looked for anew as one
     last = old_breaks[found - 1]
     made += segment(points, last, count + old_breaks[1] - last, tolerance, breaks[made:], kinds[made:])
     for k in range(1, first):

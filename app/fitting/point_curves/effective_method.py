@@ -16,6 +16,7 @@ from ...model.motion import Floats
 from .correction import CorrectionCurve, CorrectionMove, CorrectionOptions, CorrectionScope, corrected
 from .effective_points import EffectiveOptions, EffectivePoints, PointState, RangeEnds, effective_points
 from .facets import facets_of_rows
+from .through_points import sides_among
 
 _DEFAULTS = CorrectionOptions()
 
@@ -109,9 +110,15 @@ class EffectiveMethod:
             effective = EffectivePoints(np.column_stack([at[:-1], at[1:]]), known)
         if self.correct is None:
             return PointClasses(effective.state, points, self.choose.epsilon, effective.ranges, np.zeros(len(points)))
-        moved = corrected(points, effective.state, self.correct, corners.tolist())
+        at = np.flatnonzero(effective.state)
+        sides = np.flatnonzero(sides_among(points[at]))  # lines of the true shape: no facet is corrected across one
+        kept = np.unique(np.concatenate([corners, at[sides], at[sides + 1]]))
+        moved = corrected(points, effective.state, self.correct, kept.tolist())
+        state = moved.state.copy()
+        for k in sides.tolist():  # as it is one chord, it is known for a side where the curve is made, too
+            state[at[k] + 1 : at[k + 1]] = PointState.INVALID
         off = self.choose.epsilon + float(moved.moved.max())
-        return PointClasses(moved.state, moved.places, off, effective.ranges, moved.moved)
+        return PointClasses(state, moved.places, off, effective.ranges, moved.moved)
 
 
 def states_across(

@@ -9,6 +9,7 @@ one that the spline would leave by more than the tolerance has left.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -20,6 +21,10 @@ Flags = NDArray[np.bool_]
 
 _SIDE = 6.0
 """A chord longer than so many times both its neighbours is a side of the true shape."""
+_SMOOTH = 1.15
+"""A curve of radius r that goes on smoothly from a side turns its first chord, of length h, by h / 2r at most, and the
+next, of length k, by (h + k) / 2r from that: their ratio may be so many times what that says.
+"""
 _LOOKED_AT = 8
 """Places a chord at which it is seen how far the spline leaves it."""
 _LEAST = 4
@@ -51,39 +56,81 @@ def _goes_on(points: Floats) -> bool:
 
 
 def _between_corners(points: Floats, closed: bool, fine: float, between: float) -> Floats:
-    size = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    alone = len(size) == 1
-    beside = np.concatenate([size[:1] if alone else size[1:2], size, size if alone else size[-2:-1]])
-    straight = size > _SIDE * np.maximum(beside[:-2], beside[2:])
+    sides = sides_among(points)
+    straight = sides.copy()
     while True:
-        filled, off = _filled(points, straight, closed, fine)
+        filled, off = _filled(points, _ChordKinds(sides, straight), closed, fine)
         wide = (off > between) & ~straight
         if not wide.any():
             return filled
         straight |= wide
 
 
-def _filled(points: Floats, straight: Flags, closed: bool, fine: float) -> tuple[Floats, Floats]:
+def sides_among(points: Floats) -> Flags:
+    """Tell which chords (n - 1,) between points (n, 3), n >= 2, are sides of the true shape and stand for no arc."""
+    size = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    alone = len(size) == 1
+    beside = np.concatenate([size[:1] if alone else size[1:2], size, size if alone else size[-2:-1]])
+    sides: Flags = size > _SIDE * np.maximum(beside[:-2], beside[2:])
+    return sides
+
+
+@dataclass(frozen=True, eq=False)
+class _ChordKinds:
+    """Which chords (n,) are sides of the true shape, and which stay straight, for this or another reason."""
+
+    sides: Flags
+    straight: Flags
+
+
+def _filled(points: Floats, kinds: _ChordKinds, closed: bool, fine: float) -> tuple[Floats, Floats]:
     """Return points of splines over the chords that are not straight, and how far each chord is left, mm."""
+    straight, sides = kinds.straight, kinds.sides
     parts, off = [points[:1]], np.zeros(len(straight))
     edges = [0, *(np.flatnonzero(np.diff(straight)) + 1).tolist(), len(straight)]
     for a, b in pairwise(edges):
         if straight[a] or b - a < 2:
             parts.append(points[a + 1 : b + 1])
             continue
-        part, off[a:b] = _run(points[a : b + 1], closed and b - a == len(straight), fine)
+        before, behind = a > 0 and bool(sides[a - 1]), b < len(sides) and bool(sides[b])
+        ways = (
+            _leaving(points[a - 1 : a + 3]) if before else None,
+            _leaving(points[b - 2 : b + 2][::-1]) if behind else None,
+        )
+        ends = "periodic" if closed and b - a == len(straight) else _end_conditions(*ways)
+        part, off[a:b] = _run(points[a : b + 1], ends, fine)
         parts.append(part)
     return np.concatenate(parts), off
 
 
-def _run(points: Floats, closed: bool, fine: float) -> tuple[Floats, Floats]:
+def _leaving(points: Floats) -> Floats | None:
+    """Return the direction (3,) in which a spline leaves a side: the side's own, if the chords behind it turn from it
+    as those of a curve do that goes on from it smoothly; None where they turn by more, or cannot tell.
+
+    Args:
+        points: both ends of the side, and the two points behind it, (4, 3) mm.
+    """
+    ways = np.diff(points, axis=0)
+    sizes = np.linalg.norm(ways, axis=1)
+    ways = ways / sizes[:, None]
+    first, next_one = (float(np.arccos(np.clip(ways[k] @ ways[k + 1], -1.0, 1.0))) for k in (0, 1))
+    return ways[0] if first <= _SMOOTH * next_one * sizes[1] / (sizes[1] + sizes[2]) else None
+
+
+def _end_conditions(first: Floats | None, last: Floats | None) -> object:
+    """Return a spline's conditions at its ends, where it has directions there; `last` points backwards."""
+    free = "not-a-knot"
+    return (free if first is None else (1, first), free if last is None else (1, -last))
+
+
+def _run(points: Floats, ends: object, fine: float) -> tuple[Floats, Floats]:
     """Return points of one spline behind the first of its points, and how far it leaves each chord, mm."""
     from scipy.interpolate import CubicSpline
 
     chords = np.diff(points, axis=0)
     size = np.linalg.norm(chords, axis=1)
     along = np.concatenate([[0.0], np.cumsum(size)])
-    curve = CubicSpline(along, points, bc_type="periodic" if closed else "not-a-knot")
+    curve = CubicSpline(along, points, bc_type=ends)
     share = (np.arange(_LOOKED_AT) + 0.5) / _LOOKED_AT
     seen = curve(along[:-1, None] + size[:, None] * share) - points[:-1, None]
     ahead = np.einsum("ijk,ik->ij", seen, chords / size[:, None])

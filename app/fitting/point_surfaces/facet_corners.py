@@ -80,28 +80,30 @@ def facet_corners(rows: Sequence[Floats], epsilon: float, progress: Progress = N
     found = facets_of_rows(rows, epsilon)
     points = np.concatenate(rows)
     pairs = row_neighbours(rows)
-    reach = _REACH * _spacing(rows)
+    reach = spacing_of(rows)
     progress.step(0.4, "Looking for their corners")
-    planes, facets = _planes(points, found, reach), len(found.planes)
-    places, weights = _met(found, pairs, planes, reach)
+    planes, facets = planes_of(points, found, reach), len(found.planes)
+    places, weights = met_corners(found, pairs, planes, reach)
     if len(places) >= max(facets // 4, _LEAST):
         return FacetCorners(places, weights, ShapePlace.CORNER, facets, len(points))
-    places, weights = _crossed(rows, found, planes, reach)
+    places, weights = crossed_edges(rows, found, planes, reach)
     if len(places) >= max(len(rows) * min(facets - 1, 2), _LEAST):
         return FacetCorners(places, weights, ShapePlace.EDGE, facets, len(points))
     effective = points[found.state == PointState.EFFECTIVE]
     return FacetCorners(effective, np.ones(len(effective)), ShapePlace.POINT, facets, len(points))
 
 
-def _spacing(rows: Sequence[Floats]) -> float:
-    """Return how far neighbouring points are apart, in a row or from row to row, mm."""
+def spacing_of(rows: Sequence[Floats]) -> float:
+    """Return within which distance of points of all its facets a corner lies, mm: by how far neighbours are apart, in a
+    row or from row to row.
+    """
     along = np.concatenate([np.linalg.norm(np.diff(row, axis=0), axis=1) for row in rows])
     near = [np.linalg.norm(one - other[len(other) // 2], axis=1).min() for one, other in pairwise(rows)]
-    return float(max(np.percentile(along, _SPACING), np.percentile(near, _SPACING)))
+    return _REACH * float(max(np.percentile(along, _SPACING), np.percentile(near, _SPACING)))
 
 
 @dataclass(frozen=True, eq=False)
-class _Planes:
+class FacetPlanes:
     """The facets whose planes are believed: (f, 3) upward normals, (f,) heights along them, (f,) whether one is, and of
     each its points in the plane.
     """
@@ -112,7 +114,8 @@ class _Planes:
     points: list[Floats]
 
 
-def _planes(points: Floats, found: CloudFacets, reach: float) -> _Planes:
+def planes_of(points: Floats, found: CloudFacets, reach: float) -> FacetPlanes:
+    """Return the planes of facets; those of few points, or of points along one line, are not believed."""
     count = len(found.planes)
     order = np.argsort(found.facet, kind="stable")
     begin = np.searchsorted(found.facet[order], np.arange(count + 1))
@@ -125,12 +128,14 @@ def _planes(points: Floats, found: CloudFacets, reach: float) -> _Planes:
         _, sizes, axes = np.linalg.svd(each - middle, full_matrices=False)
         normal = axes[2] * (1.0 if axes[2, 2] >= 0 else -1.0)
         normals[k], offsets[k], known[k] = normal, normal @ middle, sizes[1] >= _WIDE * reach and normal[2] > 0.1
-    return _Planes(normals, offsets, known, own)
+    return FacetPlanes(normals, offsets, known, own)
 
 
-def _crossed(rows: Sequence[Floats], found: CloudFacets, planes: _Planes, reach: float) -> tuple[Floats, Floats]:
-    """Return the places where passes, upright planes along the first axis, cross the edge of two facets, and how well
-    each is known.
+def crossed_edges(
+    rows: Sequence[Floats], found: CloudFacets, planes: FacetPlanes, reach: float
+) -> tuple[Floats, Floats]:
+    """Return the places where passes, upright planes through two of their points, cross the edge of two facets, and how
+    well each is known.
     """
     points = np.concatenate(rows)
     number = np.repeat(np.arange(len(rows)), [len(row) for row in rows])
@@ -138,19 +143,22 @@ def _crossed(rows: Sequence[Floats], found: CloudFacets, planes: _Planes, reach:
     one, other = found.facet[at], found.facet[at + 1]
     some = planes.known[one] & planes.known[other]
     at, one, other = at[some], one[some], other[some]
-    upright = np.tile([0.0, 1.0, 0.0], (len(at), 1))
+    ahead = points[at + 1] - points[at]
+    upright = np.column_stack([-ahead[:, 1], ahead[:, 0], np.zeros(len(at))])
+    upright /= np.maximum(np.linalg.norm(upright, axis=1), 1e-300)[:, None]
     normals = np.stack([planes.normals[one], planes.normals[other], upright], axis=1)
     sharp = np.abs(np.linalg.det(normals)) if len(at) else np.zeros(0)
     some = sharp > _UPRIGHT
     at, one, other, normals, sharp = at[some], one[some], other[some], normals[some], sharp[some]
-    offsets = np.column_stack([planes.offsets[one], planes.offsets[other], points[at, 1]])
+    beside = np.einsum("ij,ij->i", normals[:, 2], points[at])
+    offsets = np.column_stack([planes.offsets[one], planes.offsets[other], beside])
     places = np.linalg.solve(normals, offsets[:, :, None])[:, :, 0]
     near = np.minimum(*(np.linalg.norm(places - points[at + k], axis=1) for k in (0, 1))) < reach
     places, sharp = places[near], sharp[near]
     return places, np.clip(sharp / np.median(sharp), 0.05, 3.0) if len(sharp) else sharp
 
 
-def _met(found: CloudFacets, pairs: Ints, planes: _Planes, reach: float) -> tuple[Floats, Floats]:
+def met_corners(found: CloudFacets, pairs: Ints, planes: FacetPlanes, reach: float) -> tuple[Floats, Floats]:
     """Return the places where three facets meet, and how well each is known."""
     triples = _triples(found, pairs, planes.known)
     normals = planes.normals[triples]
@@ -182,7 +190,7 @@ def _triples(found: CloudFacets, pairs: Ints, known: NDArray[np.bool_]) -> Ints:
     return np.array(sorted(triples), np.int64).reshape(-1, 3)
 
 
-def _near_all(places: Floats, triples: Ints, planes: _Planes, reach: float) -> NDArray[np.bool_]:
+def _near_all(places: Floats, triples: Ints, planes: FacetPlanes, reach: float) -> NDArray[np.bool_]:
     """Tell which places lie within reach of points of all their facets."""
     from scipy.spatial import KDTree
 

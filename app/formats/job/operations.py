@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ...model.curve_selectors import on_layers
 from ...model.fields import built, declared_of, parameters_of
 from ...model.operation import Operation
-from ...model.operation_kinds import OPERATION_KINDS, declared, parameters
+from ...model.operation_kinds import ALIASES, OPERATION_KINDS, OperationAlias, declared, parameters
 from .tables import JobTable, read_texts, reader_of, word
 
 
@@ -23,7 +23,9 @@ def operations_of(tables: list[JobTable], kept: bool = False) -> Iterator[Operat
     """
     for table in tables:
         given = tuple(table.values)
-        table.take("kind", word(OPERATION_KINDS, "kind of operation"))
+        called = str(table.values.get("kind")).strip().lower()
+        also = {other: alias.kind for other, alias in ALIASES.items() if other not in OPERATION_KINDS}
+        table.take("kind", word(OPERATION_KINDS, "kind of operation", also))
         for key, placed in declared().items():
             table.take(key, reader_of(placed))
         _take_layers(table)
@@ -32,11 +34,20 @@ def operations_of(tables: list[JobTable], kept: bool = False) -> Iterator[Operat
             if key not in table.taken:
                 raise table.error(key, f"is missing in this [[{table.path}]]; add {key} = …")
         kind: type[Operation] = table.taken.pop("kind")
+        if called in also:
+            _take_alias(table, ALIASES[called], given)
         _refuse_strange_keys(table, kind, given, kept)
         operation = table.text.built(table.path, table.index, lambda kind=kind, taken=table.taken: built(kind, taken))  # type: ignore[misc]
         if not kept:
             _refuse_idle_values(table, operation, given)
         yield operation
+
+
+def _take_alias(table: JobTable, alias: OperationAlias, given: tuple[str, ...]) -> None:
+    """Put in what the other word for a kind says."""
+    if alias.key in given and table.taken[alias.key] is not alias.value:
+        raise table.error(alias.key, f'is told by the kind already; take it out, or write kind = "{alias.kind}"')
+    table.taken[alias.key] = alias.value
 
 
 def _take_layers(table: JobTable) -> None:
@@ -52,7 +63,7 @@ def _refuse_strange_keys(table: JobTable, kind: type[Operation], given: tuple[st
         if key not in known:
             raise table.error(
                 key,
-                f"belongs to {_listed([each.WORD for each in parameters()[key][1]])} operations; "
+                f"belongs to {_listed([each.WORD for each in parameters()[key].kinds])} operations; "
                 f"remove it from this {kind.WORD} operation",
             )
 

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any, TypeVar
 
 from ...core.errors import HitofudeError, InputError
@@ -243,9 +244,16 @@ def read_angle(value: Any) -> float:
     return math.radians(read_number(value))
 
 
-def word(choices: Mapping[str, Value], what: str) -> Callable[[Any], Value]:
-    """Return a reader of a word that is one of some."""
-    return lambda value: one_of(read_text(value), choices, what)
+def word(
+    choices: Mapping[str, Value], what: str, also: Mapping[str, str] = MappingProxyType({})
+) -> Callable[[Any], Value]:
+    """Return a reader of a word that is one of some; `also`: other words for them."""
+
+    def read(value: Any) -> Value:
+        text = read_text(value)
+        return one_of(also.get(text.strip().lower(), text), choices, what)
+
+    return read
 
 
 def read_curves(value: Any) -> tuple[Selector, ...]:
@@ -278,7 +286,8 @@ _READERS: dict[Unit, Callable[[Any], Any]] = {
 def reader_of(placed: ParameterPlace) -> Callable[[Any], Any]:
     """Return what reads a parameter's value as TOML gives it; it raises InputError for what can be none."""
     if isinstance(placed.default, Keyword):
-        return word(type(placed.default).words(), placed.parameter.label.lower())
+        kinds = type(placed.default)
+        return word(kinds.words(), placed.parameter.label.lower(), kinds.other_words())
     if placed.enum is not None:
         return word({each.value: each for each in placed.enum}, placed.parameter.label.lower())
     return _READERS[placed.parameter.unit]

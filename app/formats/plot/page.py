@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -199,15 +200,26 @@ def _along_round(curve: Arc | Circle | Ellipse, tolerance: float) -> Iterator[tu
         )
 
 
-def _frame(curve: Arc | Circle | Ellipse) -> tuple[Point, Point, Point, float, float]:
-    """Return centre, both half axes, the angle it begins at and how far it goes, radians."""
+class _RoundFrame(NamedTuple):
+    """A round curve: its centre, both half axes, the angle that it begins at and how far it goes, radians."""
+
+    centre: Point
+    x: Point
+    y: Point
+    begin: float
+    sweep: float
+
+
+def _frame(curve: Arc | Circle | Ellipse) -> _RoundFrame:
+    """Return what a round curve is drawn by."""
     if isinstance(curve, Arc):
-        return curve.centre, (curve.radius, 0.0), (0.0, curve.radius), curve.start_angle, curve.sweep
+        return _RoundFrame(curve.centre, (curve.radius, 0.0), (0.0, curve.radius), curve.start_angle, curve.sweep)
     if isinstance(curve, Circle):
-        return curve.centre, (curve.radius, 0.0), (0.0, curve.radius), 0.0, math.tau if curve.ccw else -math.tau
+        turn = math.tau if curve.ccw else -math.tau
+        return _RoundFrame(curve.centre, (curve.radius, 0.0), (0.0, curve.radius), 0.0, turn)
     (a, b), span = curve.major, curve.end_parameter - curve.start_parameter
     first, sweep = (curve.start_parameter, span) if curve.ccw else (curve.end_parameter, -span)
-    return curve.centre, curve.major, (-b * curve.ratio, a * curve.ratio), first, sweep
+    return _RoundFrame(curve.centre, curve.major, (-b * curve.ratio, a * curve.ratio), first, sweep)
 
 
 def _along_spline(curve: Spline, tolerance: float) -> Iterator[tuple[Point, ...]]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import NamedTuple
 
 from ...core.atomic import read_whole, write_atomically
 from ...core.errors import InputError
@@ -33,7 +34,14 @@ def backup_of(path: Path) -> Path:
     return path.with_name(f"{path.name}~")
 
 
-def load_project(path: Path) -> tuple[Project, Stamp | None]:
+class LoadedProject(NamedTuple):
+    """What a project file holds, and its stamp; None where it has none."""
+
+    project: Project
+    stamp: Stamp | None
+
+
+def load_project(path: Path) -> LoadedProject:
     """Return what a project file holds, and its stamp.
 
     Raises:
@@ -48,7 +56,7 @@ def load_project(path: Path) -> tuple[Project, Stamp | None]:
         data = read_whole(path)
     except OSError as error:
         raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
-    return read_project(path.name, data).from_folder(path.parent), stamp
+    return LoadedProject(read_project(path.name, data).from_folder(path.parent), stamp)
 
 
 def save_project(path: Path, project: Project, known: Stamp | None = None, backup: bool = True) -> Stamp:

@@ -166,5 +166,7 @@ footer span:last-child { margin-left: auto; } footer u { display: inline-block; 
   .proofs td:nth-child(2) { grid-row: 2; grid-column: 1 / -1; padding-top: 0; }
   .hashes td { grid-column: 1 / -1; text-align: left !important; } }
 @media screen and (prefers-color-scheme: dark) { figure { filter: invert(.91) hue-rotate(180deg) brightness(1.35); } }
-@media print { body { margin: 0; padding: 0; max-width: none; font-size: 10pt; } }
+@media print { html { font-size: 12px; } body { margin: 0; padding: 0; max-width: none; font-size: 8.5pt;
+  line-height: 1.3; } figure svg { max-height: 76mm; } h2 { margin: .8rem 0 .2rem; } th, td { padding: .15rem .35rem; }
+  footer { margin-top: 1rem; } }
 """

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -72,6 +73,14 @@ def _laid_out(sheet: SetupSheet, density: _Density) -> tuple[PlotPage, ...]:
     pages.sentences("Remarks", sheet.remarks, MUTED)
     pages.hashes()
     return pages.done()
+
+
+class _PlacedCell(NamedTuple):
+    """Where the text of a table's cell begins, or ends if it is a number, mm; its column and its lines."""
+
+    x: float
+    column: SheetColumn
+    lines: list[str]
 
 
 @dataclass(frozen=True)
@@ -255,14 +264,12 @@ class _SheetPages:
             self._write(title, x, self._y - 3.7, _Look(_SMALL, bold=True, anchor=float(column.number), colour=MUTED))
         self._y -= 5.4
 
-    def _columns(
-        self, columns: tuple[SheetColumn, ...], cells: list[list[str]]
-    ) -> list[tuple[float, SheetColumn, list[str]]]:
-        """Return each column's cell with the place that its text begins or ends at."""
+    def _columns(self, columns: tuple[SheetColumn, ...], cells: list[list[str]]) -> list[_PlacedCell]:
+        """Return each column's cell where it stands."""
         found, x = [], MARGIN
         for column, lines in zip(columns, cells, strict=True):
             width = column.width * INNER
-            found.append((x + width - 1.2 if column.number else x + 1.2, column, lines))
+            found.append(_PlacedCell(x + width - 1.2 if column.number else x + 1.2, column, lines))
             x += width
         return found
 

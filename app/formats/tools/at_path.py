@@ -7,7 +7,7 @@ from pathlib import Path
 from ...core.errors import InputError
 from ...core.input_file import read_input
 from ...model.part import Units
-from .files import read_tools
+from .files import read_tools, suffixes
 from .freecad import read_bits
 from .library import ReadTools
 
@@ -34,6 +34,24 @@ def tools_at(path: Path, units: Units = Units.MM) -> ReadTools:
     if path.suffix.lower() == ".fctl":
         return read_bits(path.name, _read([*_bits(path.parent), *_bits(path.parent.parent / "Bit")]), _read([path]))
     return read_tools(path.name, read_input(path), units)
+
+
+def tool_suffixes() -> tuple[str, ...]:
+    """Return the suffixes of the files that `tools_at` reads."""
+    return (*suffixes(), ".fctl")
+
+
+def holds_tools(path: Path) -> bool:
+    """Return whether a file is one of tools: by its suffix; of TOML, which jobs and scenes are too, by its tables."""
+    suffix = path.suffix.lower()
+    if suffix != ".toml":
+        return suffix in tool_suffixes()
+    try:
+        lines = read_input(path).splitlines()
+    except InputError:
+        return False
+    tables = [line.strip() for line in lines if line.lstrip().startswith(b"[")]
+    return bool(tables) and all(table.startswith((b"[[tool]]", b"[[tool.")) for table in tables)
 
 
 def _bits(folder: Path) -> list[Path]:

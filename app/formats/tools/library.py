@@ -190,7 +190,14 @@ def own_folder() -> Path:
     return config_folder() / "tools"
 
 
-def load_libraries() -> tuple[dict[str, ToolLibrary], tuple[str, ...]]:
+class LoadedLibraries(NamedTuple):
+    """Libraries by their files' names, and a sentence for each file that cannot be read."""
+
+    libraries: dict[str, ToolLibrary]
+    problems: tuple[str, ...]
+
+
+def load_libraries() -> LoadedLibraries:
     """Return every library by its file's name, and a sentence for each file that cannot be read."""
     libraries: dict[str, ToolLibrary] = {}
     problems = []
@@ -201,4 +208,4 @@ def load_libraries() -> tuple[dict[str, ToolLibrary], tuple[str, ...]]:
             problems.append(str(error))
         except OSError as error:
             problems.append(f"{path}: {error.strerror}; the tools in it are left out.")
-    return libraries, tuple(problems)
+    return LoadedLibraries(libraries, tuple(problems))

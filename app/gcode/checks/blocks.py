@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,7 +55,7 @@ class ExpectedBlock:
         if BLOCK.fullmatch(self.code) is None or BLOCK.fullmatch(code) is None:
             return self.code == code
         mine, other = (
-            [word for word in _words(each) if not (self.loose and word[0] == "z")] for each in (self.code, code)
+            [word for word in _words(each) if not (self.loose and word.letter == "z")] for each in (self.code, code)
         )
         return mine == other and self.loose <= ("z" in code)
 
@@ -264,9 +265,17 @@ def _code(line: str, post: Post) -> str:
     return re.sub(r"^n[0-9.]+", "", code)
 
 
-def _words(code: str) -> list[tuple[str, float, bool]]:
-    """Return letter and value of each word, and whether it has a decimal point."""
-    return [(letter, float(value), "." in value) for letter, value in WORD.findall(code)]
+class _Word(NamedTuple):
+    """A word of a block: its letter and value, and whether it has a decimal point."""
+
+    letter: str
+    value: float
+    point: bool
+
+
+def _words(code: str) -> list[_Word]:
+    """Return the words of a block."""
+    return [_Word(letter, float(value), "." in value) for letter, value in WORD.findall(code)]
 
 
 def _unfit(code: str) -> Iterator[str]:

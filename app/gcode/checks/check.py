@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ from ..interpreter.reader import read_program
 from ..interpreter.text import ProgramBuffer
 from ..posts.post import Post
 from ..posts.posts import comes_with_program
+from ..writer.programmed_contour import allowed_distances
 from ..writer.write import NcFile, writing_tolerance
 from .blocks import HoleBlocks, approach_problems, block_problems, blocks_of
 from .hole_pauses import HolePauses
@@ -89,7 +91,12 @@ class Check:
 
 @dataclass(frozen=True, eq=False)
 class _FileCheck:
-    """One file and what it should hold."""
+    """One file and what it should hold.
+
+    Attributes:
+        tolerance: mm. allowed: (n,) how far the path may be from each move, mm: as much, or more where the control
+            makes it from the contour.
+    """
 
     read: NcProgram
     moves: Moves
@@ -98,6 +105,7 @@ class _FileCheck:
     expected: ExpectedState
     safe_z: float
     tolerance: float
+    allowed: Floats
     start_state: StartState = FRESH
 
     @property
@@ -133,8 +141,16 @@ def check(data: bytes, file: NcFile, reference: CheckReference, progress: Progre
     moves = program.moves.part(file.first, stop)
     origin = work_origin(job, stock_box(job, program.regions, program.lines))
     step = writing_tolerance(job, post)
+    allowed = allowed_distances(moves, job, step)
     compared = _FileCheck(
-        read, moves, ReferencePath.of(moves, origin), file, ExpectedState.of(job, post), job.travel_z - origin[2], step
+        read,
+        moves,
+        ReferencePath.of(moves, origin),
+        file,
+        ExpectedState.of(job, post),
+        job.travel_z - origin[2],
+        step,
+        allowed,
     )
     mine, far, problems = _differences(compared)
     if not problems:
@@ -143,15 +159,24 @@ def check(data: bytes, file: NcFile, reference: CheckReference, progress: Progre
         problems += tuple(_text_problems(compared, ProgramBuffer(data), post))
     move = np.minimum(np.searchsorted(file.nc.lines, read.motions.line), len(moves) - 1)
     move[mine.rows] = mine.move
-    return Check(float(np.max(far)), step, problems, read, post, move + file.first)
+    return Check(float(np.max(far)), float(np.max(allowed)), problems, read, post, move + file.first)
 
 
-def _differences(compared: _FileCheck) -> tuple[MotionOwners, Floats, tuple[ProgramProblem, ...]]:
-    """Return which motions belong to which moves, how far each move is missed, and every difference."""
+class _Differences(NamedTuple):
+    """Which motions belong to which moves, how far each move is missed, mm, and every difference."""
+
+    owners: MotionOwners
+    missed: Floats
+    problems: tuple[ProgramProblem, ...]
+
+
+def _differences(compared: _FileCheck) -> _Differences:
+    """Return how a program, as it was read, differs from the moves that it was written of."""
     read = compared.read
-    mine = motion_owners(read.motions, compared.file.nc.lines, compared.begins, compared.reference, compared.tolerance)
+    mine = motion_owners(read.motions, compared.file.nc.lines, compared.begins, compared.reference, compared.allowed)
     far = distances(read.motions, compared.reference, mine)
-    return mine, far, (*read.problems, *sorted(_problems(compared, mine, far), key=lambda problem: problem.line))
+    found = sorted(_problems(compared, mine, far), key=lambda problem: problem.line)
+    return _Differences(mine, far, (*read.problems, *found))
 
 
 def _elsewhere(
@@ -160,10 +185,14 @@ def _elsewhere(
     """Return the differences on a machine that was left as another job left it."""
     start_state = foreign_start(compared.expected.job.out_units)
     read = read_from_start(data, options, start_state, progress)
-    *_, problems = _differences(
-        replace(compared, read=read, tolerance=compared.tolerance + NOISE, start_state=start_state)
+    elsewhere = replace(
+        compared,
+        read=read,
+        tolerance=compared.tolerance + NOISE,
+        allowed=compared.allowed + NOISE,
+        start_state=start_state,
     )
-    return tuple(replace(problem, text=f"{problem.text} {LEFT_SO}") for problem in problems)
+    return tuple(replace(problem, text=f"{problem.text} {LEFT_SO}") for problem in _differences(elsewhere).problems)
 
 
 def _text_problems(compared: _FileCheck, text: ProgramBuffer, post: Post) -> Iterator[ProgramProblem]:
@@ -181,8 +210,13 @@ def _tool_table(job: Job) -> dict[int, ToolOffset]:
     path.
     """
     worn = {each.cut.tool for each in job.operations if each.wear}
+    whole = {each.cut.tool for each in job.operations if each.offset_by_control}
     return {
-        tool.number: ToolOffset((0.0, 0.0, float(rank)), diameter_known=tool.number in worn)
+        tool.number: ToolOffset(
+            (0.0, 0.0, float(rank)),
+            tool.diameter if tool.number in whole else 0.0,
+            diameter_known=tool.number in worn,
+        )
         for rank, tool in enumerate(job.tools, start=1)
     }
 
@@ -207,7 +241,7 @@ def _problems(compared: _FileCheck, mine: MotionOwners, far: np.ndarray) -> Iter
 
 def _path_problems(compared: _FileCheck, far: np.ndarray) -> Iterator[ProgramProblem]:
     """Yield what of the path is missing or elsewhere."""
-    wrong = np.flatnonzero(~(far <= compared.tolerance))
+    wrong = np.flatnonzero(~(far <= compared.allowed))
     if len(wrong):
         move = wrong[0]
         yield _problem(
@@ -215,7 +249,7 @@ def _path_problems(compared: _FileCheck, far: np.ndarray) -> Iterator[ProgramPro
             "",
             f"the written path is {far[move]:.4f} mm from the move to X{compared.reference.end[move, 0]:.4f} "
             f"Y{compared.reference.end[move, 1]:.4f} Z{compared.reference.end[move, 2]:.4f}, and so in {len(wrong)} "
-            f"moves; {compared.tolerance:g} mm are allowed.",
+            f"moves; {compared.allowed[move]:g} mm are allowed.",
         )
 
 

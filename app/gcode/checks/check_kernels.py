@@ -1,4 +1,4 @@
-"""Compiled core of `check_blocks`: which lines of a text surely say nothing but where to move."""
+"""Compiled core of `blocks`: which lines of a text surely say nothing but where to move."""
 
 from __future__ import annotations
 

@@ -59,7 +59,7 @@ class MotionOwners:
 
 
 def motion_owners(
-    motions: Motions, lines: NDArray[np.int32], begins: Rows, reference: ReferencePath, tolerance: float
+    motions: Motions, lines: NDArray[np.int32], begins: Rows, reference: ReferencePath, allowed: Floats
 ) -> MotionOwners:
     """Tell which motions belong to which moves.
 
@@ -72,7 +72,7 @@ def motion_owners(
         lines: (n,) of the moves, not decreasing.
         begins: index of the first move of each tool; what stands before its line belongs to no move.
         reference: the moves.
-        tolerance: how near to its move's end a motion of a cycle ends, mm.
+        allowed: (n,) how near to its move's end a motion of a cycle, or round a corner, ends, mm.
     """
     line = motions.line
     move = np.searchsorted(lines, line)
@@ -80,7 +80,7 @@ def motion_owners(
     starting[begins] = True
     before = starting[move] & (line < lines[np.minimum(move, len(lines) - 1)])
     rows = np.flatnonzero((move < len(lines)) & ~before)
-    rows, mine = _Cycles(motions, lines, reference, tolerance).parted(rows, move[rows])
+    rows, mine = _Cycles(motions, lines, reference, allowed).parted(rows, move[rows])
     each = np.arange(len(lines))
     first = np.searchsorted(mine, each)
     count = np.searchsorted(mine, each, side="right") - first
@@ -96,7 +96,7 @@ class _Cycles:
     motions: Motions
     lines: NDArray[np.int32]
     reference: ReferencePath
-    tolerance: float
+    allowed: Floats
 
     def parted(self, rows: Rows, move: Rows) -> tuple[Rows, Rows]:
         """Return motions and their moves again; rapids of a cycle that go nowhere belong to no move."""
@@ -132,4 +132,4 @@ class _Cycles:
     def _alike(self, row: int, move: int) -> bool:
         """Tell whether a motion is of a move's kind and ends where it ends."""
         gap = self.motions.end[row] - self.reference.end[move]
-        return bool(self.motions.kind[row] == self.reference.kind[move] and np.max(np.abs(gap)) <= self.tolerance)
+        return bool(self.motions.kind[row] == self.reference.kind[move] and np.max(np.abs(gap)) <= self.allowed[move])

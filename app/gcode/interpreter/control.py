@@ -81,7 +81,8 @@ class Control:
             G5, mm.
         compensation: G41 or G42, None = G40, or a radius of 0. stray: where the tool itself is when that is not where
             the program takes it to be, after G40. side: the G word of compensation, also where the radius is 0.
-        registers_hold_wear: whether a D word whose register nobody tells means 0.
+        registers_hold_wear: whether a D word whose register nobody tells means 0. register_diameters: what the program
+            itself says of them, mm, by number.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
         set_parameters: the control's own that the program sets and that no code has asked for yet.
         requested: parameters that the machine tells, or that nobody has set, and the line that read each first.
@@ -108,6 +109,7 @@ class Control:
         self.stray: Place | None = None
         self.side = ""
         self.registers_hold_wear = False
+        self.register_diameters: dict[int, float] = {}
         self.last_offset = (0.0, 0.0)
         self.line = self.unrolled = 0
         self.columns = MotionColumns()

@@ -67,6 +67,7 @@ def _go(ints, reals, columns, kind, first, second, height):
     if row >= ints[ROWS] or ints[UNROLLED] >= ints[MOST_UNROLLED]:
         return False
     u, v, w = _AXES[ints[PLANE]]
+    # straight motions have no centre
     columns[2][row, 0] = columns[2][row, 1] = columns[2][row, 2] = math.nan
     end = columns[1][row]
     for axis, value in ((u, first), (v, second), (w, height)):
@@ -118,6 +119,7 @@ def _bored(ints, reals, columns, events, hole):
         if ints[EVENTS] >= len(events) - 1:
             return False
         note(ints, events, _DWELL, reals[CYCLE_P])
+    # G85 and G89 come out at the feed, which leaves the bore clean; the others with a rapid
     if code == 85 and not _go(ints, reals, columns, _LINE_KIND, first, second, r):
         return False
     return _go(ints, reals, columns, _LINE_KIND if code == 89 else _RAPID, first, second, clear)

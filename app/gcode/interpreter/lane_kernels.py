@@ -153,6 +153,7 @@ def _set_rates(ints, reals, line, slots):
     """Obey feed mode, F, S and T; return whether they are surely right."""
     words, given = line[0], line[1]
     if slots[_FEED_MODE] >= 0 and ints[LINUXCNC] != 0:
+        # LinuxCNC forgets F where the feed mode is named, even if it is the same one
         reals[FEED] = math.nan
     if given[_F] != _ABSENT:
         reals[FEED] = words[_F] * reals[SCALE]
@@ -181,6 +182,7 @@ def _set_modes(ints, reals, line, slots, events):
     if slots[_SPINDLE] >= 0:
         ints[SPINDLE] = 1 if slots[_SPINDLE] == 300 else -1 if slots[_SPINDLE] == 400 else 0
     if slots[_MIST] >= 0 or slots[_DRY] >= 0:
+        # M9 stands for both coolants; M7 and M8 leave the other one as it is
         ints[MIST] = slots[_MIST] >= 0
     if slots[_FLOOD] >= 0 or slots[_DRY] >= 0:
         ints[FLOOD] = slots[_FLOOD] >= 0
@@ -211,6 +213,7 @@ def _take_state(ints, reals, states):
     """Make what is in force the state of the motions to come."""
     count = ints[STATES]
     if count > 0:
+        # programs repeat S and M words: what is not new makes no state
         same = states[count - 1, len(STATE_FIELDS)] == reals[SPEED]
         for k in range(len(STATE_FIELDS)):
             same = same and states[count - 1, k] == ints[STATE_FIELDS[k]]
@@ -258,6 +261,7 @@ def _words_fit(ints, line, slots):
     dwells = motion == 82 or motion == 89
     round_words = given[_I] + given[_J] + given[_K]
     return (
+        # P belongs to G4, or to a cycle that dwells; one word may not serve two codes
         (given[_P] == _ABSENT or slots[_ONCE] >= 0 or dwells)
         and (given[_L] == _ABSENT or cycle)
         and (given[_Q] == _ABSENT or motion == 73 or motion == 83)
@@ -288,6 +292,7 @@ def _moved(ints, reals, line, slots, columns, records):
         _take_state(ints, reals, records[0])
         return bore(ints, reals, ints[MOTION], line[0], given, columns, records[1])
     ints[CYCLE] = 0
+    # G0 to G3 named without a place: other controls than LinuxCNC take the mode and do not move
     if not axes and not arc and ints[LINUXCNC] == 0:
         return True
     _take_state(ints, reals, records[0])
@@ -322,6 +327,7 @@ def _do_plain(ints, reals, data, columns, states):
     ints[LINES_LEFT] -= ints[LINE] - first
     if motion >= 0:
         ints[MOTION], ints[CYCLE] = motion, 0
+    # no motion was made, so the state that was put down for some is taken back
     if ints[COUNT] == rows:
         ints[STATES] = before
 
@@ -355,6 +361,7 @@ def run_lines(data, ints, reals, parameters, columns, records):
             _do_plain(ints, reals, data, columns, records[0])
         if ints[LINES_LEFT] <= 0 or ints[OFFSET] >= len(data):
             break
+        # a line that is not surely right is done by the reader instead: of it nothing may be left behind
         old_ints[:], old_reals[:] = ints, reals
         behind = read_block(data, ints[OFFSET], ints[LONGEST], parameters, line, values, waiting, ints[COMPUTES] != 0)
         known = (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 from .notes_words import MOST_BYTES, Comments, ProgramUnits, StockBoxNote
 from .own_header import MARK, ProgramNotes, own_notes
@@ -80,8 +81,16 @@ def _told(comments: Comments, units: ProgramUnits) -> Iterator[ToolNote]:
             yield replace(note, number=note.number or _number_near(comments, at), line=comments.line(at))
 
 
-def _at_changes(comments: Comments) -> Iterator[tuple[int, str, int]]:
-    """Yield place and text of the comments beside and right above blocks with T and M6, and the T number."""
+class _ChangeComment(NamedTuple):
+    """A comment at a tool change: its place and text, and the T number of the block."""
+
+    at: int
+    text: str
+    number: int
+
+
+def _at_changes(comments: Comments) -> Iterator[_ChangeComment]:
+    """Yield the comments beside and right above blocks with T and M6."""
     for at in comments.places(_CHANGE_WORDS):
         begin, end = comments.line_begin(at), comments.line_end(at)
         block = comments.text(begin, end)
@@ -92,7 +101,7 @@ def _at_changes(comments: Comments) -> Iterator[tuple[int, str, int]]:
         alone = not _COMMENT.sub("", comments.text(above, begin)).strip()
         for match in _COMMENT.finditer(comments.text(above if alone else begin, end)):
             place = (above if alone else begin) + match.start() + 1
-            yield place, match[0].strip("();"), int(change[1])
+            yield _ChangeComment(place, match[0].strip("();"), int(change[1]))
 
 
 def _number_near(comments: Comments, at: int) -> int:

@@ -30,6 +30,8 @@ _HEAD = 1 << 20
 _WEAR = re.compile(rb"hitofude: registers=wear\b", re.IGNORECASE)
 """What the comments of the header begin with, and those that go on with the one before."""
 
+_DIAMETER = re.compile(rb"hitofude: register_mm=(\d{1,9}),(\d{1,9}(?:\.\d{1,9})?)\b", re.IGNORECASE)
+
 _MOST = 20_000
 """Comments of a header that are looked at: each tab and each dog-bone has one."""
 
@@ -66,6 +68,11 @@ class ProgramNotes(NamedTuple):
 def registers_hold_wear(data: bytes) -> bool:
     """Tell whether a program of our own says that its registers hold the wear of tools, from 0 on, and no diameters."""
     return _WEAR.search(data[:_HEAD]) is not None
+
+
+def register_diameters(data: bytes) -> dict[int, float]:
+    """Return the diameters, mm, that a program of our own says to stand in registers, by the number of their D word."""
+    return {int(number): float(diameter) for number, diameter in _DIAMETER.findall(data[:_HEAD])}
 
 
 def own_notes(comments: Comments) -> ProgramNotes:

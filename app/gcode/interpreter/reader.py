@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from ...core.memory import ask, fewer
 from ...core.progress import NO_PROGRESS, Progress
 from .options import ReadOptions
@@ -11,9 +13,14 @@ from .steps import BlockStep
 DEFAULT = ReadOptions()
 
 
-def read_steps(
-    data: bytes, options: ReadOptions, progress: Progress = NO_PROGRESS
-) -> tuple[NcProgram, tuple[BlockStep, ...]]:
+class SteppedProgram(NamedTuple):
+    """What a control does with a program, and every block that it did, in the order of doing."""
+
+    program: NcProgram
+    steps: tuple[BlockStep, ...]
+
+
+def read_steps(data: bytes, options: ReadOptions, progress: Progress = NO_PROGRESS) -> SteppedProgram:
     """Return what a control does with a program, and every block that it did, in the order of doing.
 
     Several times slower than `read_program`, which does plain lines at once.
@@ -24,7 +31,7 @@ def read_steps(
 
     steps: list[BlockStep] = []
     program = InterpreterRun(data, options, progress, steps.append).read()
-    return program, tuple(steps)
+    return SteppedProgram(program, tuple(steps))
 
 
 LINE_BYTES = 400

@@ -14,12 +14,13 @@ from .dialect import Dialect
 from .fast_lane import FastLane
 from .flow import MOST_KEPT, Flow
 from .foreign_codes import adapt, call_macro, is_leader, warn_of_numbers
+from .foreign_languages import foreign_language
 from .macro import call_or_return, is_macro, obey_macro
 from .moves import move
 from .notes import notes
 from .odd_bytes import warn_of_bytes
 from .options import ReadOptions
-from .own_header import registers_hold_wear
+from .own_header import register_diameters, registers_hold_wear
 from .places import Cursor, JumpTargets
 from .polar import check_polar, turn_polar_into_axes
 from .program import EventKind, NcProgram, ProgramProblem, Severity
@@ -65,6 +66,7 @@ class InterpreterRun:
         self._file, self._text, self._options, self._progress = data, ProgramBuffer(data), options, progress
         self._control = Control(options)
         self._control.registers_hold_wear = registers_hold_wear(data)
+        self._control.register_diameters = register_diameters(data)
         self._rules = self._control.rules
         self._not_quick = _NOT_QUICK_IN_MACRO_B if self._rules.fanuc_flow else _NOT_QUICK
         self._flow = Flow(JumpTargets(self._text), self._control)
@@ -123,6 +125,9 @@ class InterpreterRun:
             ProgramProblem(line, 0, letter.upper(), text, Severity.WARNING)
             for text, (letter, line) in control.warnings.items()
         ]
+        foreign = foreign_language(self._text.data) if self._problems else None
+        if foreign is not None:
+            warnings.append(foreign)
         noted = notes(self._text.data)
         motions = control.columns.motions(control.splines, control.known_from())
         # a block that fails has named its way, and not gone it

@@ -137,6 +137,8 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
         return 0.0
     row = control.tool_table.get(number)
     if row is None or not (row.diameter or row.diameter_known):
+        if number in control.register_diameters:
+            return control.register_diameters[number]
         if control.registers_hold_wear:
             return 0.0
         letter = "d" if block.has("d") else "g"

@@ -142,6 +142,7 @@ def _operator(data, i):
 def _function(data, i):
     """Return (offset behind its bracket, function) of the function at an offset; -1: there is none."""
     number = 0
+    # the longest name, round, has five letters, and a bracket follows it
     for _ in range(6):
         i = past_blanks(data, i)
         if i >= len(data):
@@ -182,6 +183,7 @@ def _reduced(values, waiting, top, count, rank):
     """Do the operators that wait and bind at least as a rank; return (what still waits, values left), -1: there is no
     value.
     """
+    # two operators of one rank are done from the left, as >= says
     while top > 0 and waiting[top - 1] <= _XOR and _RANKS[waiting[top - 1]] >= rank:
         values[count - 2] = _joined(waiting[top - 1], values[count - 2], values[count - 1])
         if not math.isfinite(values[count - 2]):
@@ -200,6 +202,7 @@ def _closed(data, i, values, waiting, top, count):
     if top <= 0 or waiting[top - 1] != _BRACKET:
         return i, -1, count
     top -= 1
+    # a plain bracket: its value stays where it is
     if top == 0 or waiting[top - 1] < _SECOND:
         return i, top, count
     if waiting[top - 1] == _SECOND:
@@ -224,6 +227,7 @@ def _operand(data, i, values, waiting, top, count):
     if c == 91 or c == 35:  # [ #
         waiting[top] = _BRACKET if c == 91 else _PARAMETER
         return i + 1, top + 1, count
+    # a sign belongs to a number where one follows, else it waits for what comes: -[...], -sin[...]
     if 48 <= c <= 57 or c == 46 or c == 43 or c == 45:
         behind, value, written = _number(data, i)
         if written != _ABSENT:

@@ -255,11 +255,14 @@ class CompensationWords:
     Attributes:
         left, right: templates with the field {tool}: the tool is at the left of the contour, at its right.
         off: block that ends it.
+        register: comment for the operator: what stands in the register of a tool by whose whole radius the control
+            offsets, with the fields {tool} {radius} {diameter}, lengths with their unit.
     """
 
     left: str = ""
     right: str = ""
     off: str = ""
+    register: str = "Register D{tool}: radius {radius}, or diameter {diameter} where the control takes that"
 
 
 @dataclass(frozen=True, slots=True)

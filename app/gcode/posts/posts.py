@@ -34,7 +34,12 @@ WITH_TOOL = EVERYWHERE | {
 }
 COUNTS = frozenset({"program", "tool", "speed", "dwell_ms"})
 FIELDS = {"tool": WITH_TOOL | {"clearance"}, "leave": WITH_TOOL}
-_SIDES = {"left": frozenset({"tool"}), "right": frozenset({"tool"}), "off": frozenset[str]()}
+_COMPENSATION = {
+    "left": frozenset({"tool"}),
+    "right": frozenset({"tool"}),
+    "off": frozenset[str](),
+    "register": frozenset({"tool", "radius", "diameter"}),
+}
 RANGES = {
     "decimals": (0, 6),
     "comments.width": (60, 250),
@@ -197,8 +202,8 @@ def _check_templates(post: Post, file: str) -> None:
     """Check that templates name only fields that there are."""
     _check_template(post.blending.blend, frozenset({"blend"}), f"{file}: blending.blend")
     _check_template(post.drilling.wait, frozenset({"dwell_s", "dwell_ms"}), f"{file}: drilling.wait")
-    for side, known in _SIDES.items():
-        _check_template(getattr(post.compensation, side), known, f"{file}: compensation.{side}")
+    for key, known in _COMPENSATION.items():
+        _check_template(getattr(post.compensation, key), known, f"{file}: compensation.{key}")
     _check_template(post.drilling.tap_start, frozenset({"tool", "speed"}), f"{file}: drilling.tap_start")
     for field in fields(ProgramLines):
         if field.name != "number":

@@ -36,6 +36,7 @@ def _between(centre, shape, begin, stop, scale, point):
     middle = (begin + stop) / 2
     place = _at(centre, shape, middle)
     point[0], point[1] = np.int64(np.rint(place.real * scale)), np.int64(np.rint(place.imag * scale))
+    # rounding moved the point along the arc too; its fraction is told from its own angle
     from_centre = complex(point[0] / scale, point[1] / scale) - centre
     beyond = cmath.phase(from_centre / cmath.rect(1.0, shape[_ANGLE] + shape[_SWEEP] * middle))
     fraction = middle + beyond / shape[_SWEEP]
@@ -93,6 +94,7 @@ def _one_arc(centre, shape, begin, stop, first, last, rules, written, offset):
     normal = complex(-chord.imag / length, chord.real / length)
     away = centre - middle
     along = away.real * normal.real + away.imag * normal.imag
+    # equally far from both ends means: on the bisector of the chord
     solved = middle + along * normal - start
     i, j = np.int64(np.rint(solved.real * finer)), np.int64(np.rint(solved.imag * finer))
     for k in range(len(NEIGHBOURS)):
@@ -116,6 +118,7 @@ def _one_arc(centre, shape, begin, stop, first, last, rules, written, offset):
 def _flat(shape, begin, stop, rules):
     """Tell whether a stretch bulges so little from its chord that a line is as good."""
     half = abs(shape[_SWEEP]) * (stop - begin) / 2
+    # 1 - cos h = 2 sin^2(h / 2), which loses no digits of a small bulge
     sine = math.sin(half / 2)
     bulge = max(shape[_START_RADIUS], shape[_END_RADIUS]) * 2 * (sine * sine)
     return bulge < min(0.5 * rules[_STEP], rules[_TOLERANCE] - FARTHEST_ROUNDED * rules[_STEP])

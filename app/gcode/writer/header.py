@@ -7,7 +7,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -133,6 +133,7 @@ def heading_lines(heading: HeaderContent) -> Iterator[str]:
         operation_words(operation, job) + ("" if cuts else ", makes no moves")
         for operation, cuts in operations_of(heading)
     )
+    yield from _registers(heading)
     if heading.program.given_up_mm is None:
         yield f"Path within {_length(path_tolerance(heading), units)} of the exact offset of the drawing"
     else:
@@ -142,6 +143,16 @@ def heading_lines(heading: HeaderContent) -> Iterator[str]:
         )
         yield f"It is up to {_length(heading.program.given_up_mm, units)} farther from them"
     yield _blending_words(heading)
+
+
+def _registers(heading: HeaderContent) -> Iterator[str]:
+    """Yield what has to stand in the registers of tools by whose whole radius the control offsets contours."""
+    job, units = heading.job, heading.job.out_units
+    for number in sorted({each.cut.tool for each, _ in operations_of(heading) if each.offset_by_control}):
+        tool = job.tool(number)
+        yield heading.post.compensation.register.format(
+            tool=number, radius=_length(tool.radius, units), diameter=_length(tool.diameter, units)
+        )
 
 
 def _copies_and_clamps(job: Job) -> Iterator[str]:
@@ -183,11 +194,18 @@ def tools_of(heading: HeaderContent) -> list[Tool]:
     return [heading.job.tool(number) for number in dict.fromkeys(heading.program.moves.tool.tolist())]
 
 
-def operations_of(heading: HeaderContent) -> list[tuple[Operation, bool]]:
+class ListedOperation(NamedTuple):
+    """An operation that a header names, and whether it has moves there."""
+
+    operation: Operation
+    cuts: bool
+
+
+def operations_of(heading: HeaderContent) -> list[ListedOperation]:
     """Return enabled operations, and whether each has moves; in one of several files those that it holds."""
     used = set(np.unique(heading.program.moves.operation).tolist())
     shown = ((i, operation) for i, operation in enumerate(heading.job.operations) if operation.cut.enabled)
-    return [(operation, i in used) for i, operation in shown if i in used or heading.files == 1]
+    return [ListedOperation(operation, i in used) for i, operation in shown if i in used or heading.files == 1]
 
 
 def _length(value: float, units: Units) -> str:

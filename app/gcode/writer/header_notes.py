@@ -2,37 +2,42 @@
 
 Comments that begin with `hitofude:` hold one `key=value` each, in this order and always in mm, part coordinates:
 
-    program=1                                       version of this list
-    part=NAME                                       as in the first comment, which begins with a word of its own:
-                                                    controls obey comments that begin with MSG or PRINT
-    drawing_units=mm|inch|cm|m|foot|micron          of the drawing that the part came from
-    layer=NAME                                      one a layer, where layers were chosen; see `spelled`
-    skip_layer=NAME, skip_type=NAME                 one a layer, one a type of entities, of which nothing was read
-    layout=NAME                                     of paper space that was read in place of model space
-    to_zero=1                                       where the drawing was moved to zero
-    px_per_inch=N                                   units to the inch of a drawing without a real size, as said or
-    assumed overrule_units=1                                where drawing_units hold though the drawing names others
-    join_tolerance_mm=T                             at which loose ends of the drawing were joined
-    copies=COLUMNS,ROWS,DX,DY                       where the part was cut more than once keep_out=NAME
-    one a layer of clamps keep_out_height_mm=H                            of clamps above the stock, where there are any
-    units=mm|in                                     of the program's words origin_mm=X,Y,Z
-    the work origin; part = program + origin stock_mm=X0,Y0,Z0,X1,Y1,Z1                      the stock's box
-    above_mm=H                                      what of the stock stands above Z 0 of the drawing, if any
-    under_mm=H                                      of waste below the stock that may be cut into, if any
-    tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use, those that make no moves last;
-    ,CORNER,TIP,ANGLE
-                                                    behind it (radius of the corner, diameter of the tip, full angle in
-                                                    degrees) where it has one of them
-    plunge_mm_min=NUMBER,RATE                       of programs over surfaces: how fast each tool is fed straight down
-    operation=KIND,KEY=VALUE,...                    one an operation, also one that makes no moves: see
-    `app.gcode.operation_notes` tab=X,Y,WIDTH,TOP,DIAMETER                      one a bridge of metal: its middle, and
-    the diameter of the cutter that went over it dog_bone=X0,Y0,X1,Y1,DIAMETER                   one a way of the
-    cutter's centre into a corner path_tolerance_mm=T                             proven: the written path is nowhere
-    nearer to the walls than asked by more allowance_mm=T                                  of paths made from pixels: so
-    thick a skin may they leave along the walls blend_mm=P                                      how far the control may
-    leave the written path
+    program=1                                     version of this list
+    part=NAME                                     as in the first comment, which begins with a word of its own: controls
+                                                  obey comments that begin with MSG or PRINT
+    drawing_units=mm|inch|cm|m|foot|micron        of the drawing that the part came from
+    layer=NAME                                    one a layer, where layers were chosen; see `spelled`
+    skip_layer=NAME, skip_type=NAME               one a layer, one a type of entities, of which nothing was read
+    layout=NAME                                   of paper space that was read in place of model space
+    to_zero=1                                     where the drawing was moved to zero
+    px_per_inch=N                                 units to the inch of a drawing without a real size, as said or assumed
+    overrule_units=1                              where drawing_units hold though the drawing names others
+    join_tolerance_mm=T                           at which loose ends of the drawing were joined
+    copies=COLUMNS,ROWS,DX,DY                     where the part was cut more than once
+    keep_out=NAME                                 one a layer of clamps
+    keep_out_height_mm=H                          of clamps above the stock, where there are any
+    units=mm|in                                   of the program's words
+    origin_mm=X,Y,Z                               the work origin; part = program + origin
+    stock_mm=X0,Y0,Z0,X1,Y1,Z1                    the stock's box
+    above_mm=H                                    what of the stock stands above Z 0 of the drawing, if any
+    under_mm=H                                    of waste below the stock that may be cut into, if any
+    tool=NUMBER,KIND,DIAMETER,CORNER,TIP,ANGLE    one a tool, in the order of use, those that make no moves last; radius
+                                                  of the corner, diameter of the tip and full angle in degrees only
+                                                  where it has one of them
+    plunge_mm_min=NUMBER,RATE                     of programs over surfaces: how fast each tool is fed straight down
+    operation=KIND,KEY=VALUE,...                  one an operation, also one that makes no moves: see
+                                                  `app.gcode.operation_notes`
+    tab=X,Y,WIDTH,TOP,DIAMETER                    one a bridge of metal: its middle, and the diameter of the cutter that
+                                                  went over it
+    dog_bone=X0,Y0,X1,Y1,DIAMETER                 one a way of the cutter's centre into a corner
+    path_tolerance_mm=T                           proven: the written path is nowhere nearer to the walls than asked by
+                                                  more
+    allowance_mm=T                                of paths made from pixels: so thick a skin may they leave along the
+                                                  walls
+    blend_mm=P                                    how far the control may leave the written path
 
-`registers=wear` says that the registers of D words hold the wear of tools, 0 at first, and no diameters.
+`registers=wear` says that the registers of D words hold the wear of tools, 0 at first, and no diameters, but for those
+of `register_mm=T,D`: the diameter of a tool whose contours the control offsets by its whole radius.
 
 A comment that begins with `hitofude+` goes on with the one before. For a control that knows capitals alone, all of this
 is in capitals, so keys and values are read without regard to case. Where each tool has a file of its own, `tool` and
@@ -76,13 +81,15 @@ def _notes(heading: HeaderContent) -> Iterator[str]:
         yield f"above_mm={plain_numbers(job.stock.above)}"
     if job.stock.under:
         yield f"under_mm={plain_numbers(job.stock.under)}"
-    operations = [operation for operation, _ in operations_of(heading)]
+    operations = [listed.operation for listed in operations_of(heading)]
     for tool in dict.fromkeys((*tools_of(heading), *(job.tool(each.cut.tool) for each in operations))):
         yield f"tool={tool.number},{tool.kind.value},{plain_numbers(tool.diameter, *shape_numbers(tool))}"
     yield from (f"operation={written(operation)}" for operation in operations)
     yield from _on_purpose(heading.program)
     if any(each.wear for each in operations):
         yield "registers=wear"
+    for number in sorted({each.cut.tool for each in operations if each.offset_by_control}):
+        yield f"register_mm={number},{plain_numbers(job.tool(number).diameter)}"
     yield f"path_tolerance_mm={plain_numbers(path_tolerance(heading))}"
     if heading.program.allowance_mm:
         yield f"allowance_mm={plain_numbers(heading.program.allowance_mm)}"

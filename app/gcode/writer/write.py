@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +20,11 @@ from ...model.stock_box import stock_box, work_origin
 from ..posts.post import Post
 from .arcs import ArcRules
 from .blocks import Blocks
-from .compensation import compensation_blocks
+from .compensation import compensated_stretches, compensation_blocks
 from .drilling import CycleHole, CycleRules, holes_of, untapped, waits_of
 from .header import HeaderContent, heading_lines, operation_words, tool_words
 from .header_notes import heading_notes
+from .programmed_contour import allowed_distances, programmed_moves
 from .sequence import check_sequence
 from .template_fields import Fields, program_fields, tool_fields
 from .work_moves import MotionRows, WorkMoves, motion_rows, work_moves
@@ -104,9 +106,10 @@ def write_moves(
     files: list[NcFile] = []
     for _, first, stop, suffix in _by_file(moves, post):
         blocks = Blocks(post, job.out_units)
-        part = work_moves(moves.part(first, stop), (0.0, 0.0, 0.0), job.out_units, post.digits(job.out_units))
+        offset = _Offset.of(moves.part(first, stop), job, post)
+        part = work_moves(offset.moves, (0.0, 0.0, 0.0), job.out_units, post.digits(job.out_units))
         said = replace(remarks, before={i - first: words for i, words in remarks.before.items() if first <= i < stop})
-        lines = _ProgramWriter(job, post, blocks, part).write(
+        lines = _ProgramWriter(job, post, blocks, part, offset).write(
             said, progress.part(first / len(moves), stop / len(moves))
         )
         nc = NcText("\n".join(blocks.lines) + "\n", lines, tuple(blocks.home_lines))
@@ -114,12 +117,21 @@ def write_moves(
     return tuple(files)
 
 
-def _by_file(moves: Moves, post: Post) -> Iterator[tuple[int, int, int, str]]:
-    """Yield number, first move, end and suffix of each file that the control needs."""
+class _FileSpan(NamedTuple):
+    """The moves of one file: its number from 1 on, first move, end, and what its name ends in."""
+
+    number: int
+    first: int
+    stop: int
+    suffix: str
+
+
+def _by_file(moves: Moves, post: Post) -> Iterator[_FileSpan]:
+    """Yield the moves of each file that the control needs."""
     tools = moves.tool
     starts = [0, *(np.flatnonzero(np.diff(tools)) + 1).tolist()] if post.file_per_tool else [0]
     for number, (first, stop) in enumerate(zip(starts, [*starts[1:], len(tools)], strict=True), start=1):
-        yield number, first, stop, f"_{number}_T{tools[first]}" if len(starts) > 1 else ""
+        yield _FileSpan(number, first, stop, f"_{number}_T{tools[first]}" if len(starts) > 1 else "")
 
 
 def write_files(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> tuple[NcFile, ...]:
@@ -173,13 +185,22 @@ def _check_words(job: Job, post: Post) -> None:
 def _written(program: Program, job: Job, post: Post, file: tuple[int, int], progress: Progress) -> NcText:
     """Return the text of one file; `file` is its number and how many there are."""
     box = stock_box(job, program.regions, program.lines)
-    moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
+    offset = _Offset.of(program.moves, job, post)
+    moves = work_moves(offset.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
     blocks = Blocks(post, job.out_units)
-    heading = HeaderContent(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post), *file)
+    heading = HeaderContent(
+        program,
+        job,
+        post,
+        box,
+        blend_mm(job, post),
+        float(np.max(allowed_distances(program.moves, job, writing_tolerance(job, post)), initial=0.0)),
+        *file,
+    )
     remarks = Remarks(
         tuple(heading_lines(heading)), tuple(heading_notes(heading)), lambda i: operation_words(job.operations[i], job)
     )
-    lines = _ProgramWriter(job, post, blocks, moves).write(remarks, progress)
+    lines = _ProgramWriter(job, post, blocks, moves, offset).write(remarks, progress)
     return NcText("\n".join(blocks.lines) + "\n", lines, tuple(blocks.home_lines))
 
 
@@ -216,10 +237,36 @@ def _dwells(job: Job) -> dict[int, float]:
     return {k: seconds for k, each in enumerate(job.operations) if (seconds := each.dwell_s) > 0}
 
 
+@dataclass(frozen=True, eq=False)
+class _Offset:
+    """What the control offsets of a program.
+
+    Attributes:
+        moves: as they are written. corners: (n,) which of them it makes by itself, at the block that follows.
+        blocks: that begin and end it, by the index of the move that follows.
+    """
+
+    moves: Moves
+    corners: NDArray[np.bool_]
+    blocks: dict[int, str]
+
+    @staticmethod
+    def of(moves: Moves, job: Job, post: Post) -> _Offset:
+        """Return what a control offsets of moves of the tool's centre.
+
+        Raises:
+            ParameterError: it cannot, or not so. GeometryError: the contour does not allow it.
+        """
+        stretches = compensated_stretches(moves, job)
+        blocks = compensation_blocks(moves, job, post, stretches)
+        written = programmed_moves(moves, job, stretches)
+        return _Offset(written.moves, written.corners, blocks)
+
+
 class _ProgramWriter:
     """One run over the moves."""
 
-    def __init__(self, job: Job, post: Post, blocks: Blocks, moves: WorkMoves) -> None:
+    def __init__(self, job: Job, post: Post, blocks: Blocks, moves: WorkMoves, offset: _Offset) -> None:
         self.job, self.post, self.blocks, self.moves = job, post, blocks, moves
         self.fields = program_fields(job, post, blend_mm(job, post))
         self.digits = digits = post.digits(job.out_units)
@@ -233,7 +280,7 @@ class _ProgramWriter:
         rules = CycleRules(post.drilling, round(self.z_scale), peck, chip, near, _dwells(job), self._taps(), _left(job))
         self.holes: dict[int, CycleHole] = holes_of(moves, rules)
         self.waits = waits_of(moves, rules, self.holes)
-        self.offsets = compensation_blocks(moves, job, post)
+        self.offsets, self.corners = offset.blocks, np.flatnonzero(offset.corners)
         if untapped(moves, rules, self.holes):
             raise ParameterError(
                 f"{post.title} has no cycle that taps: the spindle would not turn back; mill the thread, or take the "
@@ -283,6 +330,8 @@ class _ProgramWriter:
             done = self.blocks.motions(rows.rows, first, int(rows.stops[stop - begun - 1]))
             lines[i:stop] = done[rows.stops[i - begun : stop - begun] - 1 - first]
             i = stop
+        for corner in self.corners[::-1].tolist():
+            lines[corner] = lines[corner + 1]
         self._leave_tool(len(moves) - 1)
         self._home()
         self._blocks(self.post.program.end)

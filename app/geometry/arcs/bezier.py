@@ -170,6 +170,8 @@ def cut_at_knots(points: Floats, knots: Floats, degree: int) -> Floats:
         (spans, p + 1, d) control points.
     """
     p = degree
+    if len(points) == p + 1 and knots[0] == knots[p] < knots[p + 1] == knots[-1]:
+        return points[None].astype(np.float64)  # it is one already, as letters' curves are
     spans = np.flatnonzero(np.diff(knots[p : len(points) + 1]) > 1e-12 * max(1e-300, knots[-1] - knots[0])) + p
     result = np.empty((len(spans), p + 1, points.shape[1]))
     kernels.blossoms(np.ascontiguousarray(points, np.float64), np.ascontiguousarray(knots, np.float64), spans, result)

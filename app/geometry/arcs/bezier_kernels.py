@@ -1,5 +1,5 @@
 """Compiled: places, tangents and bounds of plane curves of rational Bézier pieces, see
-`app.geometry.arcs.bezier.Pieces`.
+`app.geometry.arcs.bezier.BezierCurve`.
 
 A curve is its control points (n, p + 1, 3), homogeneous: w x, w y, w; its parameter u runs from 0 to n.
 """

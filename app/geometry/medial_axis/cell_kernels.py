@@ -83,6 +83,7 @@ def _island_between(rows, angles, contours, places, e, s, low, high):
         if c in (contours[e % n], contours[s % n]):
             continue
         a, b, best, deepest = low, high, low, math.inf
+        # nine samples, then nine about the deepest one, twice
         for _ in range(3):
             for z in range(9):
                 u = a + (b - a) * (z + 0.5) / 9
@@ -115,6 +116,7 @@ def _change(rows, angles, e, a, b, vertex, low, high, at_low, at_high):
         value = governs(rows, angles, e, a, b, vertex, x)
         if value > 0.0:
             low, at_low = x, value
+            # Illinois' rule: an end that stays twice in a row counts half, so that false position does not creep
             at_high = 0.5 * at_high if side == 1 else at_high
             side = 1
         elif value < 0.0:

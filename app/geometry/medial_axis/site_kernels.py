@@ -39,6 +39,7 @@ def _to_line(rows, s, px, py, nx, ny):
     mx, my = -dy / length, dx / length
     ax, ay, bx, by = px - rows[s, 0], py - rows[s, 1], px - rows[s, 2], py - rows[s, 3]
     height = ax * mx + ay * my if ax * ax + ay * ay < bx * bx + by * by else bx * mx + by * my
+    # r (1 - n.m) = height, and 1 - n.m = |n - m|^2 / 2, which loses no digits where both are nearly parallel
     qx, qy = nx - mx, ny - my
     apart = qx * qx + qy * qy
     if height <= 1e-13:

@@ -49,6 +49,7 @@ def _two_arcs(a, i, b, j, best):
     if d < 1e-12:  # about one centre they are nearest where one of them ends
         return best
     ux, uy = dx / d, dy / d
+    # nearest points of two circles lie on the line through their centres: four pairs
     for p in (-r, r):
         for q in (-s, s):
             if in_sector(a, i, a[i, 4] + p * ux, a[i, 5] + p * uy) and in_sector(

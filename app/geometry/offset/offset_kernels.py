@@ -167,6 +167,7 @@ def cut(shape, rows, j, level, u0, u1, cuts):
         count = _cut_circle(shape, rows[j, 4], rows[j, 5], abs(rows[j, 6] - level), cuts, count)
     count = _cut_circle(shape, rows[j, 0], rows[j, 1], level, cuts, count)
     count = _cut_circle(shape, rows[j, 2], rows[j, 3], level, cuts, count)
+    # sorted as they come in: there are ten at most
     kept = 1
     for k in range(1, count):
         value = cuts[k]

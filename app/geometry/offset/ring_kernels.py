@@ -14,6 +14,7 @@ from .offset_kernels import piece_rows
 @kernel("int64(int64, int64, int64)", counts=False)
 def _slot(i, j, mask):
     """Return a cell's place in a table of mask + 1 places."""
+    # two large primes, so that neighbouring cells do not share places (Teschner et al., 2003)
     return ((i * 73856093) ^ (j * 19349663)) & mask
 
 
@@ -40,6 +41,7 @@ def _fill_table(rows, taken, size, last, before):
 def _nearest_start(rows, i, taken, radius, last, before, mask):
     """Return the row not taken that starts nearest to row i's end, -1 when none does within the radius."""
     x, y, best, chosen, size = rows[i, 2], rows[i, 3], radius * radius, -1, 4 * radius
+    # cells are four radii wide, so a circle meets at most four of them
     for u in range(math.floor((x - radius) / size), math.floor((x + radius) / size) + 1):
         for v in range(math.floor((y - radius) / size), math.floor((y + radius) / size) + 1):
             j = last[_slot(u, v, mask)]
@@ -74,6 +76,7 @@ def follow(rows, tolerance, following):
                     left -= 1
         if radius == tolerance:
             break
+        # what rounding alone parts is joined first, so that nothing farther away takes its place
         reach *= 10.0
     return left == 0
 
@@ -90,6 +93,7 @@ def assemble(rows, following, out, order, starts):
     """
     for i in range(len(rows)):
         j = following[i]
+        # ends that are apart by rounding alone meet half way
         x, y = (rows[i, 2] + rows[j, 0]) / 2, (rows[i, 3] + rows[j, 1]) / 2
         rows[i, 2], rows[i, 3], rows[j, 0], rows[j, 1] = x, y, x, y
     seen = np.zeros(len(rows), np.bool_)
@@ -129,6 +133,7 @@ def measure(rows, first, stop):
     for i in range(first, stop):
         sweep = _sweep(rows, i)
         area += ((rows[i, 0] - x) * (rows[i, 3] - y) - (rows[i, 2] - x) * (rows[i, 1] - y)) / 2
+        # between chord and arc: r^2 (sweep - sin sweep) / 2, signed as the sweep is
         area += rows[i, 6] * rows[i, 6] * (sweep - math.sin(sweep)) / 2
         length += (
             math.hypot(rows[i, 2] - rows[i, 0], rows[i, 3] - rows[i, 1])

@@ -33,6 +33,7 @@ def _capsule(rows, order, leaf, capsules):
             mx, my = (rows[j, 0] + rows[j, 2]) / 2 - rows[j, 4], (rows[j, 1] + rows[j, 3]) / 2 - rows[j, 5]
             sag = rows[j, 6] - math.sqrt(mx * mx + my * my)
             if rows[j, 7] * (mx * (rows[j, 3] - rows[j, 1]) - my * (rows[j, 2] - rows[j, 0])) < 0.0:
+                # of more than half a turn: the centre lies on the arc's side of the chord
                 sag = 2 * rows[j, 6] - sag
         for c in (0, 2):
             vx, vy = rows[j, c] - x, rows[j, c + 1] - y
@@ -96,6 +97,7 @@ def build_runs(rows, boxes):
         i, j = starts[k], starts[k + 1] - 1
         u = int(((boxes[i, 0] + boxes[j, 2]) / 2 - x0) * scale)
         v = int(((boxes[i, 1] + boxes[j, 3]) / 2 - y0) * scale)
+        # the run's number in the low half: sorting needs no second array, and ties keep their order
         keys[k] = ((spread(u) | (spread(v) << 1)) << 32) | k
     keys.sort()
     order = np.full(runs * LEAF, -1)

@@ -59,6 +59,8 @@ def _clear(dx, dy, probe):
         return True
     if d2 <= level * level:
         return False
+    # the tangent of the distance at the middle, times the farthest that the piece goes each way: d2 and level are both
+    # times d
     fall = abs(dx * probe[2] + dy * probe[3]) * probe[6] + max(-(dx * probe[4] + dy * probe[5]), 0.0) * probe[7]
     return d2 - fall >= level * math.sqrt(d2)
 
@@ -138,6 +140,7 @@ def candidates(rows, boxes, order, nodes, capsules, own, probe, near, stack, fir
         if misses(nodes, k, probe):
             continue
         if k < leaves - 1:
+            # the child whose middle is nearer first: what blocks is found soon, and ends the search
             x, y = 2 * probe[0], 2 * probe[1]
             left = abs(nodes[2 * k + 1, 0] + nodes[2 * k + 1, 2] - x) + abs(
                 nodes[2 * k + 1, 1] + nodes[2 * k + 1, 3] - y
@@ -194,6 +197,7 @@ def _keep_rest(blocked, blocks, e, limits, pieces, count):
     """
     at = limits[0]
     for k in range(blocks + 1):
+        # parts come sorted and may overlap: what lies before the next one and behind all so far is free
         begin, end = (blocked[k, 0], blocked[k, 1]) if k < blocks else (limits[1], limits[1])
         if begin - at > limits[2]:
             if count == len(pieces):

@@ -50,7 +50,7 @@ class PlanarGraph:
         return PlanarGraph(pieces, edges, turn, faces, members)
 
     def loops(self, odd: Flags, counts: FaceCounts) -> list[list[list[int]]]:
-        """Return for each connected net the loops of ends that bound its area; see `overlay_loops`.
+        """Return for each connected net the loops of ends that bound its area; see `loops`.
 
         Args:
             odd: (n,) True for edges along which an odd number of contours runs.

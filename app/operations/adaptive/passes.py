@@ -124,7 +124,8 @@ class DiscPasses:
         return heights
 
     def _feeds(self, run: CutRun, into_metal: bool) -> np.ndarray:
-        feeds = np.where(run.clear, clear_feed(self.label), self.label.feed)
+        fast = clear_feed(self.label)
+        feeds = np.where(run.clear, fast, np.minimum(run.times * self.label.feed, fast))
         if into_metal:
             feeds[:_SEED] = max(self.label.feed / 2, min(self.label.plunge_rate, self.label.feed))
         return feeds

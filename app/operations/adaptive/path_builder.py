@@ -14,6 +14,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.primitives import Rows, distances, within_half_turn
 from ...toolpath.build import split_row
 from ...toolpath.linking.bridge import foot, fraction_at
+from .chips import DiscArc, feed_pieces
 from .cleared_discs import ClearedDisc, ClearedDiscs, Point
 from .limit import EngagementLimit
 from .link import Circle, PathPose, Row, smooth_way, way_in
@@ -28,10 +29,12 @@ class CutRun:
     Attributes:
         rows: (n, 8), each beginning where the one before ends.
         clear: (n,) True where the ground is clear: the cutter may be lifted a little, and go fast.
+        times: (n,) of the tool's feed, where less is engaged than at the limit; else 1.
     """
 
     rows: Rows
     clear: NDArray[np.bool_]
+    times: NDArray[np.float64]
 
 
 @dataclass
@@ -41,14 +44,17 @@ class PathBuilder:
     Attributes:
         limit, discs: of the part.
         farthest: mm that the cutter goes over clear ground at most before it goes through the air instead.
+        fastest: times the tool's feed at most, where less is engaged than at the limit.
     """
 
     limit: EngagementLimit
     discs: ClearedDiscs
     farthest: float
+    fastest: float = 1.0
     runs: list[CutRun] = field(default_factory=list)
     _rows: list[Row] = field(default_factory=list)
     _clear: list[bool] = field(default_factory=list)
+    _times: list[float] = field(default_factory=list)
     _pose: PathPose | None = None
     _in: int = 0
 
@@ -68,14 +74,20 @@ class PathBuilder:
         if half <= 0:
             return
         ahead = math.atan2(disc.y - paying.y, disc.x - paying.x)
-        a, b = _on(disc.centre, turn, ahead - half), _on(disc.centre, turn, ahead + half)
+        a = _on(disc.centre, turn, ahead - half)
         self._go(PathPose(*a, ahead - half, turn), disc.payer)
-        if half > 0.45 * math.pi:
-            middle = _on(disc.centre, turn, ahead)
-            self._cut((*a, *middle, *disc.centre, turn, 1.0))
-            a = middle
-        self._cut((*a, *b, *disc.centre, turn, 1.0))
-        self._stand(b, number)
+        arc = DiscArc(
+            math.dist(disc.centre, paying.centre), turn, half, paying.reach - self.limit.slack, self.limit.radius
+        )
+        for piece in feed_pieces(arc, self.limit.angle, self.fastest):
+            if piece.end - piece.begin > 0.9 * math.pi:
+                middle = _on(disc.centre, turn, ahead + (piece.begin + piece.end) / 2)
+                self._cut((*a, *middle, *disc.centre, turn, 1.0), piece.times)
+                a = middle
+            b = _on(disc.centre, turn, ahead + piece.end)
+            self._cut((*a, *b, *disc.centre, turn, 1.0), piece.times)
+            a = b
+        self._stand(a, number)
 
     def ring(self, path: Rows) -> bool:
         """Go along a ring, from where a disc that was cleared touches it; False where none does."""
@@ -120,9 +132,10 @@ class PathBuilder:
         angle = math.atan2(place[1] - disc.y, place[0] - disc.x)
         self._pose, self._in = PathPose(*place, angle, max(math.dist(place, disc.centre), _NOTHING)), number
 
-    def _cut(self, row: Sequence[float]) -> None:
+    def _cut(self, row: Sequence[float], times: float = 1.0) -> None:
         self._rows.append(tuple(row))  # type: ignore[arg-type]
         self._clear.append(False)
+        self._times.append(times)
 
     def _go(self, pose: PathPose, number: int) -> None:
         """Bring the cutter to a pose within a disc: over discs that overlap, or through the air."""
@@ -137,11 +150,12 @@ class PathBuilder:
             rows = smooth_way(self._pose, pose, over, self._room(number))
         self._rows += rows
         self._clear += [True] * len(rows)
+        self._times += [1.0] * len(rows)
 
     def _end(self) -> None:
         if self._rows:
-            self.runs.append(CutRun(np.array(self._rows), np.array(self._clear)))
-        self._rows, self._clear, self._pose = [], [], None
+            self.runs.append(CutRun(np.array(self._rows), np.array(self._clear), np.array(self._times)))
+        self._rows, self._clear, self._times, self._pose = [], [], [], None
 
     def _room(self, number: int) -> Circle:
         disc = self.discs.each[number]

@@ -71,7 +71,7 @@ def adaptive(context: OperationContext, index: int, progress: Progress) -> None:
         limit = replace(limit, grid=limit.grid.mirrored())
     stock = open_stock(context, operation, area)
     seen = stock if climb or stock is None else stock.mirrored()
-    task = ClearingTask(walls, cut.stock_to_leave, farthest(label, levels), seen)
+    task = ClearingTask(walls, cut.stock_to_leave, farthest(label, levels), seen, operation.fastest_cut)
     parts = plan(task, limit, progress.part(0.05, 0.9))
     if not climb:
         parts = tuple(mirrored_part(part) for part in parts)

@@ -69,12 +69,14 @@ class ClearingTask:
         leave: stock to leave on them, mm.
         farthest: mm that the cutter goes over clear ground rather than through the air.
         stock: beside which it begins, where the area goes on past its edges; None = the area does not.
+        fastest: times the tool's feed at most, where less is engaged than at the limit.
     """
 
     walls: Primitives
     leave: float
     farthest: float
     stock: BoxSides | None = None
+    fastest: float = 1.0
 
 
 def plan(task: ClearingTask, limit: EngagementLimit, progress: Progress = NO_PROGRESS) -> tuple[ConnectedPath, ...]:
@@ -160,7 +162,7 @@ def _part(area: _PlannedArea, tree: AxisTree, limit: EngagementLimit, progress: 
     discs = walk.discs
     paths, unproven = _rings(area, discs, limit, progress.part(0.5, 0.9))
     first = discs.each[0]
-    way = PathBuilder(limit, discs, area.task.farthest)
+    way = PathBuilder(limit, discs, area.task.farthest, area.task.fastest)
     way.begin(spiral(first.centre, first.reach - limit.radius, limit, max(limit.least_turn, area.turns[1])))
     for number in range(1, len(discs)):
         way.slice(number)
@@ -214,7 +216,7 @@ def mirrored_part(part: ConnectedPath) -> ConnectedPath:
     """Return the path of a part as it is outside of the mirror."""
     return replace(
         part,
-        runs=tuple(CutRun(mirrored_rows(run.rows), run.clear) for run in part.runs),
+        runs=tuple(CutRun(mirrored_rows(run.rows), run.clear, run.times) for run in part.runs),
         stops=tuple(WalkStop((-stop.place[0], stop.place[1]), stop.width) for stop in part.stops),
         unproven=tuple((-x, y) for x, y in part.unproven),
     )

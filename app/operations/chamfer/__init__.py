@@ -1,4 +1,4 @@
-"""Chamfers: edges broken along contours by the flank of a cone."""
+"""Chamfers: edges broken along contours by the flank of a cone or the round of a ball."""
 
 from __future__ import annotations
 

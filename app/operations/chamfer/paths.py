@@ -4,6 +4,9 @@ The chamfer is W wide on the top; the cone, of half angle a and flat tip f, touc
 surface and goes t deeper with its tip. So it is f + t tan a wide where it touches the wall, which is how far its axis
 keeps off, and W more at the surface. Where the walls leave less room than that, it comes up until it touches them as
 high: a V-carving whose cone is W narrower than the real one.
+
+A ball touches the wall and the top at the two ends of the chamfer and hollows it between them. It stays at one height:
+where walls leave less room than it keeps off them, as at inner corners, the edge stays sharp, which the proof tells.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ import numpy as np
 from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...geometry.distance import DistanceField
-from ...geometry.offset.offset import Ring
+from ...geometry.offset.offset import Ring, offset_levels
 from ...geometry.primitives import contour_rows, lengths, points_at, reversed_rows, within_half_turn
 from ...model.chamfer_operation import ChamferOperation
 from ...model.finding import Finding, FindingKind
@@ -27,6 +30,7 @@ from ...model.tool import Tool
 from ...toolpath.build import StrokeLabel
 from ...toolpath.drawn_contours import DrawnContours
 from ...toolpath.machining_areas import MachiningArea
+from ...toolpath.narrow_regions import too_small
 from ...toolpath.operation_context import OperationContext, levels_of
 from ...toolpath.selected import selected
 from ..engrave.open_line import clear_parts, runs_of_parts
@@ -38,27 +42,34 @@ _WELD = 1e-6
 
 
 @dataclass(frozen=True)
-class ChamferCone:
-    """The cone of a chamfer.
+class ChamferCutter:
+    """The cone of a chamfer, or its ball.
 
     Attributes:
         narrowed: the V-carving cone that is as much narrower as the chamfer is wide.
+        round: whether it is a ball, which stays at its depth.
         depth: of the tip, mm. off: how far the axis keeps off the walls, mm. top: how wide it is at the surface, mm.
     """
 
     narrowed: VCutter
+    round: bool
     depth: float
     off: float
     top: float
 
 
-def cone_of(job: Job, operation: ChamferOperation) -> ChamferCone:
-    """Return the cone of an operation's tool.
+def cutter_of(job: Job, operation: ChamferOperation) -> ChamferCutter:
+    """Return the cone of an operation's tool, or its ball.
 
     Raises:
-        ParameterError: the tool has none, its cone is too low, or the tip would go below the stock and its waste.
+        ParameterError: the tool is neither, its cone is too low, the chamfer too large for the ball, or the tip would
+            go below the stock and its waste.
     """
     tool = job.cutter(operation)
+    if (ball := operation.ball(tool)) is not None:
+        _check_stock(job, tool, ball.depth)
+        top = ball.off + operation.width
+        return ChamferCutter(VCutter(ball.off, 1.0, tool.radius), True, ball.depth, ball.off, top)
     tip, rate, depth = tool.tip_diameter / 2, math.tan(tool.tip_angle / 2), operation.deepest(tool)
     top = tip + depth * rate
     if top > tool.radius + _SAME:
@@ -67,12 +78,17 @@ def cone_of(job: Job, operation: ChamferOperation) -> ChamferCone:
             f"{2 * top:.3f} mm, and T{tool.number} {tool.label} is {tool.diameter:g} mm wide; take a wider cutter, "
             "or less of either."
         )
+    _check_stock(job, tool, depth)
+    return ChamferCutter(VCutter(tip - operation.width, rate, tool.radius), False, depth, top - operation.width, top)
+
+
+def _check_stock(job: Job, tool: Tool, depth: float) -> None:
+    """Refuse a tip that would go below the stock and its waste."""
     if depth > job.stock.thickness + job.stock.under + _SAME:
         raise ParameterError(
             f"The tip of T{tool.number} {tool.label} would go {depth:.3f} mm deep, and the stock is "
             f"{job.stock.thickness:g} mm thick; make the chamfer narrower, or the tip offset less."
         )
-    return ChamferCone(VCutter(tip - operation.width, rate, tool.radius), depth, top - operation.width, top)
 
 
 def chamfer(context: OperationContext, index: int, progress: Progress) -> None:
@@ -86,11 +102,16 @@ def chamfer(context: OperationContext, index: int, progress: Progress) -> None:
     job = context.job
     operation = job.operations[index]
     assert isinstance(operation, ChamferOperation)
-    cone, tool = cone_of(job, operation), job.tool(operation.cut.tool)
+    cone, tool = cutter_of(job, operation), job.tool(operation.cut.tool)
     area = context.areas.of(operation)
     if area is None:
         return
-    (whole,) = carved(area.primitives, cone.narrowed, (-cone.depth,), progress.part(0.0, 0.8))
+    if cone.round:
+        (level,) = offset_levels(area.primitives, [cone.off], progress.part(0.0, 0.8))
+        whole = CarvedPass(-cone.depth, (), level.rings)
+        context.findings.extend(too_small(area.regions, level, tool, 2 * cone.off))
+    else:
+        (whole,) = carved(area.primitives, cone.narrowed, (-cone.depth,), progress.part(0.0, 0.8))
     followed = _followed(whole, area, operation.cut.direction)
     progress.step(0.8, "Neighbour walls")
     kept, lost = _beside_neighbours(followed, context.areas.drawn, operation, tool, cone)
@@ -117,7 +138,7 @@ def _at_bare(way: AxisBranch, area: MachiningArea) -> bool:
 
 
 def _beside_neighbours(
-    ways: CarvedPass, drawn: DrawnContours, operation: ChamferOperation, tool: Tool, cone: ChamferCone
+    ways: CarvedPass, drawn: DrawnContours, operation: ChamferOperation, tool: Tool, cone: ChamferCutter
 ) -> tuple[CarvedPass, list[tuple[float, float, float]]]:
     """Return the ways on which the cone keeps off all other contours and clamps, and (x, y, length, mm) of the
     others.
@@ -136,7 +157,7 @@ def _beside_neighbours(
 
 
 def _clear_trails(
-    ways: CarvedPass, field: DistanceField, wide: float, cone: ChamferCone, lost: list[tuple[float, float, float]]
+    ways: CarvedPass, field: DistanceField, wide: float, cone: ChamferCutter, lost: list[tuple[float, float, float]]
 ) -> Iterator[AxisBranch]:
     """Yield the ways into corners all of whose cones keep off some walls; `wide`: where they are deepest, mm."""
     for way in ways.trails:
@@ -166,14 +187,19 @@ def _clear(
         yield from (replace(ring, rows=piece) for piece in runs_of_parts(ring.rows, row, low, high))
 
 
-def _stopped_short(lost: Sequence[tuple[float, float, float]], tool: Tool, cone: ChamferCone) -> Iterator[Finding]:
+def _stopped_short(lost: Sequence[tuple[float, float, float]], tool: Tool, cone: ChamferCutter) -> Iterator[Finding]:
     """Yield where the chamfer stops short."""
     if lost:
         x, y, _ = max(lost, key=lambda each: each[2])
         length = sum(each[2] for each in lost)
+        short = (
+            f"T{tool.number} {tool.label} stops short of {length:.3f} mm of the edges, at ({x:.3f}, {y:.3f}) for one"
+        )
         text = (
-            f"T{tool.number} {tool.label} stops short of {length:.3f} mm of the edges, at ({x:.3f}, {y:.3f}) for "
-            f"one: a wall that is not chamfered, or a clamp, is nearer than the {cone.top:.3f} mm that the cone "
-            "reaches; take less tip offset, a narrower chamfer or a more pointed cone."
+            f"{short}: a wall that is not chamfered, or a clamp, is nearer than the {cone.top:.3f} mm that the ball "
+            "reaches; take a narrower chamfer or a smaller ball."
+            if cone.round
+            else f"{short}: a wall that is not chamfered, or a clamp, is nearer than the {cone.top:.3f} mm that the "
+            "cone reaches; take less tip offset, a narrower chamfer or a more pointed cone."
         )
         yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=length)

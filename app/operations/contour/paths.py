@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
-from ...geometry.primitives import TURN, lengths, reversed_rows
+from ...geometry.primitives import TURN, R, lengths, points_at, reversed_rows
 from ...model.contour_operation import ContourOperation
 from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind
@@ -23,7 +24,7 @@ from ...model.tool import Tool
 from ...toolpath.bitmap_check import check_on_bitmap
 from ...toolpath.build import Stroke, started_at
 from ...toolpath.leads.contour_path import ContourPath
-from ...toolpath.leads.lead import LeadContext, PathWithLeads, lead_findings, overlap_findings, runs
+from ...toolpath.leads.lead import LeadContext, PathWithLeads, lead_findings, overlap_findings, runs, straight_way
 from ...toolpath.leads.tab import (
     TabShape,
     by_hand,
@@ -48,6 +49,9 @@ from .stroke import StrokeExtras, strokes_of
 
 _FAR = 4.0
 """Finish widths; where a finish path is farther than this from what was roughed, it is cut at all depths."""
+
+_SAME_RADIUS = 1e-4
+"""mm; a radius that is smaller by less is as large: how drawings are rounded."""
 
 _THIN = 0.1
 """Of the cutter's diameter; no more than this is taken off at the full depth of several passes in one."""
@@ -81,7 +85,8 @@ class _ContourJob:
         """Return what leads of paths at a distance from the walls go by."""
         away = 1.0 if self.operation.cut.direction is Direction.CLIMB else -1.0
         lead = Lead(LeadKind.NONE) if self.operation.side is Side.ON else self.operation.lead
-        return LeadContext(self.area.distances, self.tool, distance, away, lead)
+        straight = straight_way(self.operation, self.tool)
+        return LeadContext(self.area.distances, self.tool, distance, away, lead, straight, self.operation.wear)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +119,7 @@ def prepared_contour(context: OperationContext, index: int, progress: Progress) 
     if area is None:
         return None
     work = _ContourJob(context, index, operation, area, context.job.tool(operation.cut.tool))
+    _check_arcs(work)
     rough = None
     if operation.side is Side.ON:
         paths, reported = line_paths(area, work.tool, operation.cut.direction, progress.part(0.0, 0.7))
@@ -131,6 +137,28 @@ def prepared_contour(context: OperationContext, index: int, progress: Progress) 
     context.findings.extend(overlap_findings(finish.runs, work.around(work.wall)))
     progress.step(1.0, "Contours")
     return PreparedStrokes(area, _together(work, finish, rough), open_stock(context, operation, area))
+
+
+def _check_arcs(work: _ContourJob) -> None:
+    """Refuse inner arcs of the contour that a control cannot offset by the tool's radius and all that is entered.
+
+    Raises:
+        ParameterError: there is one.
+    """
+    operation = work.operation
+    if not operation.offset_by_control:
+        return
+    rows = work.area.primitives.rows[~work.area.bare]
+    least = work.wall + operation.wear
+    small = np.flatnonzero((rows[:, TURN] > 0) & (rows[:, R] < least - _SAME_RADIUS))
+    if len(small):
+        row = rows[small[np.argmin(rows[small, R])]]
+        x, y = points_at(row[None], np.array([0.5]))[0]
+        raise ParameterError(
+            f"The contour has an inner arc of radius {row[R]:.4g} mm at ({x:.3f}, {y:.3f}), in which a control cannot "
+            f"offset it by up to {least:.4g} mm (the radius of T{work.tool.number}, stock to leave and wear range); "
+            'take a smaller tool or wear_range, or compensation = "computer".'
+        )
 
 
 def _about_thick(work: _ContourJob) -> list[Finding]:

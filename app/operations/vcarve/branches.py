@@ -7,6 +7,7 @@ keeps off it by more: distance from walls changes by no more than the way gone.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +36,7 @@ class AxisBranch:
 
     discs: Floats
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Seen from above, mm."""
         return float(np.hypot(*np.diff(self.discs[:, :2], axis=0).T).sum())
@@ -46,6 +47,11 @@ class AxisBranch:
 
     def between(self, low: float, high: float) -> list[AxisBranch]:
         """Return the parts of it whose radius is within limits, mm; they end at the limit."""
+        radii = self.discs[:, 2]
+        if low <= radii.min() and radii.max() <= high:
+            return [self]
+        if radii.max() < low or radii.min() > high:
+            return []
         found: list[AxisBranch] = []
         points: list[Floats] = []
         for a, b in zip(self.discs[:-1], self.discs[1:], strict=True):
@@ -77,16 +83,16 @@ def branches(axis: MedialAxis) -> list[AxisBranch]:
     Raises:
         GeometryError: a piece bends more than can be told.
     """
-    waiting, name, done = axis.pieces, np.arange(len(axis.pieces)), []
+    waiting, name = axis.pieces, np.arange(len(axis.pieces))
+    names, begins, chords = [name[:0]], [np.zeros(0)], [np.zeros((0, 2, 3))]
     for _ in range(_HALVINGS):
         if not len(waiting):
             break
         discs = replace(axis, pieces=np.ascontiguousarray(waiting)).discs(_LOOKED)
         straight = _bent(discs) <= CHORD
-        done += [
-            (int(k), float(begin), ends[0], ends[-1])
-            for k, begin, ends in zip(name[straight], waiting[straight, 2], discs[straight], strict=True)
-        ]
+        names.append(name[straight])
+        begins.append(waiting[straight, 2])
+        chords.append(discs[straight][:, [0, -1]])
         again, name = waiting[~straight], np.repeat(name[~straight], 2)
         middle = (again[:, 2] + again[:, 3]) / 2
         waiting = np.repeat(again, 2, axis=0)
@@ -97,15 +103,11 @@ def branches(axis: MedialAxis) -> list[AxisBranch]:
             f"The medial axis of region {axis.region} bends more near ({x:.3f}, {y:.3f}) than a path of straight moves "
             "can follow; look there for edges that cross or lie on one another, and mend them."
         )
+    piece, begin, ends = np.concatenate(names), np.concatenate(begins), np.concatenate(chords)
     forward = np.where(axis.pieces[:, 3] >= axis.pieces[:, 2], 1.0, -1.0)
-    chains: dict[int, list[tuple[float, Floats, Floats]]] = {}
-    for k, begin, a, b in done:
-        chains.setdefault(k, []).append((begin * forward[k], a, b))
-    found = []
-    for _, chords in sorted(chains.items()):
-        chords.sort(key=lambda each: each[0])
-        found.append(AxisBranch(np.array([chords[0][1], *(each[2] for each in chords)])))
-    return found
+    order = np.lexsort((begin * forward[piece], piece))
+    runs = np.split(ends[order], np.flatnonzero(np.diff(piece[order])) + 1) if len(order) else []
+    return [AxisBranch(np.concatenate([run[0], run[1:, 1]])) for run in runs]
 
 
 def _bent(discs: Floats) -> Floats:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import partial
 from heapq import heapify, heappop
 
 import numpy as np
 
+from ...geometry.near_points import groups_within
 from .branches import AxisBranch, Floats
 
 _SAME = 1e-5
@@ -25,24 +26,15 @@ class BranchGraph:
     """Branches between nodes.
 
     Attributes:
-        discs: x, y and radius of each node, mm.
+        discs: (n, 3) x, y and radius of each node, mm: of the end that made it.
         ends: from node and to node of each branch.
         at: numbers of the branches at each node.
     """
 
-    branches: list[AxisBranch] = field(default_factory=list)
-    discs: list[Floats] = field(default_factory=list)
-    ends: list[tuple[int, int]] = field(default_factory=list)
-    at: list[list[int]] = field(default_factory=list)
-    _places: dict[tuple[int, int], list[int]] = field(default_factory=dict)
-
-    def add(self, branch: AxisBranch) -> None:
-        """Put in a branch; its ends are nodes, those that are there already or new ones."""
-        number, pair = len(self.branches), (self._node(branch.discs[0]), self._node(branch.discs[-1]))
-        self.branches.append(branch)
-        self.ends.append(pair)
-        for node in pair:
-            self.at[node].append(number)
+    branches: list[AxisBranch]
+    discs: Floats
+    ends: list[tuple[int, int]]
+    at: list[list[int]]
 
     def remove(self, number: int) -> None:
         """Take out a branch."""
@@ -59,26 +51,19 @@ class BranchGraph:
         branch = self.branches[number]
         return branch if self.ends[number][0] == node else branch.backwards()
 
-    def _node(self, disc: Floats) -> int:
-        x, y = disc[:2].tolist()
-        i, j = math.floor(x / _SAME), math.floor(y / _SAME)
-        for di in (-1, 0, 1):
-            for dj in (-1, 0, 1):
-                for node in self._places.get((i + di, j + dj), ()):
-                    if math.dist(self.discs[node][:2].tolist(), (x, y)) <= _SAME:
-                        return node
-        self._places.setdefault((i, j), []).append(len(self.discs))
-        self.discs.append(disc)
-        self.at.append([])
-        return len(self.discs) - 1
-
 
 def graph_of(branches: Iterable[AxisBranch]) -> BranchGraph:
     """Return branches as a graph."""
-    graph = BranchGraph()
-    for branch in branches:
-        graph.add(branch)
-    return graph
+    branches = list(branches)
+    discs = np.array([branch.discs[k] for branch in branches for k in (0, -1)]).reshape(-1, 3)
+    number = groups_within(discs[:, :2], np.arange(len(discs)), len(discs), _SAME)
+    _, first = np.unique(number, return_index=True)
+    ends = [(a, b) for a, b in number.reshape(-1, 2).tolist()]
+    at: list[list[int]] = [[] for _ in first]
+    for k, pair in enumerate(ends):
+        for node in pair:
+            at[node].append(k)
+    return BranchGraph(branches, discs[first], ends, at)
 
 
 def prune(graph: BranchGraph) -> list[Floats]:
@@ -119,11 +104,15 @@ def trails(graph: BranchGraph) -> list[AxisBranch]:
     is one.
     """
     left = [list(own) for own in graph.at]
-    deep = [float(disc[2]) for disc in graph.discs]
+    deep = graph.discs[:, 2].tolist()
     odd = [(deep[node], node) for node, own in enumerate(left) if len(own) % 2]
     some = [(deep[node], node) for node, own in enumerate(left) if own]
     heapify(odd)
     heapify(some)
+
+    def leads_on(node: int, number: int) -> tuple[int, float]:
+        return len(left[graph.other(number, node)]), graph.branches[number].length
+
     found: list[AxisBranch] = []
     while some:
         while odd and not len(left[odd[0][1]]) % 2:
@@ -135,7 +124,7 @@ def trails(graph: BranchGraph) -> list[AxisBranch]:
         parts: list[Floats] = []
         while left[node]:
             # what leads on first, dead ends last
-            number = max(left[node], key=lambda each: (len(left[graph.other(each, node)]), graph.branches[each].length))
+            number = left[node][0] if len(left[node]) == 1 else max(left[node], key=partial(leads_on, node))
             branch, end = graph.from_node(number, node), graph.other(number, node)
             left[node].remove(number)
             left[end].remove(number)

@@ -211,15 +211,7 @@ class PassWriter:
         """Append a pass: whichever way begins nearest comes next, from its nearer end."""
         x, y, _ = self.builder.at
         at = at if x != x else (x, y)
-        left = list(each.trails)
-        starts = np.array([(*way.discs[0, :2], *way.discs[-1, :2]) for way in left]).reshape(-1, 4)
-        waiting = np.ones(len(left), np.bool_)
-        while waiting.any():
-            first, last = (np.hypot(*(starts[:, k : k + 2] - at).T) for k in (0, 2))
-            k = int(np.argmin(np.where(waiting, np.minimum(first, last), np.inf)))
-            waiting[k] = False
-            way = left[k].backwards() if last[k] < first[k] else left[k]
-            at = (float(way.discs[-1, 0]), float(way.discs[-1, 1]))
+        for way in nearest_next(each.trails, at):
             self._trail(way, each.z)
         for ring in each.rings:
             self._ring(ring, each.z)
@@ -262,6 +254,29 @@ class PassWriter:
     def _beside_clamp(self, x: float, y: float) -> bool:
         clamps, wide = self.levels.clamps, self.levels.wide
         return clamps is not None and float(clamps.nearest(np.array([[x, y]]))[0][0]) <= wide
+
+
+def nearest_next(trails: Sequence[AxisBranch], at: tuple[float, float]) -> Iterator[AxisBranch]:
+    """Yield ways, whichever begins nearest to where the one before ends next, from its nearer end.
+
+    Args:
+        at: where the first one is gone to from, mm.
+    """
+    # two ends of each way that is left; what is done is at infinity, and left out when it is half of all
+    number = np.repeat(np.arange(len(trails)), 2)
+    ends = np.array([way.discs[k, :2] for way in trails for k in (0, -1)]).reshape(-1, 2)
+    left = len(trails)
+    while left:
+        if 4 * left < len(ends):
+            waiting = np.isfinite(ends[:, 0])
+            number, ends = number[waiting], ends[waiting]
+        way_there = ends - at
+        k = int(np.argmin(np.einsum("ni,ni->n", way_there, way_there)))
+        way = trails[number[k]].backwards() if k % 2 else trails[number[k]]
+        ends[k - k % 2 : k - k % 2 + 2] = np.inf
+        left -= 1
+        at = (float(way.discs[-1, 0]), float(way.discs[-1, 1]))
+        yield way
 
 
 def _too_wide(job: Job, operation: Operation, cone: VCutter, rings: Sequence[Ring]) -> list[Finding]:

@@ -88,6 +88,7 @@ def met(boxes, triangles, points, counts, found):
         while depth > 0:
             depth -= 1
             k = stack[depth]
+            # every meeting counts here, so no box can be closed by a higher one as in `tops`
             if not over(boxes, k, x, y):
                 continue
             if k < leaves - 1:

@@ -54,6 +54,7 @@ def within_grid(grid, radius, way, span):
     px, py, ux, uy = way
     wide, tall = 0.5 * cols * pitch, 0.5 * rows * pitch
     x, y = x0 + wide - px, y0 + tall - py
+    # separating axis across the piece: the grid's half extent along the normal is |uy| wide + |ux| tall
     if abs(ux * y - uy * x) > radius * (1.0 + SLACK) + abs(uy) * wide + abs(ux) * tall:
         return 0.0, -1.0
     middle, half = ux * x + uy * y, abs(ux) * wide + abs(uy) * tall
@@ -135,6 +136,7 @@ def round_quads(start, end, arc, arcs, chosen, shape, grid, quads):
         if size > 2.0 * radius:
             parts = max(max(math.ceil(0.5 * turn * math.sqrt(size / radius)), math.ceil(turn * size / STRETCH)), 1.0)
         half = 0.5 * turn / parts
+        # a quad holds its part of the ring: from the chord's middle, less the cutter, to the outer rim
         inner, outer = size * math.cos(half) - radius, size + radius
         for part in range(int(parts)):
             angle = first + (2.0 * part + 1.0) * half

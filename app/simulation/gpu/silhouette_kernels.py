@@ -49,6 +49,7 @@ def disc(quads, kinds, at, kind, tip, rings, table, view):
     if rings[0, 0] == 0.0:
         return at
     a, b = corner_of(0, 0, tip, rings, table), corner_of(0, 1, tip, rings, table)
+    # a fan from corner 0, two triangles at a time: a ring has an even number of corners
     for k in range(2, len(table) - 1, 2):
         c, d = corner_of(0, k, tip, rings, table), corner_of(0, k + 1, tip, rings, table)
         at = put(quads, kinds, at, kind, (a, b, c, d), view)
@@ -73,6 +74,7 @@ def facet(quads, kinds, at, kind, place, tip, rings, table, view):
 @kernel(f"int64({_OUT}, {_V}, {_V}, {_V}, {_V}, {_VIEW})", counts=False)
 def swept(quads, kinds, at, kind, a, b, c, d, view):
     """Add the quad that an edge sweeps from a b to c d, whichever way it runs; return how many quads there are then."""
+    # counter-clockwise as seen from above, which is the inside of what looks down
     if (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0:
         return put(quads, kinds, at, kind, (a, b, d, c), view)
     return put(quads, kinds, at, kind, (b, a, c, d), view)
@@ -154,6 +156,7 @@ def row_facets(quads, kinds, at, place, start, end, way, joins, rings, bands, ta
     """Add what a row of the polyhedron adds on a move (move, row); return how many quads there are then."""
     piece, row = place
     first, last, u = row_of(start, piece), row_of(end, piece), row_of(way, piece)
+    # the last ring is the widest: what is farther off than that from the way is not in the picture
     if unseen(first, last, rings[len(rings) - 1, 0], view):
         return at
     goes, comes = dot(u, u) > 0.0, bool(joins[piece])

@@ -96,6 +96,7 @@ def put(quads, kinds, at, kind, corners, view):
 def level_pole(u):
     """Return the level unit vector square to a direction; X if that is upright."""
     size = math.hypot(u[0], u[1])
+    # an upright way has all level directions square to it; any will do, as long as it is always the same
     if size < 1e-12:
         return 1.0, 0.0, 0.0
     return -u[1] / size, u[0] / size, 0.0

@@ -110,6 +110,7 @@ def restore(block, blocks, slots, bounds, kept_heights, kept_owner, base_heights
 def close_ranks(slots, kept_heights, kept_owner):
     """Move the copies in some slots, which rise, to the first ones."""
     for k in range(len(slots)):
+        # slots rise, so that none is written over before it has been moved
         old = slots[k]
         if old != k:
             for i in range(kept_heights.shape[1]):

@@ -8,7 +8,7 @@ it comes, so none may lie between.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -34,12 +34,40 @@ def superseded(motions: Motions, cutter: NDArray[np.int32], does: NDArray[np.uin
 
     kind = motions.kind
     turns = ((kind == MotionKind.ARC_CW) | (kind == MotionKind.ARC_CCW)) & (motions.plane == Plane.XY)
+    asked = np.cumsum(does == ASKS, dtype=np.int32)
     rows = np.flatnonzero((does == CUTS) & (turns | (kind <= MotionKind.LINE)))
+    rows = _not_alone(motions, rows, turns[rows], (cutter, asked))
     ways = _ways(motions, rows, turns[rows])
-    group = _groups((*ways.columns, cutter[rows], np.cumsum(does == ASKS)[rows]))
+    group = _groups((*ways.columns, cutter[rows], asked[rows]))
     answer = np.zeros(len(motions), bool)
     answer[rows[_not_lowest(group, ways.first, ways.last)]] = True
     return answer
+
+
+def _not_alone(
+    motions: Motions, rows: NDArray[np.intp], turns: Mask, others: tuple[NDArray[np.int32], ...]
+) -> NDArray[np.intp]:
+    """Return those of the rows that may go the way of another: their columns have a hash that some other row has, too.
+
+    Of millions of motions few go one way, and sorting one number each is quicker than sorting all columns.
+    """
+    code = np.zeros(len(rows), np.uint64)
+    for column in _columns(motions, rows, turns):
+        _mix(code, (column + 0.0).view(np.uint64))  # of two zeros there is one left
+    for other in others:
+        _mix(code, other[rows].astype(np.uint64))
+    order = np.argsort(code, kind="stable")
+    same = code[order[1:]] == code[order[:-1]]
+    met = np.zeros(len(rows), bool)
+    met[order[1:][same]] = met[order[:-1][same]] = True
+    return rows[met]
+
+
+def _mix(code: NDArray[np.uint64], values: NDArray[np.uint64]) -> None:
+    """Mix values into hashes, in place (the finishing step of splitmix64)."""
+    code ^= values
+    code *= np.uint64(0xBF58476D1CE4E5B9)
+    code ^= code >> np.uint64(29)
 
 
 class _Ways(NamedTuple):
@@ -50,28 +78,35 @@ class _Ways(NamedTuple):
         first, last: (m,) the heights at which they begin and end there, mm.
     """
 
-    columns: tuple[NDArray[np.generic], ...]
+    columns: tuple[Floats, ...]
     first: Floats
     last: Floats
 
 
 def _ways(motions: Motions, rows: NDArray[np.intp], turns: Mask) -> _Ways:
-    """Return the ways of motions, column by column: of millions a table of them, and its copies, take a gigabyte.
+    """Return the ways of motions."""
+    low, high = motions.start[rows, 2], motions.end[rows, 2]
+    swapped = _swapped(motions, rows, turns)
+    return _Ways(tuple(_columns(motions, rows, turns)), np.where(swapped, high, low), np.where(swapped, low, high))
 
-    A line is the same from its other end; an arc too, the other way round.
-    """
-    start, end, centre = motions.start, motions.end, motions.centre
+
+def _columns(motions: Motions, rows: NDArray[np.intp], turns: Mask) -> Iterator[Floats]:
+    """Yield what tells the ways of motions apart, column by column: of millions a table of them takes a gigabyte."""
+    swapped = _swapped(motions, rows, turns)
+    for axis in (0, 1):
+        a, b = motions.start[rows, axis], motions.end[rows, axis]
+        yield np.rint(np.where(swapped, b, a) / SAME)
+        yield np.rint(np.where(swapped, a, b) / SAME)
+        yield np.rint(np.where(turns, motions.centre[rows, axis], 0.0) / SAME)
+    yield np.where(turns, motions.turns[rows], 0).astype(np.float64)
+
+
+def _swapped(motions: Motions, rows: NDArray[np.intp], turns: Mask) -> Mask:
+    """Return which motions are told from their ends: a line is the same from there, an arc too, the other way round."""
+    start, end = motions.start, motions.end
     x, other_x = start[rows, 0], end[rows, 0]
     later = (x > other_x) | ((x == other_x) & (start[rows, 1] > end[rows, 1]))
-    swapped = np.where(turns, motions.kind[rows] == MotionKind.ARC_CW, later)
-    columns: list[NDArray[np.generic]] = []
-    for axis in (0, 1):
-        a, b = start[rows, axis], end[rows, axis]
-        found = (np.where(swapped, b, a), np.where(swapped, a, b), np.where(turns, centre[rows, axis], 0.0))
-        columns += [np.rint(each / SAME) for each in found]
-    columns.append(np.where(turns, motions.turns[rows], 0))
-    low, high = start[rows, 2], end[rows, 2]
-    return _Ways(tuple(columns), np.where(swapped, high, low), np.where(swapped, low, high))
+    return np.asarray(np.where(turns, motions.kind[rows] == MotionKind.ARC_CW, later))
 
 
 def _groups(columns: Sequence[NDArray[np.generic]]) -> NDArray[np.int64]:

@@ -47,6 +47,7 @@ def run_numbers(shape, s, low, high):
         s: rise of the move, >= 0. low, high: z of its ends, mm.
     """
     radius, flat, fillet, span, slope, lift, which = shape
+    # the move's length is sqrt(1 + s^2) times its horizontal one
     kind, stretch, none = int(which), 1.0 + s * s, _ZERO
     z0, z1, rise, r2 = _F(low + lift), _F(high + lift), _F(s), _F(radius * radius)
     if kind == BALL:
@@ -66,11 +67,13 @@ def run_numbers(shape, s, low, high):
         z1,
         r2,
     )
+    # the closed forms divide by the rise
     if s * radius < LOWEST_RISE:
         return _LEVEL, form + (none, none, none, none)
     if kind == BULL:
         return kind, form + (_F(flat * math.sqrt(stretch)), _F(fillet * s), none, none)
     inner = flat if kind == CONE else span
+    # the flank touches where its slope along the move equals the rise; a move steeper than the flank touches at the rim
     ahead = s / math.sqrt(slope * slope - s * s) if s < slope else 0.0
     steep = 0.0 if s < slope else 1.0
     return kind, form + (_F(inner * inner), _F(ahead), _F(steep), _F(s / math.sqrt(stretch)))
@@ -110,6 +113,7 @@ def plan_straight(frame, shape, ends, span):
     fast0, slow0, pitch, _, lines = frame
     pf, ps, pz, qf, qs, qz = ends
     low, high = span
+    # upwards, so that one closed form serves: what a move sweeps does not depend on its sense
     if pz > qz:
         pf, ps, pz, qf, qs, qz = qf, qs, qz, pf, ps, pz
     length, uf, us, s = math.sqrt((qf - pf) * (qf - pf) + (qs - ps) * (qs - ps)), 1.0, 0.0, 0.0
@@ -123,7 +127,10 @@ def plan_straight(frame, shape, ends, span):
     radius, middle, half = shape[0] * cell, 0.5 * (low + high), 0.5 * (high - low) * cell
     aside, centre = abs(uf) * radius + abs(us) * half, (ps + us * middle - slow0) * cell
     first, last = max(math.ceil(centre - aside - SLACK), 0.0), min(math.floor(centre + aside + SLACK), lines - 1.0)
+    # a piece along the lines, or across them, bounds one of the two bands nowhere
     across, along = (1.0 / us if abs(us) > 1e-9 else 0.0), (1.0 / uf if abs(uf) > 1e-9 else 0.0)
+    # from line to line the middle of the band beside the piece moves by uf / us, that of the band of its ends by -us /
+    # uf
     side_step, end_step = uf * across, -us * along
     side = (pf - fast0) * cell + (slow0 - ps) * cell * side_step
     end = (pf - fast0 + middle * along) * cell + (slow0 - ps) * cell * end_step
@@ -219,6 +226,7 @@ def plan_arc(frame, shape, ends, circle):
     pf, ps, _, qf, qs, _ = ends
     cf, cs, size, sense = circle
     left, below, right, above = min(pf, qf), min(ps, qs), max(pf, qf), max(ps, qs)
+    # the box of an arc is that of its ends, and of the circle's outermost points that lie on it
     for quarter in range(4):
         ux, uy = (
             (1.0, 0.0) if quarter == 0 else (0.0, 1.0) if quarter == 1 else (-1.0, 0.0) if quarter == 2 else (0.0, -1.0)

@@ -115,6 +115,7 @@ def survey(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, las
         )
         if a >= 0:
             box = (arcs[a, 3] - radius, arcs[a, 4] - radius, arcs[a, 5] + radius, arcs[a, 6] + radius)
+        # a piece above all metal, or off the grid, need not be looked at
         over = does[i] == NOTHING or min(here[2], there[2]) + shapes[c, 5] >= top
         if over or box[0] > window[2] or box[1] > window[3] or box[2] < window[0] or box[3] < window[1]:
             known, met[i, 0], met[i, 1], met[i, 4] = False, 0, -1, 0
@@ -316,6 +317,7 @@ def cut_tile(
     """
     x0, y0, pitch = grid
     row, col, rows, cols = box
+    # cells are evaluated at their centres
     x, y = x0 + (col + 0.5) * pitch, y0 + (row + 0.5) * pitch
     frame = (y, x, pitch, float(rows), float(cols)) if turned else (x, y, pitch, float(cols), float(rows))
     heights = np.empty(TILE * STRIDE, np.float32)
@@ -349,6 +351,7 @@ def cut_tile(
     if len(owners) > 0:
         move_owners(owners, mine, box, turned, False)
     for k in range(len(told)):
+        # places are told in the tile's lines; the caller wants cells of the grid
         slow, fast = int(told[k, 3]) // STRIDE, int(told[k, 3]) % STRIDE
         told[k, 3] = (
             (row + fast) * before.shape[1] + col + slow if turned else (row + slow) * before.shape[1] + col + fast

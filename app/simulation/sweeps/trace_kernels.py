@@ -58,6 +58,7 @@ def ball_trace(line, owners, sums, first, blocks, where, move, floor, owner):
             sums[k] += depth
             sums[k + LANES] += change
         first += LANES
+        # places go on by addition: a run is at most a tile long, too short for float32 to drift
         a0, b0, c0 = a0 + _STEP * da, b0 + _STEP * da, c0 + _STEP * dc
 
 
@@ -117,6 +118,7 @@ def lowers(heights, swept, first, cells, slack):
     """Return whether any cell of a run is swept more than slack below its height."""
     old, new, lower = heights[first : first + cells], swept[:cells], 0
     for k in range(len(old)):
+        # counted, not asked one by one: no early end, so the compiler compares many cells at once
         lower += 1 if new[k] < old[k] - slack else 0
     return lower > 0
 

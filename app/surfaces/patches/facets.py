@@ -175,7 +175,7 @@ class FacetTree:
 
     @property
     def held(self) -> tuple[Floats | Ints | int, ...]:
-        """What kernels take, see `desk_kernels`."""
+        """What kernels take, see `cutter_contact.facet_tree_kernels`."""
         return (
             self.boxes,
             self.triangles,

@@ -7,7 +7,7 @@ do with most others. Parts of one area have no inside in common; they may touch.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 import shapely
@@ -73,6 +73,32 @@ def each_with_each(overlay: Callable[..., Shapes], one: Shapes, other: Shapes) -
             return overlay(shapely.make_valid(one[band]), shapely.make_valid(other[band]), grid_size=_GRID)
 
     return np.concatenate(in_bands(overlaid, len(one), _WORTH_TWO_CORES))
+
+
+def unions(lots: Sequence[Shapes]) -> Shapes:
+    """Return what the shapes of each lot cover together, (n,), on all cores."""
+
+    def covered(band: slice) -> Shapes:
+        found = np.empty(len(lots[band]), dtype=object)
+        found[:] = [shapely.union_all(lot) for lot in lots[band]]
+        return found
+
+    return np.concatenate(in_bands(covered, len(lots), _WORTH_TWO_CORES))
+
+
+def opened(shapes: Shapes, by: float) -> Shapes:
+    """Return what is left of areas (n,) that are shrunk by so much, mm, and grown again with sharp corners, without
+    those that vanish; on all cores.
+    """
+
+    def reached(band: slice) -> Shapes:
+        some = shapes[band]
+        kept = shapely.buffer(some, -by, join_style="mitre")
+        there = ~shapely.is_empty(kept)  # to intersect nothing with lines and areas at once makes GEOS give up
+        grown = shapely.buffer(kept[there], by, join_style="mitre")
+        return np.asarray(shapely.intersection(grown, some[there]), dtype=object)
+
+    return np.concatenate(in_bands(reached, len(shapes), _WORTH_TWO_CORES))
 
 
 def _parts(shapes: Iterable[Shape] | Shapes | Shape) -> Shapes:

@@ -27,7 +27,7 @@ from ...geometry.tree_queries import near
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import MoveKind, Moves, Program
-from .areas import common, united, without
+from .areas import common, opened, united, without
 from .flat import flattened, grown, lines, move_rows
 from .floor_target import CHORD, FloorTarget, floor_targets
 from .proven import uncertain
@@ -378,11 +378,7 @@ def _runs(rows: Rows, chosen: NDArray[np.int64]) -> list[NDArray[np.float64]]:
 
 def _solid(shape: Shape) -> Shape:
     """Return the shape without strips thinner than STRIP (an opening)."""
-    thin = STRIP / 2
-    parts = shapely.get_parts(shape)
-    kept = shapely.buffer(parts, -thin, join_style="mitre")
-    there = ~shapely.is_empty(kept)  # to intersect nothing with lines and areas at once makes GEOS give up
-    return united(shapely.intersection(shapely.buffer(kept[there], thin, join_style="mitre"), parts[there]))
+    return united(opened(shapely.get_parts(shape), STRIP / 2))
 
 
 def _places(shape: Shape, reachable: bool, progress: Progress) -> tuple[UncutPlace, ...]:

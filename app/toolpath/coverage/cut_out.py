@@ -14,7 +14,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
-from .areas import Shapes, each_with_each
+from .areas import Shapes, each_with_each, unions
 
 _FEW_POINTS = 1000
 """Of a ring; one of more points is cut in halves before boxes are cut out of it, until few boxes are left."""
@@ -46,7 +46,7 @@ def cut_out(shapes: Shapes, boxes: Shapes) -> tuple[Indices, Shapes]:
     holes = np.full(len(of), shapely.Polygon(), dtype=object)
     at, first = np.unique(np.searchsorted(of, np.sort(key[within])), return_index=True)
     order = within[np.argsort(key[within], kind="stable")]
-    holes[at] = [shapely.union_all(pieces[some]) for some in np.split(order, first[1:])] if len(at) else []
+    holes[at] = unions([pieces[some] for some in np.split(order, first[1:])]) if len(at) else []
     left = each_with_each(shapely.difference, pieces[kept], holes)
     some = ~shapely.is_empty(left)
     return box[kept][some], left[some]

@@ -49,6 +49,7 @@ def within_reach(rows, order, nodes, points, radius, wall, finest, most):
         top -= 1
         looked += 1
         px, py, half, known, within = waiting[top]
+        # no point of the square is farther than `off` from its middle
         off, away = half * math.sqrt(2.0), _from_nearest(points, px, py)
         if away > radius + off:
             continue
@@ -56,6 +57,7 @@ def within_reach(rows, order, nodes, points, radius, wall, finest, most):
         distance, row = nearest(rows, order, nodes, px, py, limit)
         if distance + off < wall:
             continue
+        # even-odd is the dearest question, so it is put only where its answer decides
         asked = within == 0.0 and (distance > off or (distance >= wall and away <= radius))
         it_is = within != 0.0 or (asked and inside(rows, order, nodes, px, py, stack))
         if distance > off and not it_is:
@@ -65,6 +67,7 @@ def within_reach(rows, order, nodes, points, radius, wall, finest, most):
         if off < finest or looked > most or top + 4 > _WAITING:
             return True
         half /= 2.0
+        # a quarter's middle is half its parent's diagonal away: no row near it can be farther than this
         known = distance + half * math.sqrt(2.0) if row >= 0 else np.inf
         within = 1.0 if distance > off else 0.0
         for corner in range(4):

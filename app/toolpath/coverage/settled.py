@@ -21,7 +21,7 @@ from ...geometry.primitives import Rows
 from ...model.job import Job
 from ...model.moves import Area, Program
 from ...model.operation import Side
-from .areas import Shapes, each_with_each, gathered, united
+from .areas import Shapes, each_with_each, gathered, unions, united
 from .cut_out import cut_out
 from .flat import grown, region_shapes
 from .floor_target import CHORD, FITS, FloorTarget, areas_of_operations, cutters_of
@@ -111,8 +111,7 @@ def _around(shapes: Shapes, tiles: Shapes, cutters: Sequence[CutterInArea]) -> t
     """
     number = groups(len(tiles), np.column_stack(shapely.STRtree(tiles).query(tiles, predicate="intersects")))
     order = np.argsort(number, kind="stable")
-    lumps = np.empty(int(number.max()) + 1, dtype=object)
-    lumps[:] = [shapely.union_all(some) for some in np.split(tiles[order], np.flatnonzero(np.diff(number[order])) + 1)]
+    lumps = unions(np.split(tiles[order], np.flatnonzero(np.diff(number[order])) + 1))
     far = max(each.wall for each in cutters) + max(each.radius for each in cutters) + _SPARE
     x0, y0, x1, y1 = shapely.bounds(lumps).T
     lump, pieces = cut_out(shapes, np.asarray(shapely.box(x0 - far, y0 - far, x1 + far, y1 + far), dtype=object))

@@ -66,6 +66,7 @@ def _cut_edges(edges, order, nodes, box, corners, stack):
             dx, dy = edges[i, 2] - x, edges[i, 3] - y
             a, b = _between(x, dx, box[0], box[2])
             c, d = _between(y, dy, box[1], box[3])
+            # the part of the edge within both strips, across and upright: Liang and Barsky's clipping
             a, b = max(a, c), min(b, d)
             if a > b:
                 continue
@@ -116,6 +117,7 @@ def corners_of(edges, order, nodes, box, within, inside, corners, stack):
         y, across = box[1 + 2 * side], above if side else below
         left = whole or inside[side]
         for k in range(2):
+            # going from left to right along a side, each edge that is crossed changes in and out
             if left != (k == 1 and across % 2 == 1):
                 corners[count, 0], corners[count, 1] = box[2 * k], y
                 count += 1
@@ -134,6 +136,7 @@ def _nearest_between(corners, count, x, y):
         for i in range(k):
             dx, dy = corners[i, 0] - corners[k, 0], corners[i, 1] - corners[k, 1]
             square, along = dx * dx + dy * dy, -(ax * dx + ay * dy)
+            # the foot lies between both corners, so the line between them comes nearer than either
             if 0.0 < along < square:
                 cross = ax * dy - ay * dx
                 least = min(least, cross * cross / square)

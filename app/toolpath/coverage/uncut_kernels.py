@@ -38,9 +38,11 @@ def beyond(rows, radii, order, nodes, wide, x, y, limits):
     while top > 0 and best > enough:
         top -= 1
         k = stack[top]
+        # no cutter within the node reaches farther than the widest of them
         if box_distance(nodes, k, x, y) - wide[k] >= best:
             continue
         if k < leaves - 1:
+            # the nearer child first: it closes the farther one sooner
             left, right = 2 * k + 1, 2 * k + 2
             if box_distance(nodes, left, x, y) - wide[left] > box_distance(nodes, right, x, y) - wide[right]:
                 left, right = right, left

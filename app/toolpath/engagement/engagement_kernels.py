@@ -71,12 +71,14 @@ def cut_disc(heights, index, frame, disc, before):
             none.
     """
     cell = 1.0 / frame[2]
+    # in cells, centres at whole numbers
     cx, cy, reach = (disc[0] - frame[0]) * cell - 0.5, (disc[1] - frame[1]) * cell - 0.5, disc[3] * cell
     bx, by, old = (before[0] - frame[0]) * cell - 0.5, (before[1] - frame[1]) * cell - 0.5, before[2] * cell
     z = np.float32(disc[2])
     for row in range(math.ceil(cy - reach), math.floor(cy + reach) + 1):
         half = math.sqrt(max(reach * reach - (row - cy) * (row - cy), 0.0))
         first, last = math.ceil(cx - half), math.floor(cx + half)
+        # what lies within the older disc's chord was cut with it: only what is left and right of it is new
         square, done = old * old - (row - by) * (row - by), last
         if old > 0.0 and square >= 0.0:
             half = math.sqrt(square)
@@ -139,5 +141,7 @@ def sweep(heights, index, frame, places, rim, cutter, span, share):
             if count == 0 or count == len(rim):
                 share[i] = 1.0 if count else 0.0
             else:
+                # the points in metal are an arc of the front half, from one side on; it is (1 - cos) / 2 of its
+                # diameter wide
                 share[i] = 0.5 * (1.0 - inner / radius * math.cos(math.pi * count / len(rim)))
     return at

@@ -29,6 +29,7 @@ def _holds(shapes, k, x, y, less):
     dx, dy = x - shapes[k, 0], y - shapes[k, 1]
     if reach < 0.0 or dx * dx + dy * dy > reach * reach:
         return False
+    # a half plane that is none has n = 0 and h = inf, so it holds whatever comes
     return (
         shapes[k, 3] * x + shapes[k, 4] * y <= shapes[k, 5] - less
         and shapes[k, 6] * x + shapes[k, 7] * y <= shapes[k, 8] - less
@@ -84,6 +85,7 @@ def uncovered(shapes, circle, less, window):
         wide = angles[i + 1] - angles[i]
         if wide <= 0.0:
             continue
+        # between two neighbouring crossings no border is met, so the middle speaks for all of the stretch
         middle = first + angles[i] + wide / 2
         x, y = circle[0] + circle[2] * math.cos(middle), circle[1] + circle[2] * math.sin(middle)
         held = False
@@ -107,6 +109,7 @@ def _piece(shapes, row, radius, sweep, span):
         angle = math.atan2(row[1] - row[5], row[0] - row[4]) + sweep[0] * middle
         x, y = row[4] + row[6] * math.cos(angle), row[5] + row[6] * math.sin(angle)
         ahead, turn = angle + (_HALF if sweep[0] > 0.0 else -_HALF), abs(sweep[0]) * (span[1] - span[0]) / 2
+    # the front half of the rim, and by how much the direction turns within the piece to either side
     wide = min(_TURN, math.pi + 2 * turn)
     return uncovered(shapes, (x, y, radius), long / 2, (ahead - wide / 2, wide))
 

@@ -54,6 +54,7 @@ def keep_clear(walls, order, nodes, rows, sizes, need, step, miss, good):
         at, known, good[k] = 0.0, INF, True
         while True:
             x, y = place_on(rows, k, min(at / max(sizes[k], 1e-300), 1.0))
+            # farther walls need not be known: even straight at them the rest of the row comes no nearer than needed
             limit = min(max(need[k], 0.0) + sizes[k] - at, known) + _ROUNDING
             distance, row = nearest_from(walls, order, nodes, x, y, -1.0, limit, near)
             near = row if row >= 0 else near
@@ -65,4 +66,5 @@ def keep_clear(walls, order, nodes, rows, sizes, need, step, miss, good):
                 break
             way = min(max(spare, step), sizes[k] - at)
             at = at + way if way < sizes[k] - at else sizes[k]
+            # the wall that was found is at most this far at the next place
             known = distance + way if row >= 0 else INF

@@ -12,6 +12,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, R, Rows, points_at, turns
 from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind
+from ...model.operation import Operation
 from ...model.tool import Tool
 from . import contour_path_kernels as path_kernels
 from .contour_path import ContourPath, ContourPaths, Floats, keep_clear, left_of
@@ -31,10 +32,20 @@ _SAME = 1e-3
 _LEAST = 0.02
 """mm; a smaller lead is none."""
 
+_LONGER = 1.25
+"""Times the radius in the register: controls refuse a first move that is no longer than it."""
+
 
 def lead_size(lead: Lead, tool: Tool) -> float:
     """Return the radius or length of a whole lead, mm."""
     return tool.radius if lead.radius is None else lead.radius
+
+
+def straight_way(operation: Operation, tool: Tool) -> float:
+    """Return how long the ways are on which the control begins and ends to offset an operation's path by the tool's
+    radius, mm: longer than the most that the operator may enter; 0 = it does not.
+    """
+    return _LONGER * (tool.radius + operation.wear) if operation.offset_by_control else 0.0
 
 
 @dataclass(frozen=True)
@@ -47,6 +58,9 @@ class LeadContext:
         need: how far its centre keeps from them, mm.
         away: +1 where the wall is on the right of travel, and so room is on the left; -1 the other way round.
         lead: what is wanted.
+        straight: how long the straight ways are, before an arc to the wall and behind one away from it, on which a
+            control begins and ends to offset the path by the tool's radius, mm as it is programmed; 0 = there are none.
+        spare: how much farther than `need` these ways keep off, mm.
     """
 
     field: DistanceField
@@ -54,6 +68,8 @@ class LeadContext:
     need: float
     away: float
     lead: Lead
+    straight: float = 0.0
+    spare: float = 0.0
 
     @property
     def size(self) -> float:
@@ -68,7 +84,7 @@ class PathWithLeads:
     Attributes:
         start, stop: where it begins and ends, mm along the path; a closed one goes on past its beginning by the
             overlap.
-        way_in, way_out: (0 or 1, 8) rows to the wall and away from it.
+        way_in, way_out: (0 to 2, 8) rows to the wall and away from it.
         share: how large the leads are against what was wanted; 0 = there are none.
         bent: True for arcs.
     """
@@ -97,7 +113,7 @@ class _Beginning(NamedTuple):
 
 
 class _ClearLeads(NamedTuple):
-    """A beginning both of whose leads are clear all along; their rows (2, 8): to the wall, away from it."""
+    """A beginning both of whose leads are clear all along; their rows (2 or 4, 8): to the wall, away from it."""
 
     begins: _Beginning
     ways: Rows
@@ -146,7 +162,8 @@ def runs(
             requested = [_Beginning(k, starts[k][turn]) for k in left]
             for (k, start), way in _fitting(joined, requested, around, tried):
                 stop = _stop(paths[k], lengths[k], start, around)
-                made[k] = PathWithLeads(paths[k], start, stop, way[:1], way[1:], tried.share, tried.bent)
+                half = len(way) // 2
+                made[k] = PathWithLeads(paths[k], start, stop, way[:half], way[half:], tried.share, tried.bent)
     none = np.zeros((0, 8))
     return tuple(
         made.get(k)
@@ -168,11 +185,10 @@ def _fitting(
     points, ahead = _spots(paths, number, start, around)
     ways = _ways(points, ahead, around, tried)
     near = around.field.nearest(points.reshape(-1, 2))[0].reshape(-1, 2).min(axis=1)
-    good = (
-        keep_clear(around.field, ways.reshape(-1, 8), np.repeat(np.minimum(around.need, near), 2))
-        .reshape(-1, 2)
-        .all(axis=1)
-    )
+    need = np.repeat(np.minimum(around.need, near)[:, None], ways.shape[1], axis=1)
+    if ways.shape[1] > 2:  # the outermost are the control's
+        need[:, [0, -1]] = around.need + around.spare
+    good = keep_clear(around.field, ways.reshape(-1, 8), need.ravel()).reshape(need.shape).all(axis=1)
     return [_ClearLeads(requested[k], ways[k]) for k in np.flatnonzero(good).tolist()]
 
 
@@ -189,7 +205,7 @@ def _spots(paths: ContourPaths, number: Indices, start: Floats, around: LeadCont
 
 
 def _ways(points: Floats, ahead: Floats, around: LeadContext, tried: _LeadTry) -> Rows:
-    """Return the rows (k, 2, 8) to the wall and away from it; args as `_spots` returns them and `_fitting` takes
+    """Return the rows (k, 2 or 4, 8) to the wall and away from it; args as `_spots` returns them and `_fitting` takes
     them.
     """
     aside = left_of(ahead.reshape(-1, 2)).reshape(ahead.shape) * around.away
@@ -203,6 +219,23 @@ def _ways(points: Floats, ahead: Floats, around: LeadContext, tried: _LeadTry) -
     rows[:, 0, :2], rows[:, 1, [X1, Y1]] = centres[:, 0] - size * ahead[:, 0], centres[:, 1] + size * ahead[:, 1]
     rows[:, :, [CX, CY]], rows[:, :, TURN] = centres, around.away
     rows[:, :, R] = np.hypot(rows[:, :, X0] - rows[:, :, CX], rows[:, :, Y0] - rows[:, :, CY])
+    return _with_straight_ways(rows, ahead, aside, around) if around.straight else rows
+
+
+def _with_straight_ways(arcs: Rows, ahead: Floats, aside: Floats, around: LeadContext) -> Rows:
+    """Return the rows (k, 4, 8) of arcs (k, 2, 8) with a straight way before and behind.
+
+    As programmed, the ways are tangents of the arcs' own contours, which lie the tool's radius outside of the arcs.
+    The tool begins on the contour and goes from there to beside the tangent's end, and so aslant; so it leaves.
+
+    Args:
+        ahead, aside: (k, 2, 2) directions of the path at beginning and end, and away from the wall there.
+    """
+    radius, rows = around.tool.radius, np.zeros((len(arcs), 4, 8))
+    rows[:, 1], rows[:, 2] = arcs[:, 0], arcs[:, 1]
+    rows[:, 0, [X1, Y1]], rows[:, 3, :2] = arcs[:, 0, :2], arcs[:, 1, [X1, Y1]]
+    rows[:, 0, :2] = arcs[:, 0, :2] - radius * ahead[:, 0] + around.straight * aside[:, 0]
+    rows[:, 3, [X1, Y1]] = arcs[:, 1, [X1, Y1]] + radius * ahead[:, 1] + around.straight * aside[:, 1]
     return rows
 
 
@@ -214,6 +247,8 @@ def _tries(around: LeadContext) -> list[_LeadTry]:
     shares = [1.0]
     while shares[-1] / 2 >= least:
         shares.append(shares[-1] / 2)
+    if around.straight:  # the arc, too, is offset by what the operator enters
+        return [_LeadTry(True, share) for share in shares if share * around.size > around.spare]
     arcs = [_LeadTry(True, share) for share in shares] if around.lead.kind is LeadKind.ARC else []
     return arcs + [_LeadTry(False, share) for share in shares]
 

@@ -25,6 +25,8 @@ from .lead import LeadContext, PathWithLeads, corners_of, reach
 _CORNER = 0.3
 """Radians; a tab keeps off joints that turn more than this."""
 
+_AT_CORNER = 0.5
+"""mm that a tab keeps off a corner where the control turns round by itself."""
 
 _FINE = 16
 """Places to the least distance between tabs, among which the nearest to the even one is taken."""
@@ -131,7 +133,8 @@ def spread(run: PathWithLeads, own: Sequence[float], shape: TabShape, around: Le
     if even[0] < first or even[-1] > first + free:
         even = np.linspace(first, first + free, count) if count > 1 else np.array([first + free / 2])
     corners = corners_of(path, around, _CORNER)
-    spans = _off_corners(path, half, corners if path.closed else np.unique([0.0, *corners]))
+    clear = half + (_AT_CORNER if around.straight else 0.0)
+    spans = _off_corners(path, clear, corners if path.closed else np.unique([0.0, *corners]))
     good = np.concatenate([np.append(np.arange(low, high, apart / _FINE), high) for low, high in spans])
     good = np.concatenate([good % path.length, even[_in_spans(even, spans, path.length)] % path.length])
     good = good[(good - first) % path.length <= free + _ROUNDING]

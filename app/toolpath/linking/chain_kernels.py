@@ -45,6 +45,7 @@ def clear_rows(rows, order, nodes, path, turn, distance, slack, out):
                 x, y = cx + r * math.cos(start + turn[k] * part), cy + r * math.sin(start + turn[k] * part)
             away, near = nearest_from(rows, order, nodes, x, y, -1.0, math.inf, near)
             spare = away - (distance - slack)
+            # a shorter step than this could go on for ever; what is that near is taken not to be clear
             if spare < slack / 4.0:
                 out[k] = False
                 break
@@ -76,6 +77,7 @@ def nearest_goals(first, to, cost, label, sources, limit, most, found, costs):
         heap = [(0.0, start)]
         while len(heap) > 0 and got < most:
             gone, node = heapq.heappop(heap)
+            # an older entry of the heap: a shorter way there has been found since
             if gone > way[node]:
                 continue
             if label[node] >= 0 and label[node] != own and node != start:
@@ -90,6 +92,7 @@ def nearest_goals(first, to, cost, label, sources, limit, most, found, costs):
                         touches += 1
                     way[other] = total
                     heapq.heappush(heap, (total, other))
+        # only what was written is put back, so a source costs what it has seen and not the whole net
         for k in range(touches):
             way[touched[k]] = math.inf
     return count

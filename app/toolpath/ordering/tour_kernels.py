@@ -146,6 +146,7 @@ def greedy(ends, rules, buckets, waiting, order, first, last):
 def _more_within(ends, order, i, j, mirrored):
     """Return by how much the travel within places i … j grows when they are gone through the other way."""
     more = 0.0
+    # where strokes may be travelled either way, their ends swap with the order and nothing within changes
     if not mirrored:
         for p in range(i, j):
             more += _way(ends, order, p + 1, p) - _way(ends, order, p, p + 1)
@@ -170,6 +171,7 @@ def _swap_gain(ends, order, kind, i, j, k, mirrored, least):
 
     kind: 0 both are gone through as before, 1 the first one the other way, 2 the second one the other way.
     """
+    # three ways go, three come: before - b, b - a, a - after
     a0, a1, b0, b1 = order[i], order[j], order[j + 1], order[k]
     in_a, out_a, in_b, out_b = 0, 2, 0, 2
     gain = _way(ends, order, i - 1, i) + _way(ends, order, j, j + 1) + _way(ends, order, k, k + 1)
@@ -198,6 +200,7 @@ def _may_turn(tour, i, j):
     order, place, after_first, after = tour[1], tour[2], tour[5][0], tour[5][1]
     for p in range(i, j + 1):
         for m in range(after_first[order[p]], after_first[order[p] + 1]):
+            # later than p anyway, as the order keeps the rules: so it stands in the run
             if place[after[m]] <= j:
                 return False
     return True
@@ -279,6 +282,7 @@ def _apply(tour, kind, i, j, k):
     if kind < 3:
         _note(tour, order[k])
         _note(tour, _at(order, k + 1))
+        # turning a run twice leaves it as it was: both runs and then the whole turned is a swap of the two
         if kind != 1:
             _log_and_turn(tour, i, j)
         if kind != 2:
@@ -324,6 +328,7 @@ def _runs_beside(tour, best, change, p, q):
     """
     for run in range(_RUN):
         for side in range(4 if run else 2):
+            # the runs that begin at p, then those that end there; one stroke alone is the same both ways
             s, e = (p, p + run) if side < 2 else (p - run, p)
             if s <= q <= e:
                 continue
@@ -369,6 +374,7 @@ def _improve(tour, a, change):
         if c < 0:
             break
         state[_WORK] += 1
+        # a change must make one of a's own ways shorter; a stroke as far as both of them cannot
         if _apart(ends, a, c, state[_MIRRORED] != 0) >= longest:
             continue
         q = place[c]
@@ -426,6 +432,7 @@ def kick(tour, until):
         first, second = 1 + _chance(state, min(_KICK, n // 2)), 1 + _chance(state, min(_KICK, n // 2))
         i = 1 + _chance(state, n + 1 - first - second)
         j, k = i + first - 1, i + first + second - 1
+        # kicks that the rules forbid count as work too, else a job of nothing but rules would never end
         state[_WORK] += 10
         if not _may_swap(tour, i, j, k):
             continue
@@ -457,6 +464,8 @@ def shortest(ends, needed, mirrored, order, turned):
             so_far = best[done, last] if done else 0.0
             if so_far == math.inf:
                 continue
+            # an even last is a stroke gone through forwards, left at its end (2); an odd one backwards, at its
+            # beginning (0)
             a, out = (1 + last // 2, 2 - 2 * (last % 2)) if done else (0, 2)
             for b in range(1, n + 1):
                 bit = 1 << (b - 1)

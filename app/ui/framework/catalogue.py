@@ -1,23 +1,30 @@
-"""The window's words in the user's language: a catalogue from English, one file a language in
-`resources/translations`.
+"""The window's words in the user's language: a catalogue from English in `resources/translations`: of each language a
+file, and a folder with the errors of each room.
 """
 
 from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
+from pathlib import Path
 
 from ...core.resources import resource
 
 _HOLE = re.compile(r"\{(n?)\}")
 _ANYTHING, _NUMBER = "(.+)", "([-+.,\u2009\u2212\\d]+(?:e[-+]\\d+)?)"
+_PERHAPS, _SIDE_BY_SIDE = "(.*)", re.compile(r"(?:\(\.\+\)){2,}")
 _REMEMBERED = 4096
 _MNEMONIC = re.compile(r"&(\w)")
 _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
 _BETWEEN_SENTENCES = re.compile(r"(?<=[.?!]) (?=[A-Z])")
+_COMMA = "、"
 _LETTER = re.compile(r"[A-Za-z]")
+_COLON = re.compile(": ")
+_TYPED = re.compile(r"(?:one of|expected|expected are) $")
+"""What stands before words to choose one of, which have to be typed as they are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +42,11 @@ class Catalogue:
     """English texts and what they are in another language.
 
     An entry stands for the text in a menu (`&Open…`), in a tip (`Open (Ctrl+O)`) and on a button alike: the letter to
-    press, dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything, `{n}` for a
-    number; what it stood for is looked up too. In the translation they may be numbered, `{1} {0}`, to stand in another
-    order. Of several entries that would do, that with the most letters of its own is taken. What is none as a whole may
-    be several sentences, each of them one; only then comes what has no word of its own, such as `{}: {}`.
+    press, dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything, side by side
+    also for nothing, `{n}` for a number; what it stood for is looked up too. In the translation they may be numbered,
+    `{1} {0}`, to stand in another order, and it may be a list of names, each of them an entry. Of several sentences
+    each may be an entry, and a sentence may stand behind a place, as in `part.dxf:7: …`. Of several entries that would
+    do, that with the most letters of its own is taken; last comes what has no word of its own, such as `{}: {}`.
     """
 
     def __init__(self, entries: dict[str, str]) -> None:
@@ -58,13 +66,15 @@ class Catalogue:
             return None
         front, tab, hint = core.partition("\t")
         dots = "…" if front.endswith("…") else ""
-        found = self._core(front.removesuffix("…"))
+        found = self._core(front.removesuffix("…"), joints=not dots)
+        if found is None and dots:  # of a sentence that shows what to add
+            found, dots = self._core(front), ""
         if found is None:
             return None
         lead, trail = text[: len(text) - len(text.lstrip())], text[len(text.rstrip()) :]
         return f"{lead}{found}{dots}{tab}{hint}{trail}"
 
-    def _core(self, text: str) -> str | None:
+    def _core(self, text: str, joints: bool = True) -> str | None:
         letter = _MNEMONIC.search(text)
         words = text.replace("&", "")
         if words in self._entries:
@@ -72,15 +82,52 @@ class Catalogue:
         with_key = _KEY_TIP.fullmatch(words)
         if with_key and with_key.group(1) in self._entries:
             return f"{self._entries[with_key.group(1)]} {with_key.group(2)}"
-        return self._matched(words, self._patterns) or self._sentences(words) or self._matched(words, self._joints)
+        return self._sentence(words) or self._placed(words) or self._matched(words, self._joints if joints else ())
 
-    def _matched(self, words: str, patterns: list[_Pattern]) -> str | None:
-        """Return what the first entry with holes makes of a text."""
+    def _sentence(self, words: str) -> str | None:
+        """Return what is an entry, or several lines or sentences that are; no entry swallows a sentence that is one."""
+        return (
+            self._entries.get(words)
+            or self._matched(words, self._patterns, within_sentences=True)
+            or self._sentences(words)
+            or self._matched(words, self._patterns)
+        )
+
+    def _placed(self, words: str) -> str | None:
+        """Return a sentence behind a place, its file and line or whatever a colon parts from it."""
+        for colon in _COLON.finditer(words):
+            found = self._sentence(words[colon.end() :])
+            if found is not None:
+                place = words[: colon.start()]
+                return f"{self.look_up(place) or place}: {found}"
+        return None
+
+    def _matched(self, words: str, patterns: Sequence[_Pattern], within_sentences: bool = False) -> str | None:
+        """Return what the first entry with holes makes of a text.
+
+        Args:
+            within_sentences: no hole stands for the end of one sentence and the beginning of the next.
+        """
         for pattern in patterns:
             match = _finder(pattern.form).fullmatch(words) if pattern.longest in words else None
-            if match:
-                return pattern.other.format(*(self.look_up(part) or part for part in match.groups()))
+            if match and not (within_sentences and any(map(_BETWEEN_SENTENCES.search, match.groups()))):
+                holes = range(1, match.re.groups + 1)
+                return pattern.other.format(*(self._filling(words[: match.start(k)], match[k]) for k in holes))
         return None
+
+    def _filling(self, before: str, part: str) -> str:
+        """Return what stands for what a hole stood for; the names of a list are written small in English.
+
+        Args:
+            before: the text as far as the hole.
+        """
+        if _TYPED.search(before):
+            return part
+        if (whole := self.look_up(part)) is not None:
+            return whole
+        names = [self.look_up(name) or self.look_up(name.capitalize()) for name in part.split(", ")]
+        told = [name for name in names if name is not None]
+        return _COMMA.join(told) if 1 < len(told) == len(names) else part
 
     def _sentences(self, words: str) -> str | None:
         """Return several lines, or sentences one behind the other, if each of them is known."""
@@ -101,12 +148,13 @@ def _pattern(text: str, other: str) -> _Pattern:
     """Return what finds the texts that an entry with holes stands for."""
     words = _HOLE.split(text)
     form = "".join((_NUMBER if word else _ANYTHING) if at % 2 else re.escape(word) for at, word in enumerate(words))
+    form = _SIDE_BY_SIDE.sub(lambda found: found[0].replace(_ANYTHING, _PERHAPS), form)
     return _Pattern(max(words[::2], key=len), form, _HOLE.sub("{}", other))
 
 
 @cache
 def _finder(form: str) -> re.Pattern[str]:
-    """Return an expression, compiled when a text may be one of its own: few of 860 ever are in a run."""
+    """Return an expression, compiled when a text may be one of its own: few of all ever are in a run."""
     return re.compile(form, re.S)
 
 
@@ -115,7 +163,15 @@ def catalogue(code: str) -> Catalogue:
     """Return the catalogue of a language by its code, such as "ja"; "en" has none, and needs none."""
     if code == "en":
         return Catalogue({})
-    return Catalogue(tomllib.loads(resource("translations", f"{code}.toml").read_text("utf-8"))["words"])
+    entries: dict[str, str] = {}
+    for path in catalogue_files(code):
+        entries |= tomllib.loads(path.read_text("utf-8"))["words"]
+    return Catalogue(entries)
+
+
+def catalogue_files(code: str) -> tuple[Path, ...]:
+    """Return the files of a language: what the window says, then the errors of each room."""
+    return resource("translations", f"{code}.toml"), *sorted(resource("translations", code).glob("*.toml"))
 
 
 class _ActiveLanguage:

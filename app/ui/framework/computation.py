@@ -20,8 +20,8 @@ from ...model.part import Part
 from .worker import JobOutcome, Worker
 
 if TYPE_CHECKING:
-    from ...usecases.bitmap_part import BitmapPart
-    from ...usecases.make import MakeResult
+    from ...usecases.making.make import MakeResult
+    from ...usecases.pixels.part import BitmapPart
 
 
 class ComputationState(Enum):
@@ -45,11 +45,11 @@ class ComputationResult:
 
 
 def _make(job: Job, pixels: BitmapPart | None, drawing_findings: tuple[Finding, ...], progress: Progress) -> MakeResult:
-    from ...usecases.make import export, finish  # imports the engines: never on the window's thread
+    from ...usecases.making.make import export, finish  # imports the engines: never on the window's thread
 
     if pixels is None:
         return export(job, progress.part(0.0, 0.95), drawing_findings)
-    from ...usecases.bitmap_way import compute_on_bitmap
+    from ...usecases.pixels.way import compute_on_bitmap
 
     program = compute_on_bitmap(job, pixels, progress.part(0.0, 0.5)).program
     return finish(program, job, progress.part(0.5, 0.95), drawing_findings)

@@ -119,7 +119,11 @@ class NumberField(QWidget):
     committed = Signal(object)
 
     def __init__(
-        self, spec: NumberSpec, read: Callable[[str], float] | None = None, reason: QLabel | None = None
+        self,
+        spec: NumberSpec,
+        read: Callable[[str], float] | None = None,
+        reason: QLabel | None = None,
+        label_width: int = LABEL_WIDTH,
     ) -> None:
         """Make a field.
 
@@ -127,6 +131,7 @@ class NumberField(QWidget):
             spec: what is asked for.
             read: gives the value of a text in the place of the spec.
             reason: where to say what is wrong; the field is then the value alone, and who has it says the rest.
+            label_width: room of the name, px.
         """
         super().__init__()
         self.spec = spec
@@ -143,15 +148,15 @@ class NumberField(QWidget):
         self.edit.installEventFilter(self)
         self.setToolTip(spec.tip)
         if reason is None:
-            self._lay_out()
+            self._lay_out(label_width)
         else:
             alone = QHBoxLayout(self)
             alone.setContentsMargins(0, 0, 0, 0)
             alone.addWidget(self.edit)
 
-    def _lay_out(self) -> None:
+    def _lay_out(self, label_width: int) -> None:
         name = muted(self.spec.name)
-        name.setFixedWidth(LABEL_WIDTH)
+        name.setFixedWidth(label_width)
         name.setBuddy(self.edit)
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 1, 0, 1)
@@ -334,14 +339,14 @@ class ListField(QWidget):
 
     chosen = Signal(object)
 
-    def __init__(self, name: str, choices: Sequence[tuple[object, str]]) -> None:
+    def __init__(self, name: str, choices: Sequence[tuple[object, str]], label_width: int = LABEL_WIDTH) -> None:
         super().__init__()
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 1, 0, 1)
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(2)
         label = muted(name)
-        label.setFixedWidth(LABEL_WIDTH)
+        label.setFixedWidth(label_width)
         self.box = QComboBox()
         self.box.setFixedHeight(ROW_HEIGHT)
         self.box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)

@@ -198,5 +198,6 @@ def apply(app: QApplication, theme: Theme, arrow: str = "") -> None:
     sheet = style_sheet(theme, arrow)
     if app.styleSheet() == sheet:
         return
+    app.setStyleSheet("")  # under a sheet, type and palette would each have it worked out anew for every widget
     prepare(app, theme)
     app.setStyleSheet(sheet)

@@ -8,9 +8,11 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
+from contextlib import suppress
 from contextvars import copy_context
 from dataclasses import dataclass
 from functools import partial
+from typing import Any, TypeVar
 
 from PySide6.QtCore import QObject, Qt, Signal, Slot
 from shiboken6 import isValid
@@ -19,6 +21,8 @@ from ...core.errors import Cancelled, HitofudeError
 from ...core.memory import MemoryShortError, budget_limit, in_words, within
 from ...core.progress import Progress, waits_reported_to
 
+Answer = TypeVar("Answer")
+"""What a job returns."""
 HEAD_START_S = 0.04
 """Seconds in which the window shows that it computes, before the job competes with it for the interpreter."""
 
@@ -45,12 +49,13 @@ class JobOutcome:
 
 @dataclass(frozen=True, slots=True)
 class _PendingJob:
-    """A job on its way: what to run and where to answer."""
+    """A job on its way: what to run and who takes what it returns."""
 
     job_id: int
     revision: int
-    function: Callable[[Progress], object]
+    function: Callable[[Progress], Any]
     cancelled: threading.Event
+    take: Callable[[Any], None] | None
 
 
 class _NoCollector:
@@ -96,13 +101,30 @@ class _Runner(threading.Thread):
         self._fraction, now = fraction, time.monotonic()
         if now - self._told >= _TOLD_EVERY_S:
             self._told = now
-            self._worker.told.emit(job_id, fraction, text)
+            self._send(lambda: self._worker.told.emit(job_id, fraction, text))
+
+    def _remark(self, job_id: int, text: str) -> None:
+        self._send(lambda: self._worker.remark_told.emit(job_id, text))
+
+    def _send(self, emit: Callable[[], None]) -> None:
+        """Emit a signal of the worker; where the window has gone, and it with it, nobody waits for the job.
+
+        Raises:
+            Cancelled: it has gone.
+        """
+        try:
+            emit()
+        except RuntimeError as gone:
+            if isValid(self._worker):
+                raise
+            raise Cancelled from gone
 
     def _run(self, work: _PendingJob) -> None:
         value, error = None, None
         try:
-            remarks = partial(self._worker.remark_told.emit, work.job_id)
-            progress = Progress(partial(self._tell, work.job_id), work.cancelled, remarks=remarks)
+            progress = Progress(
+                partial(self._tell, work.job_id), work.cancelled, remarks=partial(self._remark, work.job_id)
+            )
             waits = waits_reported_to(lambda text: progress.step(self._fraction, text))
             with _NO_COLLECTOR, within(budget_limit()), waits:
                 value = work.function(progress)
@@ -124,8 +146,10 @@ class _Runner(threading.Thread):
                 f"The program made a mistake here ({type(fault).__name__}: {fault}). Your drawing is safe; please "
                 "report this."
             )
-        if not work.cancelled.is_set() and isValid(self._worker):  # the window may have gone meanwhile
-            self._worker.answered.emit(JobOutcome(work.job_id, work.revision, value, error))
+        if not work.cancelled.is_set():
+            outcome = JobOutcome(work.job_id, work.revision, value, error)
+            with suppress(Cancelled):
+                self._send(lambda: self._worker.answered.emit(outcome))
 
 
 class Worker(QObject):
@@ -165,14 +189,19 @@ class Worker(QObject):
         """True while a job runs whose answer is still wanted."""
         return self._current is not None
 
-    def start(self, function: Callable[[Progress], object], revision: int) -> int:
+    def start(
+        self, function: Callable[[Progress], Answer], revision: int, take: Callable[[Answer], None] | None = None
+    ) -> int:
         """Run `function(progress)` on another thread; its inputs must be a snapshot that nobody changes.
+
+        Args:
+            take: called on this thread with what the function returned, after `done`; not where it failed or was left.
 
         Returns:
             The job's id, as in the answer.
         """
         replaced = self._drop()
-        work = _PendingJob(self._next_id, revision, function, threading.Event())
+        work = _PendingJob(self._next_id, revision, function, threading.Event(), take)
         self._next_id += 1
         self._current = work
         self._threads = [thread for thread in self._threads if thread.is_alive()]
@@ -217,6 +246,11 @@ class Worker(QObject):
     def _on_answered(self, answer: JobOutcome) -> None:
         if self._current is None or self._current.job_id != answer.job_id:
             return
-        self._current = None
+        take, self._current = self._current.take, None
         self.busy_changed.emit(False)
-        (self.failed if answer.error is not None else self.done).emit(answer)
+        if answer.error is not None:
+            self.failed.emit(answer)
+            return
+        self.done.emit(answer)
+        if take is not None:
+            take(answer.value)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
@@ -19,6 +19,7 @@ from .library import side_by_side
 
 if TYPE_CHECKING:
     from ...toolpath.advice.advise import Advice, RegionAdvice, SizedPlace, ToolChoice
+    from ...usecases.batch.task import BatchRow
 
 DIAMETER_PX, SHARE_PX, LEFT_PX = 56, 64, 84
 ALL = 0.99995
@@ -30,13 +31,14 @@ class AdviceSection(PanelSection):
 
     Signals:
         closed(). for_pocket(tool), for_contour(tool): take a tool for pockets, or for contours and rest machining.
-        place_requested(x, y): show a place, mm.
+        place_requested(x, y): show a place, mm. trials_requested(tools): make the program with each of these.
     """
 
     closed = Signal()
     for_pocket = Signal(object)
     for_contour = Signal(object)
     place_requested = Signal(float, float)
+    trials_requested = Signal(object)
 
     def __init__(self) -> None:
         super().__init__("Which tool?")
@@ -55,14 +57,22 @@ class AdviceSection(PanelSection):
         self.pocket_button, self.contour_button = QPushButton("For pockets"), QPushButton("For contours and rest")
         self.pocket_button.clicked.connect(lambda: self._send(self.for_pocket.emit))
         self.contour_button.clicked.connect(lambda: self._send(self.for_contour.emit))
+        self.trial_button = QPushButton("Make and time all")
+        self.trial_button.setToolTip(
+            "Makes and proves the program with each of these tools for pockets, some at a time in processes of their "
+            "own; true times take the place of the estimates"
+        )
+        self.trial_button.clicked.connect(lambda: self.trials_requested.emit(self._timed_tools()))
         self._made: list[ListRow] = []
         self._tools: list[Tool] = []
+        self._times: list[QLabel] = []
         self._places: list[QPushButton] = []
         self._chosen = -1
         self._theme: Theme | None = None
         self._after = self.rows.count()
         self.rows.addSpacing(8)
         self.add_indented(side_by_side(self.pocket_button, self.contour_button))
+        self.add_indented(self.trial_button)
         self.rows.addSpacing(8)
         self.show_advice(None, "")
 
@@ -81,9 +91,9 @@ class AdviceSection(PanelSection):
             self.rows.removeWidget(widget)
             widget.hide()
             widget.deleteLater()
-        self._made, self._places, self._tools, self._chosen = [], [], [], -1
+        self._made, self._places, self._tools, self._times, self._chosen = [], [], [], [], -1
         self.said.setText(advice.why if advice is not None else instead)
-        for widget in (self._head, self.pocket_button, self.contour_button):
+        for widget in (self._head, self.pocket_button, self.contour_button, self.trial_button):
             widget.setVisible(advice is not None)
         if advice is None:
             return
@@ -102,9 +112,9 @@ class AdviceSection(PanelSection):
         name.setStyleSheet("font-weight: 600;" if best else "")
         share = "all" if choice.share > ALL else f"{100 * choice.share:.1f} %"
         left = "" if choice.share > ALL else f"{grouped(choice.left_mm2, 1)} mm\u00b2"
-        time = clock(choice.times.total) if choice.times is not None else ""
+        time = QLabel(clock(choice.times.total) if choice.times is not None else "")
         cells = ((name, DIAMETER_PX), (QLabel(share), SHARE_PX), (muted(left), LEFT_PX))
-        row = ListRow(*(self._cell(label, wide) for label, wide in cells), QLabel(time), stretch_after=2)
+        row = ListRow(*(self._cell(label, wide) for label, wide in cells), time, stretch_after=2)
         row.setToolTip(
             f"{counted(choice.parts, 'area')}; the largest disc it leaves is {choice.left_disc:.2f} mm wide; "
             f"time with {advice.contour.label} for walls and rest, roughly"
@@ -114,6 +124,21 @@ class AdviceSection(PanelSection):
         self.rows.insertWidget(self._after + k, row)
         self._made.append(row)
         self._tools.append(choice.tool)
+        self._times.append(time)
+
+    def _timed_tools(self) -> tuple[Tool, ...]:
+        """Return the tools of which there is an estimate: those that are no thinner than the contour tool."""
+        return tuple(tool for tool, time in zip(self._tools, self._times, strict=True) if time.text())
+
+    def show_trials(self, rows: Mapping[Tool, BatchRow]) -> None:
+        """Show what programs take that were made and proven, instead of estimates."""
+        for tool, time, made in zip(self._tools, self._times, self._made, strict=True):
+            if (row := rows.get(tool)) is None:
+                continue
+            time.setText(row.verdict.words if row.time_s is None else clock(row.time_s))
+            time.setStyleSheet("font-weight: 600;")
+            left = "" if row.left_mm2 is None else f"{row.left_mm2:.2f} mm\u00b2 are left"
+            made.setToolTip("\n".join(filter(None, ("Made and proven.", left, *row.findings[:1]))))
 
     def _add_place(self, text: str, spot: SizedPlace) -> None:
         button = QPushButton()

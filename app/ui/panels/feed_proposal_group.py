@@ -14,7 +14,7 @@ from ...model.job import Job
 from ...model.machine import Machine
 from ...model.tool import Tool
 from ...toolpath.feeds.proposal import FeedProposal
-from ...usecases.feeds import feeds_of_job
+from ...usecases.job.feeds import feeds_of_job
 from ..framework.catalogue import tr
 from ..framework.fields import ListField
 from ..framework.form import FormSection, JobEdit

@@ -104,7 +104,7 @@ class OperationForm(FormSection):
         """Add the field of a parameter, with the reading of texts and the change of the job in the place of the usual
         ones.
         """
-        placed = parameters()[key][0]
+        placed = parameters()[key].place
         made = ParameterField(placed, field_of(placed, read))
         change = edit or (lambda job, value: self.with_values(job, {key: made.kept(value)}))
         self.add_field(placed.parameter.short or placed.parameter.label, made.field, change)
@@ -148,7 +148,7 @@ class OperationForm(FormSection):
     def _read_stepover(self, text: str) -> float:
         share = text.strip().removesuffix("%")
         value = (
-            spec_of(parameters()["stepover"][0].parameter).read(text)
+            spec_of(parameters()["stepover"].place.parameter).read(text)
             if share == text.strip()
             else length(share) * self._diameter / 100
         )

@@ -77,7 +77,7 @@ class OperationGroup:
         self.title, self.group = title, form.begin_group(title)
         self._keys = tuple(key for key, (placed, _) in parameters().items() if placed.parameter.group == title)
         for key in self._keys:
-            if parameters()[key][0].parameter.unit is not Unit.POINTS:
+            if parameters()[key].place.parameter.unit is not Unit.POINTS:
                 form.add_parameter(key)
         self._show = extra(form)
 

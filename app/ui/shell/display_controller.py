@@ -21,8 +21,8 @@ from ..framework.view import View, ViewPage
 from ..panels.lists import OperationTimes
 from ..views.canvas.modes import PathColourBy, PathLayers
 from ..views.canvas.painting.program_layer import ProgramLayer
+from .files.open_controller import size_of
 from .main_window import MainWindow
-from .open_controller import size_of
 from .view_pages import pages_of
 
 if TYPE_CHECKING:
@@ -90,6 +90,9 @@ class DisplayController(QObject):
         window.findings_list.mended.connect(self.mend)
         window.canvas.tool_changed.connect(lambda _: self.show_missing())
         window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
+        log = window.command_line.log.model()
+        for change in (log.rowsInserted, log.modelReset):
+            change.connect(lambda *_: self.show_log())
         window.views.legend.layer_switched.connect(self._on_layer)
         window.views.legend.colour_chosen.connect(lambda by: window.canvas.set_colour_by(PathColourBy(by)))
 
@@ -185,10 +188,9 @@ class DisplayController(QObject):
         actions["delete"].setEnabled(bool(document.selection))
         drawn = bool(document.part.entities)
         actions["select_all"].setEnabled(drawn)
-        in_surfaces, surfaces = self.view is View.SURFACES, self._window.views.surfaces
-        open_now = not self._window.views.starting
-        actions["export"].setEnabled(open_now and (surfaces.shown is not None if in_surfaces else drawn))
-        actions["compute"].setEnabled(open_now and (scene.open if in_surfaces else drawn))
+        surfaces, open_now = self._window.views.surfaces, not self._window.views.starting
+        actions["export"].setEnabled(open_now and (surfaces.shown is not None if on_scene else drawn))
+        actions["compute"].setEnabled(open_now and (on_scene or drawn))
 
     def show_state(self) -> None:
         """Show where the view at the front stands."""
@@ -216,6 +218,12 @@ class DisplayController(QObject):
                 widget.hide()
         if beside is not None:
             beside.show()
+        self.show_log()
+
+    def show_log(self) -> None:
+        """Show the log where that is wanted; the page that the window begins with has its room while it is empty."""
+        log, wanted = self._window.command_line.log, self._window.actions_["log"].isChecked()
+        log.setVisible(wanted and (bool(log.lines) or not self._window.views.starting))
 
     def show_hovered(self, text: str) -> None:
         """Show what the mouse is over, or else where the paths stand."""
@@ -297,14 +305,14 @@ class DisplayController(QObject):
     def _mends(self, finding: Finding) -> tuple[Mend, ...]:
         """Return what mends a finding on the job's program."""
         from ...formats.tools.library import load_libraries
+        from ...usecases.making.program_lines import operation_of_line
         from ...usecases.mending import Fault, mends
-        from ...usecases.program_lines import operation_of_line
 
         made = self._computation.made
         if made is None:
             return ()
         index = operation_of_line(made, 0, finding.line) if len(made.files) == 1 else None
-        library = [tool for each in load_libraries()[0].values() for tool in each.tools]
+        library = [tool for each in load_libraries().libraries.values() for tool in each.tools]
         return mends(made.job, Fault.of(finding, index), library)
 
     def mend(self, mend: Mend) -> None:

@@ -12,46 +12,61 @@ from PySide6.QtWidgets import QFileDialog
 
 from ...drafting.document import DocumentChange
 from ...formats.project.project import Project, SavedView
-from ...formats.readers import suffixes
+from ...formats.tools.at_path import holds_tools
 from ...gcode.posts.posts import load_post
 from ...model.job import Job
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
-from ...usecases.bitmap_options import PICTURES, is_picture
-from ...usecases.solid_files import SOLIDS, is_solid
+from ...usecases.pixels.options import is_picture
+from ...usecases.scene.solid_files import is_solid
 from ..framework.figures import counted, grouped
 from ..framework.log import Log
 from ..framework.view import View, views
 from ..views.canvas.view_transform import ViewTransform as CanvasView
-from ..views.nc.program_reader import SUFFIXES as PROGRAM_SUFFIXES
 from ..views.nc.program_reader import is_program
 from ..views.surfaces.shown_scene import is_scene
-from . import open_controller as opening_files
 from .display_controller import DisplayController
-from .main_window import MainWindow
-from .nc_export_controller import ExportPlace, NcExportController, post_filters
-from .open_controller import OpenController, OpenedDrawing, UndecidedDrawing
-from .reread_controller import RereadController
-from .save_controller import SaveController
+from .files import open_controller as opening_files
+from .files.nc_export_controller import ExportPlace, NcExportController, post_filters
+from .files.open_controller import OpenController, OpenedDrawing, UndecidedDrawing
+from .files.reread_controller import RereadController
+from .files.save_controller import SaveController
+from .main_window import MainWindow, opened_suffixes
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
 
 
 def open_filter() -> str:
     """Return what the dialog of Open shows: every kind of file that can be opened."""
-    patterns = (*suffixes(), ".DXF", ".toml", *SOLIDS, *PICTURES, *PROGRAM_SUFFIXES)
-    shown = " ".join(f"*{each}" for each in patterns)
-    return f"Drawings, solids, scenes, pictures and NC programs ({shown});;All files (*)"
+    shown = " ".join(f"*{each}" for each in (".DXF", *opened_suffixes()))
+    return f"Drawings, solids, scenes, pictures, tools and NC programs ({shown});;All files (*)"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Openers:
-    """Who opens what is no drawing: an NC program, a picture, a scene, a solid."""
+    """Who opens what is no drawing: an NC program, a picture, a scene, a solid, tools, a job for the drawing that is
+    open.
+    """
 
     program: Callable[[Path], None]
     picture: Callable[[Path], None]
     scene: Callable[[Path], None]
     solid: Callable[[Path], None]
+    tools: Callable[[Path], None]
+    job: Callable[[Path], None]
+
+    def of(self, path: Path) -> Callable[[Path], None] | None:
+        """Return who opens a file beside the drawing, of which nothing is lost then; None = it is a drawing, or
+        becomes one.
+        """
+        kinds = (
+            (is_program(path), self.program),
+            (is_scene(path), self.scene),
+            (is_solid(path.name), self.solid),
+            (holds_tools(path), self.tools),
+            (path.suffix.lower() == ".toml", self.job),
+        )
+        return next((opens for fits, opens in kinds if fits), None)
 
 
 class FileController(QObject):
@@ -71,8 +86,7 @@ class FileController(QObject):
         self._window, self._showing, self._log = window, showing, log
         self._document, self._computation = window.document, window.computation
         self._given_up: object = None
-        self._open_program, self._open_picture = open_others.program, open_others.picture
-        self._open_scene, self._open_solid = open_others.scene, open_others.solid
+        self._others = open_others
         self.open_controller = OpenController(window.document, window.worker)
         self.reread_controller = RereadController(
             window.drawing_page.reading, window.card, window.worker, window.workspace
@@ -106,22 +120,17 @@ class FileController(QObject):
 
     def open_file(self, path: Path, reading: ReadingOptions = AS_THE_FILE_SAYS) -> None:
         """Open a drawing, after asking when changes would be lost; NC programs, scenes and solids are shown beside it,
-        and nothing is lost.
+        tools go into the library, and a job is applied to it, and nothing is lost.
 
         Args:
             path: of the file. reading: how it is read, if it is a drawing.
         """
-        if is_program(path):
-            self._open_program(path)
-            return
-        if is_scene(path):
-            self._open_scene(path)
-            return
-        if is_solid(path.name):
-            self._open_solid(path)
+        opens = self._others.of(path)
+        if opens is not None:
+            opens(path)
             return
         if is_picture(path.name):
-            self._leave_drawing(f"Open {path.name}", lambda: self._open_picture(path))
+            self._leave_drawing(f"Open {path.name}", lambda: self._others.picture(path))
             return
         self._leave_drawing(f"Open {path.name}", lambda: self.open_controller.open(path, reading))
 
@@ -131,7 +140,7 @@ class FileController(QObject):
         """
         sample = path or opening_files.sample_path()
         if is_scene(sample):
-            self._open_scene(sample)
+            self._others.scene(sample)
         else:
             self._leave_drawing("Open the sample", lambda: self.open_controller.open(sample, before=Job(Part())))
 

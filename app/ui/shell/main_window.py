@@ -12,8 +12,9 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainW
 from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
 from ...formats.readers import suffixes
-from ...usecases.bitmap_options import PICTURES
-from ...usecases.solid_files import SOLIDS
+from ...formats.tools.at_path import tool_suffixes
+from ...usecases.pixels.options import PICTURES
+from ...usecases.scene.solid_files import SOLIDS
 from ..framework import style
 from ..framework.activity import Activity
 from ..framework.arrow import arrow_picture
@@ -40,18 +41,18 @@ from ..views.stages.panel import StagesPanel
 from ..views.stages.text_film_panel import TextFilmPanel
 from ..views.surfaces.scene_document import SceneDocument
 from ..views.surfaces.scene_tabs import SceneTabs
-from .actions import Actions
-from .badge import FindingsList
-from .command_line import CommandLine
-from .question_card import QuestionCard
-from .status_bar import StatusBar
-from .tool_strip import ToolStrip
-from .top_bar import TopBar
+from .bars.actions import Actions
+from .bars.badge import FindingsList
+from .bars.command_line import CommandLine
+from .bars.question_card import QuestionCard
+from .bars.status_bar import StatusBar
+from .bars.tool_strip import ToolStrip
+from .bars.top_bar import TopBar
 from .view_stack import ViewStack
 from .window_geometry import remember_geometry
 
 if TYPE_CHECKING:
-    from ...usecases.make import MakeResult
+    from ...usecases.making.make import MakeResult
 
 SIZE = (1440, 900)
 
@@ -61,11 +62,18 @@ def picture_of(made: MakeResult) -> ProgramLayer:
     return ProgramLayer(made.program, made.coverage.places)
 
 
+def opened_suffixes() -> tuple[str, ...]:
+    """Return what the names of files end with that the window opens: drawings, solids, scenes, jobs, pictures, tools
+    and NC programs.
+    """
+    return tuple(dict.fromkeys((*suffixes(), ".toml", *SOLIDS, *PICTURES, *tool_suffixes(), *PROGRAM_SUFFIXES)))
+
+
 class MainWindow(QMainWindow):
     """Menu, bars, views, panel, log, command line, status; `set_theme_choice` gives it its looks when all is there.
 
     Signals:
-        dropped(path): a drawing, a scene, a picture or an NC program was dropped on the window.
+        dropped(path): a file of a kind that can be opened was dropped on the window.
         closing(): about to close; `may_close` tells whether it may.
     """
 
@@ -107,6 +115,7 @@ class MainWindow(QMainWindow):
             self.curves_panel,
             self.scene_side,
             self.plot_panel,
+            self.views.nc.beside,
         ]
         self.notice, self.card, self.command_line, self.status = Notice(), QuestionCard(), CommandLine(), StatusBar()
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
@@ -154,7 +163,7 @@ class MainWindow(QMainWindow):
         column.addWidget(self.status)
         self.setCentralWidget(root)
         self.setAcceptDrops(True)
-        self.setMinimumSize(840, 520)
+        self.setMinimumSize(860, 520)
         self.resize(*SIZE)
         self.canvas.setFocus()
 
@@ -204,11 +213,9 @@ class MainWindow(QMainWindow):
         self.cut_panel.fit_beside(event.size().width())
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
-        """Welcome one drawing, solid, scene, picture or NC program."""
+        """Welcome one file of a kind that can be opened."""
         urls = event.mimeData().urls()
-        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(
-            (*suffixes(), ".toml", *SOLIDS, *PICTURES, *PROGRAM_SUFFIXES)
-        ):
+        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(opened_suffixes()):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 (Qt's name)

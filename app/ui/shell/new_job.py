@@ -42,7 +42,7 @@ def new_job(part: NewPart) -> Job:
     """Return the job: the default one with mills of the library, run as the material asks."""
     known = part.material in {each.word for each in stock_materials()}
     job = Job(Part(), stock=Stock(thickness=part.z, material=part.material if known else ""), post=part.post)
-    library = load_libraries()[0].get(_LIBRARY)
+    library = load_libraries().libraries.get(_LIBRARY)
     mills = {tool.diameter: tool for tool in library.tools if tool.kind is ToolKind.FLAT} if library else {}
     tools = tuple(
         replace(for_material(mills[tool.diameter], part.material), number=tool.number)

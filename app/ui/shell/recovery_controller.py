@@ -16,8 +16,8 @@ from ...formats.project.project import Project
 from ...formats.project.recovery import EditedFile, RecoveredWork, RecoveryFile, recoveries
 from ..framework.worker import JobOutcome, Worker
 from ..framework.workspace import Workspace
+from .bars.question_card import QuestionCard
 from .file_controller import FileController
-from .question_card import QuestionCard
 
 WAIT_S = 8.0
 """After the first change that is in no file, s; writing takes a moment more, and 20 s are the promise."""
@@ -44,10 +44,8 @@ class RecoveryController(QObject):
         self._told = False
         self._left: list[RecoveredWork] = []
         self._taken: list[RecoveredWork] = []
-        self._otherwise: Callable[[], None] = lambda: None
         self._timer = QTimer(self, singleShot=True, interval=round(WAIT_S * 1000))
         self._timer.timeout.connect(self.keep)
-        self._worker.done.connect(self._on_done)
         self._worker.failed.connect(self._on_failed)
         workspace.activity.ended.connect(self._close)
         self._document.subscribe(self._on_change)
@@ -68,20 +66,17 @@ class RecoveryController(QObject):
         if project is None and self._file is None:
             return
         edited = EditedFile(self._document.path, self._files.save_controller.known)
-        self._worker.start(partial(self._write, project, edited), self._document.revision)
+        self._worker.start(partial(self._write, project, edited), self._document.revision, self._on_kept)
 
-    def offer(self, otherwise: Callable[[], None] = lambda: None) -> None:
-        """Ask what is to become of what other windows have left; where there is nothing, or none is wanted now, do the
-        other thing.
-        """
+    def offer(self) -> None:
+        """Ask what is to become of what other windows have left, if they have."""
         if self._workspace.notice.isVisible() or self._card.isVisible():
             return  # another question waits for its answer; the next start asks
-        self._left, self._otherwise = list(recoveries()), otherwise
+        self._left = list(recoveries())
         self._offer_next()
 
     def _offer_next(self) -> None:
         if not self._left:
-            self._otherwise()
             return
         found = self._left.pop(0)
         name = path.name if (path := found.edited().path) else "a new drawing"
@@ -101,7 +96,7 @@ class RecoveryController(QObject):
         self._offer_next()
 
     def _load(self, found: RecoveredWork) -> None:
-        self._worker.start(lambda progress: _loaded(found), self._document.revision)
+        self._worker.start(lambda progress: _loaded(found), self._document.revision, self._on_loaded)
 
     def _write(self, project: Project | None, edited: EditedFile, progress: Progress) -> None:
         if self._file is None:
@@ -119,10 +114,7 @@ class RecoveryController(QObject):
         if not self._timer.isActive():
             self._timer.start(round(WAIT_S * 1000))
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        if isinstance(answer.value, _LoadedWork):
-            self._on_loaded(answer.value)
-            return
+    def _on_kept(self, _: None) -> None:
         for found in self._taken:
             found.discard()
         self._taken = []
@@ -136,7 +128,6 @@ class RecoveryController(QObject):
             self._workspace.notice.ask(
                 f"The kept state is damaged and cannot be recovered. It stays as {aside}.", error=True
             )
-            self._otherwise()
             return
         edited = found.edited()
         self._document.load_state(project.state, edited.path, saved=False)

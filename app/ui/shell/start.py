@@ -6,15 +6,18 @@ import signal
 import sys
 import tempfile
 import traceback
+from contextlib import suppress
 from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import TracebackType
+from typing import cast
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QApplication
 
 from ...core.atomic import sweep
+from ...core.errors import HitofudeError
 from ...core.progress import Progress
 from ...core.resources import PACKAGE
 from ...core.settings import Settings, config_folder, load_settings, state_folder
@@ -34,7 +37,11 @@ _ENGINES = (
     "cv2",
     f"{PACKAGE}.formats.dxf.dxf",
     f"{PACKAGE}.operations.compute",
-    f"{PACKAGE}.usecases.make",
+    f"{PACKAGE}.usecases.making.make",
+    f"{PACKAGE}.usecases.mending",
+    f"{PACKAGE}.usecases.proposal.chosen_curves",
+    f"{PACKAGE}.usecases.smoothing.result",
+    "moderngl",
 )
 
 
@@ -50,14 +57,19 @@ def _warm(settings: Settings, progress: Progress) -> None:
     """Sweep, which may wait for a disk, and load what the first line, Open, Compute and plot need, which would make the
     window stutter later.
     """
+    from ...core.jit.compiled import Kernel
     from ...core.jit.warm import warm
     from ...drafting.expressions.grammar import read_script
+    from ..views.surfaces import picture_kernels
 
     read_script("")  # a parser is made of the grammar
     sweep(*places(settings))
     for engine in (*_ENGINES, "pyqtgraph"):
         import_module(engine)
     warm(progress)
+    for painting in (picture_kernels.fill, picture_kernels.tint, picture_kernels.draw_lines):
+        with suppress(HitofudeError):  # told where a scene is painted
+            cast(Kernel, painting).load()
 
 
 def build() -> tuple[MainWindow, WindowController]:
@@ -91,11 +103,10 @@ def _tell_mistake(
 
 
 def begin(wiring: WindowController, path: Path | None) -> None:
-    """Open a file, and then offer what a crash has left; without a file offer that, or else the last files and
-    samples.
-    """
+    """Open a file, or show the last files and samples; and offer what a crash has left."""
     if path is None:
-        wiring.recovery_controller.offer(wiring.open_start)
+        wiring.open_start()
+        wiring.recovery_controller.offer()
         return
     wiring.files.open_controller.opened.connect(
         lambda _: wiring.recovery_controller.offer(), Qt.ConnectionType.SingleShotConnection

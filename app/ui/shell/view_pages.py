@@ -125,7 +125,14 @@ def _program_pages(window: MainWindow) -> dict[View, ViewPage]:
             lambda: curves.summary,
             lambda: window.curves_panel,
         ),
-        View.NC: ViewPage(nc, nc.path, lambda: NC_PROMPT, missing, lambda: nc.summary, lambda: window.side),
+        View.NC: ViewPage(
+            nc,
+            nc.path,
+            lambda: NC_PROMPT,
+            missing,
+            lambda: nc.summary,
+            lambda: nc.beside if nc.foreign else window.side,
+        ),
     }
 
 

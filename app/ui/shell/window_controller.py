@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -11,9 +10,9 @@ from PySide6.QtCore import QObject
 from ...core.settings import ThemeChoice
 from ...drafting.document import DocumentChange
 from ...model.operation_kinds import OPERATION_KINDS
+from ..framework.commands import on_trigger
 from ..framework.controller import Controller
 from ..framework.figures import counted
-from ..framework.section import theme_children
 from ..framework.verdict import VerdictLevel, verdict_summary
 from ..framework.view import View, views
 from ..framework.workspace import Workspace
@@ -26,57 +25,60 @@ from ..views.cut.image_controller import ImageController
 from ..views.cut.recording_controller import RecordingController
 from ..views.nc.action_controller import NcActionController
 from ..views.nc.controller import NcController
-from ..views.nc.program_reader import ShownProgram
 from ..views.plot.controller import PlotController
 from ..views.session1986.controller import SessionController
 from ..views.stages.controller import StagesController
 from ..views.stages.figure_eleven_controller import FigureElevenController
 from ..views.stages.import_controller import ImportController
 from ..views.stages.text_film_controller import TextFilmController
-from ..views.surfaces.controller import SAMPLES, SceneController, SceneProgram
+from ..views.surfaces.controller import SceneController
 from ..views.surfaces.export_controller import SceneExportController
-from .actions import Actions
-from .advice_controller import AdviceController
 from .announcing import Announcing
-from .cleanup_controller import CleanUpController
-from .command_line_controller import CommandLineController
-from .command_palette import CommandPalette
-from .context_menu import ContextMenu
+from .bars.actions import Actions
+from .bars.command_line_controller import CommandLineController
+from .bars.command_palette import CommandPalette
+from .bars.shortcuts import Shortcuts
+from .bars.snap_controller import SnapController
+from .bars.unit_choice import UnitChoice
 from .display_controller import DisplayController
-from .drawing_export_controller import DrawingExportController
-from .drawing_page_controller import PAGE as DRAWING_PAGE
-from .drawing_page_controller import DrawingPageController
-from .engagement_controller import EngagementController
+from .drawing.advice_controller import AdviceController
+from .drawing.cleanup_controller import CleanUpController
+from .drawing.context_menu import ContextMenu
+from .drawing.drawing_page_controller import PAGE as DRAWING_PAGE
+from .drawing.drawing_page_controller import DrawingPageController
+from .drawing.engagement_controller import EngagementController
+from .drawing.inlay_controller import InlayController
+from .drawing.owned_curves_controller import OwnedCurvesController
+from .drawing.proposal_controller import ProposalController
+from .drawing.shape_language_controller import ShapeLanguageController
+from .drawing.tab_controller import TabController
+from .drawing.template_controller import TemplateController
 from .file_controller import FileController, Openers
+from .files.drawing_export_controller import DrawingExportController
+from .files.own_film_files import OwnFilmFiles
+from .files.sheet_export_controller import SheetExportController
+from .files.tool_exchange import ToolExchange
+from .files.underlay_controller import UnderlayController
 from .focus_keeping import FocusKeeper
-from .help import show_about
-from .help_window import HelpWindow
-from .inlay_controller import InlayController
-from .keys_window import KeysWindow
+from .help.about import show_about
+from .help.help_window import HelpWindow
+from .help.keys_window import KeysWindow
+from .help.tour import Landmarks, Tour
+from .help.what_is_this import WhatIsThis
 from .main_window import MainWindow
 from .memory_choice import MemoryChoice
 from .new_job import NewPart, new_job
-from .own_film_files import OwnFilmFiles
-from .owned_curves_controller import OwnedCurvesController
-from .proposal_controller import ProposalController
+from .program_coordinator import ProgramCoordinator
 from .recovery_controller import RecoveryController
-from .shape_language_controller import ShapeLanguageController
-from .sheet_export_controller import SheetExportController
-from .shortcuts import Shortcuts
-from .snap_controller import SnapController
+from .scene_coordinator import SceneCoordinator
+from .stages_coordinator import StagesCoordinator
 from .start_page.controller import StartController
-from .tab_controller import TabController
-from .template_controller import TemplateController
-from .tool_exchange import ToolExchange
-from .tour import Landmarks, Tour
+from .text_page_coordinator import TextPageCoordinator
 from .translation import TranslationController
-from .underlay_controller import UnderlayController
-from .unit_choice import UnitChoice
 from .view_stack import ViewStack
-from .what_is_this import WhatIsThis
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
-TEXT_PAGE = "Text"
+JOB_PAGE = "Job"
 WORDS = {
     "compute": "compute",
     "cancel": "cancel",
@@ -98,25 +100,30 @@ class WindowController(QObject):
         self.window_, self.document, self.computation = window, window.document, window.computation
         workspace, commands = window.workspace, window.actions_
         self.workspace, self.log = workspace, workspace.log
+        self._on = partial(on_trigger, commands)
         self.display_controller = DisplayController(window)
         self._make_controllers(window.views, workspace)
-        openers = Openers(self.nc.open, self.import_controller.open, self.scenes.open, self.scenes.open_solid)
+        openers = Openers(
+            self.nc.open,
+            self.import_controller.open,
+            self.scenes.open,
+            self.scenes.open_solid,
+            self._open_tools,
+            lambda path: self.template_controller.apply(path),
+        )
         self.files = FileController(window, self.display_controller, self.log, openers)
         self.recovery_controller = RecoveryController(self.files, window.card, workspace)
         self._make_choices(workspace, commands)
         self._make_drawing_parts(workspace, commands)
         self._make_helpers(workspace, commands)
-        self._connect_stages()
+        self._make_coordinators(window)
         self._connect_files()
-        self._connect_scenes()
         self._connect_edit()
         self._connect_view()
         self._connect_job()
         self._connect_canvas()
         self._connect_controllers()
         self._connect_pages()
-        self._connect_programs()
-        self._connect_language()
         self._connect_helpers()
         self._connect_start()
         self.document.subscribe(self._on_change)
@@ -186,6 +193,19 @@ class WindowController(QObject):
         marks = Landmarks(views, window.tool_strip, window.command_line, window.status.badge, window.top_bar)
         self.tour = Tour(window, marks, preferences)
 
+    def _make_coordinators(self, window: MainWindow) -> None:
+        """Make what connects a view's controllers with one another and with the window."""
+        display = self.display_controller
+        StagesCoordinator(window, display, self.stages_controller, self.film_controller, self.import_controller)
+        self._scene = SceneCoordinator(window, display, self.scenes, self.nc, self.cut_controller)
+        self._programs = ProgramCoordinator(window, display, self.nc, self.cut_controller)
+        TextPageCoordinator(window, display, self.language)
+        window.side.chosen.connect(self._on_side_page)
+
+    def _on_side_page(self, name: str) -> None:
+        if name != DRAWING_PAGE:
+            self.cleanup_controller.give_up()
+
     def _connect_helpers(self) -> None:
         window, views = self.window_, self.window_.views
         self._on("export_drawing", self.drawing_export.start)
@@ -235,6 +255,7 @@ class WindowController(QObject):
     def _connect_pages(self) -> None:
         """What lies over the views for a while: sheets of paper, a session of 1986."""
         plotting, session = self.plot_controller, self.session_1986
+        self._on("curves_smooth", self.smoothing_controller.bring_and_smooth)
         self._on("plot", plotting.start)
         plotting.failed.connect(self._say_error)
         plotting.said.connect(self._say)
@@ -253,45 +274,27 @@ class WindowController(QObject):
         self.display_controller.show_view(View.PATHS)
         self.window_.canvas.fit()
 
-    def _connect_language(self) -> None:
-        control, side = self.language.control, self.window_.side
-        self.language.help.set_theme(self.window_.theme)
-        side.add_page(TEXT_PAGE, control.page, "the drawing in words")
-        theme_children(side, self.window_.theme)
-        side.chosen.connect(self._on_side_page)
-        control.page.editor.left.connect(self.window_.canvas.setFocus)
-        control.tried.connect(self.window_.canvas.show_trial)
-        control.front_requested.connect(self._show_text)
-        self.display_controller.view_changed.connect(lambda view: control.see(view in (View.DRAW, View.PATHS)))
-
-    def _on_side_page(self, name: str) -> None:
-        if name != DRAWING_PAGE:
-            self.cleanup_controller.give_up()
-        self.display_controller.writing = name == TEXT_PAGE
-        self.display_controller.show_missing()
-        self.language.control.see(self.display_controller.view in (View.DRAW, View.PATHS))
-
-    def _show_text(self) -> None:
-        if self.display_controller.view not in (View.DRAW, View.PATHS):
-            self.display_controller.show_view(View.DRAW)
-        self.window_.side.show_page(TEXT_PAGE)
-
     def _show_side_page(self, name: str) -> None:
         """Bring a page of the right side to the front; where another view has something else there, Draw."""
         if self.window_.side.isHidden():
             self.display_controller.show_view(View.DRAW)
         self.window_.side.show_page(name)
 
-    def _on(self, name: str, act: Callable[[], object]) -> None:
-        self.window_.actions_[name].triggered.connect(lambda *_: act())
-
     def _connect_files(self) -> None:
         files = self.files
         self._on("new", files.ask_new)
         self._on("open", files.choose_file)
         self._on("sample", files.open_sample)
-        self._on("save", lambda: self.scenes.save() if self._on_scene else files.save_controller.save())
-        self._on("save_as", lambda: self.scenes.save_as() if self._on_scene else files.save_controller.save_as())
+        on_trigger(
+            self.window_.actions_,
+            "save",
+            lambda: self.scenes.save() if self._scene.at_front else files.save_controller.save(),
+        )
+        on_trigger(
+            self.window_.actions_,
+            "save_as",
+            lambda: self.scenes.save_as() if self._scene.at_front else files.save_controller.save_as(),
+        )
         self._on("save_copy", files.save_controller.save_copy)
         files.save_controller.failed.connect(self._say_error)
         self._on("export", self.export)
@@ -300,62 +303,7 @@ class WindowController(QObject):
         for part in (files.open_controller, files.reread_controller):
             part.failed.connect(self._say_error)
         files.export_controller.failed.connect(self._say_error)
-        files.export_controller.show_findings.connect(self._show_worst)
-
-    @property
-    def _on_scene(self) -> bool:
-        """Whether the scene is worked on rather than the drawing."""
-        return self.display_controller.view is View.SURFACES and self.window_.scene.open
-
-    def _connect_scenes(self) -> None:
-        scenes = self.scenes
-        self._on("scene_new", scenes.new)
-        for name in SAMPLES:
-            self._on(f"scene_{name}", partial(scenes.open_sample, name))
-        self._on("scene_nc", scenes.show_nc)
-        self._on("scene_cut", scenes.show_cut)
-        scenes.nc_requested.connect(self.nc.show_text)
-        scenes.cut_requested.connect(self._cut_scene)
-        scenes.document.standing_changed.connect(self.display_controller.show_titles)
-        scenes.close_requested.connect(self.window_.close)
-        self.window_.closing.connect(self._ask_scenes)
-        view = self.window_.views.surfaces
-        view.hovered.connect(self.display_controller.show_hovered)
-        view.cursor_moved.connect(self.window_.status.show_place)
-
-    def _ask_scenes(self) -> None:
-        """Keep the window open while the scene's changes are asked about; those of the drawing come first."""
-        self.window_.may_close = self.window_.may_close and self.scenes.may_close()
-
-    def _connect_stages(self) -> None:
-        view = self.window_.views.stages
-        self.stages_controller.changed.connect(self._show_stages)
-        self.film_controller.changed.connect(self._show_stages)
-        self._on("stages_again", self._stages_again)
-        self.import_controller.shown.connect(self._show_picture)
-        self.import_controller.taken.connect(self._on_picture_taken)
-        view.hovered.connect(self.display_controller.show_hovered)
-        view.pixels.cursor_moved.connect(self.window_.status.show_place)
-
-    def _stages_again(self) -> None:
-        (self.stages_controller if self.window_.views.stages.text == "A" else self.film_controller).again()
-
-    def _show_stages(self) -> None:
-        self.display_controller.stages_missing = self.stages_controller.missing
-        self.display_controller.film_missing = self.film_controller.missing
-
-    def _show_picture(self) -> None:
-        """Bring the picture to the front when it comes."""
-        if self.import_controller.preview is not None and self.display_controller.view is not View.STAGES:
-            self.display_controller.show_view(View.STAGES)
-        self.display_controller.show_prompt()
-        self.display_controller.show_missing()
-
-    def _on_picture_taken(self, path: Path) -> None:
-        self.workspace.preferences.add_recent(path)
-        self.window_.notice.hide()
-        self.display_controller.show_view(View.STAGES)
-        self.window_.canvas.fit()
+        files.export_controller.show_findings.connect(self._programs.show_worst)
 
     def _connect_start(self) -> None:
         """The page that the window begins with."""
@@ -384,11 +332,23 @@ class WindowController(QObject):
         self.window_.lay_out_now()
         self.window_.canvas.fit()
 
+    def _open_tools(self, path: Path) -> None:
+        """Take tools into the library, and show it."""
+        self._show_side_page(JOB_PAGE)
+        if self.window_.panel.library.isHidden():
+            self.window_.panel.switch_library()
+        self.tools.take(path)
+
     def _connect_edit(self) -> None:
         scene = self.window_.scene.document
-        self._on("undo", lambda: scene.undo() if self._on_scene else self.document.undo())
-        self._on("redo", lambda: scene.redo() if self._on_scene else self.document.redo())
-        self._on(
+        on_trigger(
+            self.window_.actions_, "undo", lambda: scene.undo() if self._scene.at_front else self.document.undo()
+        )
+        on_trigger(
+            self.window_.actions_, "redo", lambda: scene.redo() if self._scene.at_front else self.document.redo()
+        )
+        on_trigger(
+            self.window_.actions_,
             "delete",
             lambda: (
                 self.run("delete") if self.document.selection else self._say("Nothing is selected; click a line first.")
@@ -420,12 +380,16 @@ class WindowController(QObject):
             actions[name].toggled.connect(button.setChecked)
             button.clicked.connect(actions[name].setChecked)
         actions["snap"].setChecked(True)
-        actions["log"].toggled.connect(self.window_.command_line.log.setVisible)
+        actions["log"].toggled.connect(lambda _: self.display_controller.show_log())
         actions["log"].setChecked(True)
         self._on("command", self.window_.command_line.edit.setFocus)
         for choice in ThemeChoice:
             self._on(f"theme_{choice.value}", partial(self.window_.choose_theme, choice))
-        self._on("keys", lambda: KeysWindow(self.window_, self.window_.actions_, self.shortcuts).show())
+        on_trigger(
+            self.window_.actions_,
+            "keys",
+            lambda: KeysWindow(self.window_, self.window_.actions_, self.shortcuts).show(),
+        )
         self._on("about", lambda: show_about(self.window_))
 
     def _connect_job(self) -> None:
@@ -446,18 +410,6 @@ class WindowController(QObject):
         computation.finished.connect(self._on_computed)
         self.window_.status.cancelled.connect(self.cancel)
 
-    def _connect_programs(self) -> None:
-        """Show what the mouse is over in the NC and Curves views, and do what the NC view has the job do."""
-        views, status, hovered = self.window_.views, self.window_.status, self.display_controller.show_hovered
-        for path in (views.nc.path, views.curves.path):
-            path.hovered.connect(hovered)
-        views.curves.deviation.hovered.connect(hovered)
-        views.nc.path.cursor_moved.connect(lambda x, y: status.show_place(x, y, views.nc.side.name))
-        views.curves.path.cursor_moved.connect(lambda x, y: status.show_place(x, y, views.curves.side.name))
-        self._on("curves_smooth", self.smoothing_controller.bring_and_smooth)
-        self.nc.export_requested.connect(self.window_.actions_["export"].trigger)
-        self.nc.compute_requested.connect(self.window_.actions_["compute"].trigger)
-
     def _connect_canvas(self) -> None:
         canvas, window = self.window_.canvas, self.window_
         for name, tool in TOOLS.items():
@@ -468,13 +420,6 @@ class WindowController(QObject):
         window.status.show_grid(canvas.grid_step)
         canvas.prompt_changed.connect(lambda _: self.display_controller.show_prompt())
         canvas.hovered.connect(self.display_controller.show_hovered)
-        window.views.cut.hovered.connect(self.display_controller.show_hovered)
-        self.cut_controller.operation_picked.connect(
-            lambda index: window.panel.choose(Subject(SubjectKind.OPERATION, index))
-        )
-        window.cut_panel.line_requested.connect(self._go_to_motion)
-        self.nc.cut_requested.connect(self._show_cut)
-        window.views.cut.cursor_moved.connect(window.status.show_place)
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
         canvas.key_typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(self._on_tool)
@@ -512,64 +457,25 @@ class WindowController(QObject):
         self.language.lines.run(line)
 
     def compute(self) -> None:
-        """Compute the paths and show them; in the Surfaces view the scene's, from its file as it is now."""
+        """Compute the paths and show them; where a scene is worked on its own, from its file as it is now."""
         self.window_.notice.dismiss()
-        if self.display_controller.view is View.SURFACES:
+        if self._scene.at_front:
             self.scenes.compute()
             return
-        self.cut_controller.back()
-        if self.nc.foreign and self.nc.source is not None and self.nc.source.path is not None:
-            self.nc.back()
+        self._programs.show_own()
         self.proposal_controller.before(self._compute_job)
 
     def _compute_job(self) -> None:
         self.computation.start()
-        if self.display_controller.view is View.DRAW:
+        if self.display_controller.view in (View.DRAW, View.SURFACES):
             self.display_controller.show_view(View.PATHS)
 
     def export(self) -> None:
-        """Export what the view at the front has made: the job's program, or of a scene a program, plot or table."""
-        if self.display_controller.view is View.SURFACES:
+        """Export what is worked on: the job's program, or of a scene a program, plot or table."""
+        if self._scene.at_front:
             self.scene_export.start()
         else:
             self.proposal_controller.before(self.files.export_controller.start)
-
-    def _show_worst(self) -> None:
-        """Show the worst place of the job's cut where it is; what has none there is listed."""
-        self.cut_controller.back()
-        worst = next(
-            (entry for entry in self.window_.cut_panel.entries if entry.counts and entry.place is not None), None
-        )
-        if worst is None:
-            self.display_controller.open_findings()
-            return
-        self.display_controller.show_view(View.CUT)
-        self.window_.cut_panel.choose(worst)
-
-    def _show_cut(self, shown: ShownProgram | None) -> None:
-        """Show the cut of another program, or the job's own."""
-        self.display_controller.show_view(View.CUT)
-        if shown is None:
-            self.cut_controller.back()
-        else:
-            self.cut_controller.show_program(shown.source, shown.dialect)
-
-    def _cut_scene(self, program: SceneProgram) -> None:
-        """Show what a scene's program leaves of its stock, beside the scene's surfaces."""
-        self.display_controller.show_view(View.CUT)
-        self.cut_controller.show_program(program.source, program.dialect, program.part)
-
-    def _go_to_motion(self, motion: int) -> None:
-        """Show the line of a motion of the cut program, if that is the one which the NC view shows, or can."""
-        cut, nc = self.cut_controller.cut, self.nc
-        if cut is None or motion < 0:
-            return
-        name = cut.names[cut.file_of(motion)]
-        if cut.given is None and nc.foreign:
-            nc.back()
-        if cut.given is None or (nc.source is not None and nc.source.name == name):
-            self.display_controller.show_view(View.NC)
-            nc.pick_motion(cut.file_of(motion), cut.row_in_file(motion))
 
     def cancel(self) -> None:
         """Leave the running job."""

@@ -6,6 +6,7 @@ import csv
 import io
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 from html import escape
 from urllib.parse import quote
 
@@ -30,17 +31,47 @@ def results_csv(rows: Sequence[BatchRow], files: Files) -> bytes:
             "" if value is None else f"{value:.{digits}f}" for value, digits in ((row.time_s, 1), (row.length_mm, 3))
         )
         told = (row.name, row.verdict.value, time, length, row.counting, " | ".join(row.findings), " ".join(written))
-        writer.writerow([_harmless(str(cell)) for cell in told])
+        writer.writerow([harmless(str(cell)) for cell in told])
     return text.getvalue().encode("utf-8", "backslashreplace")
 
 
-def _harmless(cell: str) -> str:
+def harmless(cell: str) -> str:
     """Return a cell that no spreadsheet takes for a formula."""
     return f"'{cell}" if cell[:1] in ("=", "+", "@", "\t", "\r") else cell
 
 
 def results_html(rows: Sequence[BatchRow], files: Files, title: str) -> bytes:
     """Return the table as one page that needs no other file, light or dark as the reader's screen is."""
+    body = "\n".join(_table_row(row, written) for row, written in zip(rows, files, strict=True))
+    time = sum(row.time_s or 0.0 for row in rows)
+    length = sum(row.length_mm or 0.0 for row in rows) / 1000
+    total = f"{minutes_words(time)} min on the machine, {length:.1f} m of motions."
+    return page_of(title, rows, total, PageTable("part", _HEADS, body))
+
+
+_NUMBERS = "<th data-number>Time, min</th><th data-number>Length, mm</th>"
+_HEADS = f"<th></th><th>Part</th><th>Verdict</th>{_NUMBERS}<th>Findings</th>"
+
+
+@dataclass(frozen=True)
+class PageTable:
+    """The table of a page, as HTML.
+
+    Attributes:
+        what: a row is, a word. heads: of the columns. body: the rows.
+    """
+
+    what: str
+    heads: str
+    body: str
+
+
+def page_of(title: str, rows: Sequence[BatchRow], said: str, table: PageTable) -> bytes:
+    """Return a page with a table of parts.
+
+    Args:
+        rows: that are counted. said: HTML behind their number.
+    """
     counts = Counter(row.verdict for row in rows)
     tiles = "".join(
         f'<button type="button" class="tile {each.value}" data-verdict="{each.value}" aria-pressed="false">'
@@ -48,17 +79,15 @@ def results_html(rows: Sequence[BatchRow], files: Files, title: str) -> bytes:
         for each in BatchVerdict
         if counts[each]
     )
-    time = sum(row.time_s or 0.0 for row in rows)
-    length = sum(row.length_mm or 0.0 for row in rows) / 1000
-    body = "\n".join(_table_row(row, written) for row, written in zip(rows, files, strict=True))
     page = _PAGE.format(
         style=_STYLE,
         script=_SCRIPT,
         title=escape(title),
-        parts="1 part" if len(rows) == 1 else f"{len(rows)} parts",
-        total=f"{minutes_words(time)} min on the machine, {length:.1f} m of motions",
+        parts=f"1 {table.what}" if len(rows) == 1 else f"{len(rows)} {table.what}s",
+        said=said,
         tiles=tiles,
-        body=body,
+        heads=table.heads,
+        body=table.body,
     )
     return page.encode("utf-8", "backslashreplace")
 
@@ -72,11 +101,11 @@ def _table_row(row: BatchRow, files: Sequence[str]) -> str:
         f'<td class="name"><b>{escape(row.name)}</b><span>{links}</span></td>'
         f'<td class="verdict"><span class="badge {row.verdict.value}">{row.verdict.words}</span></td>'
         f'<td class="number" data-unit="min">{time}</td><td class="number" data-unit="mm">{length}</td>'
-        f'<td class="told">{_findings(row)}</td></tr>'
+        f'<td class="told">{findings_html(row)}</td></tr>'
     )
 
 
-def _findings(row: BatchRow) -> str:
+def findings_html(row: BatchRow) -> str:
     """Return the findings of a part as a list: what counts stands out, and of many the first ones are in sight."""
     items = [
         f'<li class="{"counts" if number < row.counting else "remark"}">{escape(text)}</li>'
@@ -99,9 +128,9 @@ _PAGE = """\
 <style>{style}</style>
 </head>
 <body>
-<header><h1>{title}</h1><p>{parts}. {total}.</p><nav>{tiles}</nav></header>
+<header><h1>{title}</h1><div class="said">{parts}. {said}</div><nav>{tiles}</nav></header>
 <table>
-<thead><tr><th></th><th>Part</th><th>Verdict</th><th>Time, min</th><th>Length, mm</th><th>Findings</th></tr></thead>
+<thead><tr>{heads}</tr></thead>
 <tbody>
 {body}
 </tbody>
@@ -120,14 +149,18 @@ _STYLE = """
   --bad: #ff9aa4; --bad-back: #4a1a20; --idle-back: #2b2f34; } }
 body { margin: 2rem auto; max-width: 80rem; padding: 0 1.5rem; background: var(--paper); color: var(--ink);
   font: 15px/1.45 system-ui, sans-serif; }
-h1 { font-size: 1.5rem; margin: 0; } header p { color: var(--muted); margin: .25rem 0 1rem; }
+h1 { font-size: 1.5rem; margin: 0; } header .said { color: var(--muted); margin: .25rem 0 1rem; }
 nav { display: flex; flex-wrap: wrap; gap: .5rem; margin-bottom: 1.25rem; }
 .tile { border: 1px solid transparent; border-radius: .5rem; padding: .4rem .8rem; font: inherit; cursor: pointer; }
 .tile[aria-pressed=true] { border-color: currentColor; }
 table { width: 100%; border-collapse: collapse; background: var(--card); }
 th { text-align: left; font-weight: 600; color: var(--muted); border-bottom: 2px solid var(--line);
   padding: .4rem .6rem; }
-th:nth-child(4), th:nth-child(5) { text-align: right; white-space: nowrap; }
+th[data-number] { text-align: right; white-space: nowrap; }
+.plot { display: block; max-width: 34rem; margin-top: .75rem; } .plot path, .plot polyline { fill: none; }
+.plot path { stroke: var(--line); } .plot polyline { stroke: var(--path); stroke-width: 1.5; }
+.plot text { fill: var(--muted); font-size: 12px; }
+.plot .good { fill: var(--path); } .plot .warn { fill: var(--warn); }
 td { border-bottom: 1px solid var(--line); padding: .5rem .6rem; vertical-align: top; }
 .picture { width: 160px; } .picture svg { display: block; width: 160px; height: 110px; }
 .picture path { fill: none; stroke-width: 1; stroke-linejoin: round; } .picture .path { stroke: var(--path); }

@@ -8,7 +8,7 @@ from enum import Enum
 from typing import Any, Protocol
 
 from ..examine import ExamineOptions
-from ..options import MakeOptions
+from ..job.options import MakeOptions
 from ..smoothing.result import SmoothOptions
 
 Json = dict[str, Any]
@@ -84,6 +84,7 @@ class BatchTask:
         output: of the program, a path from the batch's folder; of a check, which writes none, what reports are named
             after.
         extras: what else is written.
+        file: name of the part's file, which tells its format; "" = the end of `name`.
         memory: bytes that it may take; None = as one job alone may.
     """
 
@@ -93,6 +94,7 @@ class BatchTask:
     options: MakeOptions | ExamineOptions | SmoothOptions
     output: str
     extras: BatchExtras = BatchExtras()
+    file: str = ""
     memory: int | None = None
 
 
@@ -108,6 +110,7 @@ class BatchRow:
         findings: sentences, what counts first; why it is not done where it is not.
         counting: how many of them count.
         picture: small SVG text; "" = none.
+        left_mm2: what a made program leaves of the floor, whether or not a tool reaches it, mm2; None = not known.
     """
 
     name: str
@@ -117,6 +120,7 @@ class BatchRow:
     findings: tuple[str, ...] = ()
     counting: int = 0
     picture: str = ""
+    left_mm2: float | None = None
 
     def values(self) -> Json:
         """Return it as plain values."""

@@ -12,9 +12,9 @@ from ...core.memory import MemoryShortError, within
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.finding import Finding
 from ..examine import ExaminedProgram, ExamineOptions, examine
-from ..make import make
+from ..job.options import MakeOptions
 from ..make_files import other_files
-from ..options import MakeOptions
+from ..making.make import MakeResult, make
 from ..smoothing.report import findings as smooth_findings
 from ..smoothing.report import report_text
 from ..smoothing.result import SmoothOptions
@@ -74,16 +74,26 @@ def _made(task: BatchTask, options: MakeOptions, progress: Progress) -> BatchRes
     files = {named[what].as_posix(): data for what, data in other_files(made, named, task.data).items()}
     for file in made.files:
         files[file.named(Path(task.output)).as_posix()] = file.nc.text.encode("ascii")
+    return BatchResult(made_row(task.name, made), files)
+
+
+def made_row(name: str, made: MakeResult) -> BatchRow:
+    """Return what the table tells of a made program.
+
+    Args:
+        name: of the part.
+    """
     report = made.report.data
-    row = BatchRow(
-        task.name,
+    left = report["left"]
+    return BatchRow(
+        name,
         BatchVerdict.CLEAN if made.clean else BatchVerdict.FINDINGS,
         report["time_s"],
         sum(report["length_mm"].values()),
         *_told(made.findings),
         part_picture(made.program),
+        None if left is None else left["reachable_mm2"] + left["unreachable_mm2"],
     )
-    return BatchResult(row, files)
 
 
 def _told(findings: Sequence[Finding]) -> tuple[tuple[str, ...], int]:
@@ -119,4 +129,4 @@ def _row_of(task: BatchTask, examined: ExaminedProgram, sentences: tuple[str, ..
 
 
 def _file_name(task: BatchTask) -> str:
-    return PurePosixPath(task.name).name
+    return task.file or PurePosixPath(task.name).name

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...model.motion import Floats
 from ...simulation.field.workpiece import Workpiece
-from .surface import SmoothedSurface, inside
+from .area import PassArea
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,11 +45,14 @@ class CutComparison:
         return max(self.left.amount_mm, self.deeper.amount_mm, self.beside_left_mm, self.beside_deeper_mm)
 
 
-def compared(old: Workpiece, new: Workpiece, smoothed: SmoothedSurface) -> CutComparison:
+def compared(old: Workpiece, new: Workpiece, area: PassArea) -> CutComparison:
     """Return how far a new cut is from an old one on the same grid.
 
+    A difference of heights is more than the one square to the metal by as much as the metal is steep; of both cuts the
+    one that is less steep there says how much, so that what is told is never less than what is true.
+
     Args:
-        smoothed: the surface of both; the passes' cells are told from those beside them, slopes are its own.
+        area: of the passes: its cells are told from those beside them.
     """
     grid = old.grid
     x, y = np.meshgrid(
@@ -57,10 +60,8 @@ def compared(old: Workpiece, new: Workpiece, smoothed: SmoothedSurface) -> CutCo
     )
     places = np.column_stack([x.ravel(), y.ravel()])
     apart = (new.heights.astype(np.float64) - old.heights).ravel()
-    over = inside(smoothed.raster, places)
-    turned = smoothed.raster.frame.inwards(places[over])
-    slopes = smoothed.fitted.spline.slopes(turned)
-    square = apart[over] / np.sqrt(1 + (slopes**2).sum(axis=1))
+    over = area.inside(places)
+    square = (apart / np.minimum(_mean_steepness(old), _mean_steepness(new)))[over]
     beside = (apart / _steepness(old))[~over]
     return CutComparison(
         _farthest(square, places[over]),
@@ -71,6 +72,15 @@ def compared(old: Workpiece, new: Workpiece, smoothed: SmoothedSurface) -> CutCo
         float(max(beside.max(initial=0.0), 0.0)),
         float(max((-beside).max(initial=0.0), 0.0)),
     )
+
+
+def _mean_steepness(workpiece: Workpiece) -> Floats:
+    """Return of each cell (n,) how much longer lengths along Z are than those square to what is there, by the mean
+    slope between its neighbours: on a crest between two passes there is none.
+    """
+    down, across = np.gradient(workpiece.heights.astype(np.float64), workpiece.grid.pitch)
+    steep: Floats = np.sqrt(1 + down**2 + across**2).ravel()
+    return steep
 
 
 def _steepness(workpiece: Workpiece) -> Floats:

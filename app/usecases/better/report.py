@@ -11,7 +11,7 @@ from ...model.finding import Finding, FindingKind
 from ..smoothing.report import certificate
 from ..smoothing.report import findings as smooth_findings
 from .picture import streaks
-from .result import BetterProgram, ProgramFigures
+from .result import BetterProgram, ProgramFigures, SurfaceFigures
 
 Json = dict[str, Any]
 
@@ -24,7 +24,8 @@ def gains(done: BetterProgram) -> dict[str, float]:
 
 def findings(done: BetterProgram) -> tuple[Finding, ...]:
     """Return what somebody has to know before the new program is used."""
-    proofs = replace(done.written, loads=(), left=None).findings()  # of these the second cut tells, by the real stock
+    written = done.written and replace(done.written, loads=(), left=None)  # of these the second cut tells
+    proofs = written.findings() if written is not None else ()
     return (*_apart(done), *_no_better(done), *proofs, *smooth_findings(done.curves), *done.new_cut.findings)
 
 
@@ -65,14 +66,9 @@ def _no_better(done: BetterProgram) -> tuple[Finding, ...]:
 
 def lines(done: BetterProgram) -> tuple[str, ...]:
     """Return what was done, for people."""
-    corners, fitted, comparison = done.smoothed.corners, done.smoothed.fitted, done.comparison
-    old, new = done.old, done.new
-    left = f", {done.smoothed.passes.left_out} cut deeper later" if done.smoothed.passes.left_out else ""
+    figures, comparison, old, new = done.figures, done.comparison, done.old, done.new
     return (
-        f"{done.name}: {len(done.smoothed.raster.rows)} passes, {corners.points} places{left}, "
-        f"{corners.facets} facets, {len(corners.places)} {corners.kind.value}",
-        f"  surface of {fitted.spans[0]} x {fitted.spans[1]} spans by them; those left out lie "
-        f"{fitted.left_out_mm:.5f} mm off it",
+        *_surface_lines(done.name, figures),
         *(f"  {line}" for line in done.budget.lines()),
         f"  cut again: at most {comparison.left.amount_mm:.4f} mm above the old cut, {comparison.deeper.amount_mm:.4f} "
         f"mm below it, {comparison.mean_mm:.4f} mm in the mean square, square to it, on {comparison.cells} cells of "
@@ -85,20 +81,49 @@ def lines(done: BetterProgram) -> tuple[str, ...]:
     )
 
 
+def _surface_lines(name: str, figures: SurfaceFigures) -> tuple[str, ...]:
+    """Return what the smooth surfaces are, for people."""
+    deeper = f", {figures.cut_deeper} cut deeper later" if figures.cut_deeper else ""
+    kept = f", {figures.kept} of none and kept" if figures.kept else ""
+    shape = "; ".join(f"{count} {kind}" for count, kind in figures.shape)
+    spans = ", ".join(f"{u} x {v}" for u, v in figures.spans)
+    found = (
+        f"{name}: {figures.passes} passes, {figures.places} places{deeper}{kept}, {figures.facets} facets, {shape}",
+        f"  {_counted(len(figures.spans))} of {spans} spans by them; those left out lie {figures.left_out_mm:.5f} mm "
+        "off it",
+    )
+    if not figures.boundaries:
+        return found
+    return (
+        *found,
+        f"  {figures.boundaries} boundary points from surface to surface, their heights alike within "
+        f"{figures.apart_mm:.1e} mm",
+    )
+
+
+def _counted(surfaces: int) -> str:
+    return "surface" if surfaces == 1 else f"{surfaces} surfaces"
+
+
 def report(done: BetterProgram) -> Json:
     """Return everything that was found, lengths in mm, angles in degrees."""
-    corners, fitted, comparison = done.smoothed.corners, done.smoothed.fitted, done.comparison
+    figures, comparison = done.figures, done.comparison
     return {
         "program": done.name,
         "tolerance_mm": done.options.tolerance,
-        "passes": len(done.smoothed.raster.rows),
-        "points": corners.points,
-        "points_cut_deeper": done.smoothed.passes.left_out,
-        "facets": corners.facets,
-        "corners": len(corners.places),
-        "corners_are": corners.kind.value,
-        "spans": list(fitted.spans),
-        "left_out_mm": fitted.left_out_mm,
+        "passes": figures.passes,
+        "points": figures.places,
+        "points_cut_deeper": figures.cut_deeper,
+        "points_kept": figures.kept,
+        "facets": figures.facets,
+        "surfaces": [
+            {"places": count, "places_are": kind, "spans": list(spans)}
+            for (count, kind), spans in zip(figures.shape, figures.spans, strict=True)
+        ],
+        "boundary_points": figures.boundaries,
+        "boundary_points_apart_mm": figures.apart_mm,
+        "lifted": done.scene is None,
+        "left_out_mm": figures.left_out_mm,
         "budget": done.budget.report(),
         "certificate": list(certificate(done.curves)),
         "cut_again": {
@@ -123,7 +148,7 @@ def report(done: BetterProgram) -> Json:
 
 def _streaks(done: BetterProgram) -> tuple[float, float]:
     """Return what light shows of facets in the old cut, and in the new one, degrees."""
-    old, new = (math.degrees(streaks(each.cut.workpiece, done.smoothed)) for each in (done.old_cut, done.new_cut))
+    old, new = (math.degrees(streaks(each.cut.workpiece, done.smoothed.area)) for each in (done.old_cut, done.new_cut))
     return old, new
 
 

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from ...core.errors import InputError
 from ...gcode.interpreter.dialect import Dialect
+from ...model.motion import Floats
 from ...model.scene import Scene
-from ..cut import CELLS, CutProgram
-from ..setup import ReadySetup
+from ..cutting.cut import CELLS, CutProgram
+from ..cutting.ready_setup import ReadySetup
+from ..scene_program.nc import WrittenScene
 from ..smoothing.result import OutputForm, SmoothedProgram
-from ..surface_nc import WrittenScene
 from ..tolerance_budget import ToleranceBudget
+from .area import PassArea
 from .comparison import CutComparison
-from .surface import SmoothedSurface
 
 TOLERANCES = (0.002, 5.0)
 """mm; what the tolerance may be."""
@@ -57,6 +59,54 @@ class BetterOptions:
 
 
 @dataclass(frozen=True, slots=True)
+class SurfaceFigures:
+    """What the smooth surfaces behind passes are.
+
+    Attributes:
+        passes: how many. places: of the program on them. cut_deeper: by other moves, so that they count for nothing.
+        facets: how many there are. shape: of each surface how many places it goes by, and what they are.
+        spans: of each surface. left_out_mm: how far places that a surface was not found by are from it.
+        kept: places on no surface, which stay as they were. boundaries: places where passes go from one surface to
+            the next. apart_mm: by how much two surfaces differ in height there at most.
+    """
+
+    passes: int
+    places: int
+    cut_deeper: int
+    facets: int
+    shape: tuple[tuple[int, str], ...]
+    spans: tuple[tuple[int, int], ...]
+    left_out_mm: float
+    kept: int = 0
+    boundaries: int = 0
+    apart_mm: float = 0.0
+
+
+class SmoothSurfaces(Protocol):
+    """The smooth surfaces behind a program's passes."""
+
+    @property
+    def area(self) -> PassArea:
+        """Where the passes are."""
+        ...
+
+    @property
+    def farthest_mm(self) -> float:
+        """How far a place of the program is from its surface at most, square to it, mm."""
+        ...
+
+    @property
+    def farthest_place(self) -> Floats:
+        """Where that is, (3,) mm, program coordinates."""
+        ...
+
+    @property
+    def figures(self) -> SurfaceFigures:
+        """What they are, in figures."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
 class ProgramFigures:
     """What a program takes.
 
@@ -78,7 +128,9 @@ class BetterProgram:
     Attributes:
         name: of the file that came in. options: what was asked. ready: how it was cut.
         old_cut, new_cut: what both leave of the same stock.
-        smoothed: the surface between them. scene: as a scene of its own. written: its passes before they were curves.
+        smoothed: the surfaces between them. figures: of these and of the new passes. scene: the one surface that a ball
+            touches, as a scene of its own; None where the passes were lifted. written: its passes before they were
+            curves.
         curves: the certificate of these. data: the new text.
         comparison: of both cuts. old, new: what they take. budget: who spent what of the tolerance.
     """
@@ -88,9 +140,10 @@ class BetterProgram:
     ready: ReadySetup
     old_cut: CutProgram
     new_cut: CutProgram
-    smoothed: SmoothedSurface
-    scene: Scene
-    written: WrittenScene
+    smoothed: SmoothSurfaces
+    figures: SurfaceFigures
+    scene: Scene | None
+    written: WrittenScene | None
     curves: SmoothedProgram
     comparison: CutComparison
     old: ProgramFigures

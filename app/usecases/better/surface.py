@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from ...core.errors import InputError
 from ...core.progress import Progress
@@ -20,7 +19,9 @@ from ...model.scene_shapes import LoftShape
 from ...model.stock_box import StockBox
 from ...model.tool import Tool
 from ...simulation.sweeps.probe import PathProbe
+from .area import PassArea
 from .raster import RasterProgram
+from .result import SurfaceFigures
 
 _MARGIN = 0.1
 """mm; the surface goes on so far beyond where the ball touches it on its outermost passes, so that none ends at its
@@ -75,6 +76,33 @@ class SmoothedSurface:
     def farthest_mm(self) -> float:
         """How far a point of the program is from the surface at most, square to it, mm."""
         return float(np.abs(self.off).max())
+
+    @property
+    def farthest_place(self) -> Floats:
+        """Where that is, (3,) mm, program coordinates."""
+        at = int(np.argmax(np.abs(self.off)))
+        place: Floats = self.raster.frame.outwards(self.raster.points[at : at + 1])[0]
+        return place
+
+    @property
+    def area(self) -> PassArea:
+        """Where the passes are."""
+        raster = self.raster
+        return PassArea([raster.frame.outwards(row) for row in raster.rows], raster.pitch)
+
+    @property
+    def figures(self) -> SurfaceFigures:
+        """What it is, in figures."""
+        corners = self.corners
+        return SurfaceFigures(
+            len(self.raster.rows),
+            corners.points,
+            self.passes.left_out,
+            corners.facets,
+            ((len(corners.places), corners.kind.value),),
+            (self.fitted.spans,),
+            self.fitted.left_out_mm,
+        )
 
 
 def surviving(raster: RasterProgram, radius: float, heights: PathProbe, within: float) -> SurvivingPasses:
@@ -272,11 +300,3 @@ def _outline(raster: RasterProgram, area: shapely.Polygon) -> tuple[tuple[float,
     ring = np.array(area.exterior.coords)[:-1]
     turned = raster.frame.outwards(np.column_stack([ring, np.zeros(len(ring))]))
     return tuple((x, y) for x, y, _ in turned.tolist())
-
-
-def inside(raster: RasterProgram, places: Floats) -> NDArray[np.bool_]:
-    """Tell which places (n, 2), program coordinates, lie over the passes."""
-    area = shapely.union_all([shapely.Polygon(boundary.outline) for boundary in _boundaries(raster)])
-    shapely.prepare(area)
-    within: NDArray[np.bool_] = shapely.contains_xy(area, places[:, 0], places[:, 1])
-    return within

@@ -27,8 +27,8 @@ from ...model.job import Job, OriginXY, OriginZ
 from ...model.moves import MoveKind, Moves
 from ...model.part import Units
 from ...model.stock_box import StockBox, stock_box, work_origin
-from ..make import MakeResult
-from ..picture import picture_of
+from ..making.make import MakeResult
+from ..making.picture import picture_of
 from .common import (
     CLAMP_PEN,
     MADE_BY,

@@ -17,10 +17,10 @@ from ...gcode.interpreter.program import Severity
 from ...model.finding import FindingKind
 from ...model.motion import MotionKind, Motions
 from ...model.motion_path import motion_rows, spline_points
-from ..cut import CutProgram
-from ..cut_report import CutReport
+from ..cutting.cut import CutProgram
+from ..cutting.ready_setup import ReadySetup
+from ..cutting.report import CutReport
 from ..examine import CONTROLS, ExaminedProgram
-from ..setup import ReadySetup
 from .common import MADE_BY, PENS, ToolUse, hashed, legend, own_words, span_words, tool_table, traced, zero_note
 
 Json = dict[str, Any]

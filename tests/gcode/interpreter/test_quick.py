@@ -34,7 +34,7 @@ def mended(lines: list[str], options: ReadOptions) -> str:
     """Return the program without the lines at which its reading ends."""
     while True:
         text = "\n".join([*lines, "M2", ""])
-        error = read_steps(text.encode(), options)[0].error
+        error = read_steps(text.encode(), options).program.error
         if error is None:
             return text
         del lines[error.line - 1]

@@ -7,7 +7,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from app.ui.framework.view import View
-from app.usecases.better.raster import raster_of
 from tests import raster_program as made
 from tests.ui.nc.opened import WAIT_MS, open_file
 
@@ -33,11 +32,10 @@ def test_the_button_makes_a_better_program_and_shows_it(qtbot, wiring, tmp_path)
 
 
 def test_a_program_of_another_kind_is_refused_beside_the_button(qtbot, wiring, tmp_path) -> None:
-    path = tmp_path / "flat.ngc"
-    path.write_text(made.text(made.rows(wide=8.0, deep=2.0), tool="flat,6"))
+    path = tmp_path / "two.ngc"
+    path.write_text(made.text(made.rows(wide=8.0, deep=0.5)))
     open_file(qtbot, wiring, path)
     wiring.display_controller.show_view(View.CURVES)
     press(qtbot, wiring)
     form = wiring.window_.curves_panel.better
-    assert "only a ball's passes" in form.reason.text() and not form.outcome.isVisible()
-    assert raster_of("flat", wiring.nc.shown.program).zigzag
+    assert "2 passes are" in form.reason.text() and not form.outcome.isVisible()

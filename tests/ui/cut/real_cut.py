@@ -14,7 +14,7 @@ from app.operations.compute import regions_of
 from app.simulation.field.workpiece import BoxStock
 from app.ui.views.cut.cell_colours import CutColourBy
 from app.ui.views.cut.shown_cut import ProgramFile, shown_cut
-from app.usecases.cut import CutOptions, CutSetup, cut
+from app.usecases.cutting.cut import CutOptions, CutSetup, cut
 from app.verify.parts import FlatPart
 
 TEXT = """G21 G17 G90 G54

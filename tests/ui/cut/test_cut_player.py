@@ -18,9 +18,9 @@ from app.ui.views.cut.record_sheet import RecordFormat, RecordPlan
 from app.ui.views.cut.relief import relief
 from app.ui.views.cut.time_plot import exact_clock
 from app.ui.views.cut.transport import notch_of, speed_of
-from app.usecases.cut import CutOptions
-from app.usecases.cut import cut as cut_of
-from app.usecases.timeline import TimelinePlace
+from app.usecases.cutting.cut import CutOptions
+from app.usecases.cutting.cut import cut as cut_of
+from app.usecases.cutting.timeline import TimelinePlace
 from tests.ui.cut.pictures import without_a_screen
 from tests.usecases.test_playback import from_start
 

@@ -14,7 +14,7 @@ from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
 from app.ui.views.cut import cut_player as player_file
 from app.ui.views.cut.cut_player import PlaybackPace
-from app.usecases.timeline import Timeline
+from app.usecases.cutting.timeline import Timeline
 from tests.ui.cut.test_cut_player import page, settle
 
 __all__ = ["page"]

@@ -6,7 +6,7 @@ import numpy as np
 
 from app.model.motion_part import place_on
 from app.ui.views.cut.live_cells import last_tips
-from app.usecases.playback import Playback
+from app.usecases.cutting.playback import Playback
 from tests.usecases.test_playback import cut_text
 
 TEXT = """G21 G90 G17 G94

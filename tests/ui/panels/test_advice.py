@@ -9,8 +9,10 @@ from app.core.resources import resource
 from app.formats.readers import read_drawing
 from app.model.contour_operation import ContourOperation
 from app.model.operation import PocketOperation, RestOperation
+from app.ui.framework.figures import clock
 from app.ui.panels.side_panel import SidePanel
-from app.ui.shell.advice_controller import AdviceController
+from app.ui.shell.drawing.advice_controller import AdviceController, clears, follows, with_tool_for
+from app.usecases.making.make import export
 from tests.ui.conftest import WAIT_MS
 
 
@@ -52,6 +54,37 @@ def test_a_tool_of_the_list_becomes_that_of_pockets_or_of_contours(qtbot, panel,
     workspace.document.undo()
     workspace.document.undo()
     assert tools_of(workspace.document.job, PocketOperation) == {6.0}
+
+
+@pytest.mark.exhaustive
+def test_programs_are_made_with_the_tools_and_their_times_shown(qtbot, panel, workspace):
+    """By the processes of a batch: the time is that of the very program which the job has with that tool."""
+    part = read_drawing("plate.draw", b"rect 0,0 24,16", None, ()).part
+    workspace.document.load(replace(workspace.document.job, part=part))
+    advising = AdviceController(panel, workspace)
+    qtbot.mouseClick(panel.tools.advice_button, Qt.MouseButton.LeftButton)
+    sheet = panel.advice
+    qtbot.waitUntil(lambda: bool(sheet._made) and not advising.worker.busy, timeout=3 * WAIT_MS)
+    names = [tool.diameter for tool in sheet._tools]
+    shown = [names.index(8.0), names.index(12.0)]
+    estimates = [sheet._times[at].text() for at in shown]
+    sheet.trials_requested.emit(tuple(sheet._tools[at] for at in shown))
+    qtbot.waitUntil(lambda: not advising.trials.busy, timeout=20 * WAIT_MS)
+    base = with_tool_for(workspace.document.job, advising._contour, follows)
+    for at in shown:
+        made = export(with_tool_for(base, sheet._tools[at], clears))
+        assert sheet._times[at].text() == clock(made.report.data["time_s"])
+        assert sheet._made[at].toolTip().startswith("Made and proven.")
+    assert [sheet._times[at].text() for at in shown] != estimates
+
+
+def test_the_button_asks_for_the_tools_that_have_an_estimate(qtbot, sheet):
+    sheet.trials_requested.disconnect()
+    with qtbot.waitSignal(sheet.trials_requested) as caught:
+        qtbot.mouseClick(sheet.trial_button, Qt.MouseButton.LeftButton)
+    (tools,) = caught.args
+    timed = [tool for tool, time in zip(sheet._tools, sheet._times, strict=True) if time.text()]
+    assert list(tools) == timed and 1 < len(timed) < len(sheet._tools)
 
 
 def test_places_are_shown_and_the_sheet_closes(qtbot, panel, workspace, sheet):

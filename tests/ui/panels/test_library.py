@@ -20,7 +20,7 @@ from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.tool_kinds import icon_of, listed_kinds, use_of
-from app.ui.shell.tool_exchange import IN, ToolExchange
+from app.ui.shell.files.tool_exchange import IN, ToolExchange
 from tests.formats.foreign_tools import fusion_archive, fusion_tool
 
 
@@ -229,7 +229,7 @@ def test_tools_are_imported_into_the_users_library_and_stay_there(tmp_path, exch
         exchange.take(tmp_path / name)
         assert notice.text.text() == f"1 tool of {name} in the library."
     assert {"Own cutter", "Other"} <= {tool.name for tool in exchange._panel.library.shown}
-    assert set(load_libraries()[0]) == {"lib", "mine", "metric-drills", "metric-mills", "threads-and-reamers"}
+    assert set(load_libraries().libraries) == {"lib", "mine", "metric-drills", "metric-mills", "threads-and-reamers"}
     exchange.take(tmp_path / "mine.csv")
     assert notice.text.text() == "There is a library mine already."
 
@@ -242,7 +242,7 @@ def test_a_tool_table_names_no_units_so_they_are_asked_for(tmp_path, exchange, w
     assert "It names no units; it was read in mm." in notice.text.text()
     assert notice.buttons[1].text() == "Read in inch"
     notice.buttons[1].click()
-    (tool,) = load_libraries()[0]["mill"].tools
+    (tool,) = load_libraries().libraries["mill"].tools
     assert (tool.diameter, tool.length_offset) == (pytest.approx(6.35), pytest.approx(50.8))
 
 

@@ -32,9 +32,9 @@ from app.ui.views.stages.direction_rose import DirectionRose
 from app.ui.views.stages.film_set import FilmRequest, film_set_of
 from app.ui.views.stages.painting.pixel_painter import PixelPaint
 from app.ui.views.stages.view import HEAD_PX, StagesView
-from app.usecases.bitmap_options import BitmapSize
-from app.usecases.make import job_from_drawing
-from app.usecases.options import MakeOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import job_from_drawing
+from app.usecases.pixels.options import BitmapSize
 
 FOLDER = Path(__file__).resolve().parents[2] / "data" / "figures"
 _SIDE, _SMALL = 560, 32

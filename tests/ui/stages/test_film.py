@@ -8,9 +8,9 @@ from app.exhibits.stages import Variant, stages
 from app.raster.codes import PixelCode
 from app.ui.views.stages.film import Projector, chain_at
 from app.ui.views.stages.film_set import FilmRequest, film_set_of
-from app.usecases.bitmap_job import drawn_job
-from app.usecases.bitmap_options import BitmapSize
-from app.usecases.bitmap_way import compute_on_bitmap
+from app.usecases.making.bitmap_job import drawn_job
+from app.usecases.pixels.options import BitmapSize
+from app.usecases.pixels.way import compute_on_bitmap
 
 SIZE = BitmapSize(120)
 

@@ -16,7 +16,6 @@ from app.ui.framework.computation import ComputationState
 from app.ui.framework.figures import TIMES
 from app.ui.framework.theme import LIGHT
 from app.ui.framework.view import View
-from app.ui.framework.worker import JobOutcome
 from app.ui.views.stages.code_colours import code_colours
 from app.ui.views.stages.import_panel import PictureAspect, SizeGivenBy
 from app.ui.views.stages.painting.pixel_painter import pixel_at
@@ -227,11 +226,12 @@ def test_a_resolution_that_cannot_be_meant_is_a_guess(qtbot, wiring, tmp_path):
     assert "300 dpi is a guess" in wiring.window_.import_panel.summary.text()
 
 
-def test_what_cannot_be_shown_is_said_in_the_panel(opened):
+def test_what_cannot_be_shown_is_said_in_the_panel(qtbot, opened):
     picturing, panel = opened.import_controller, opened.window_.import_panel
     wrong = replace(picturing.preview, reading=replace(picturing.preview.reading, measure=PixelSize(-254.0)))
-    picturing.worker.done.emit(JobOutcome(0, opened.document.revision, wrong))
-    assert panel.wrong.isVisible() and "pitch is -0.1 mm" in panel.wrong.text()
+    picturing.take_from(lambda progress: wrong, picturing.show_preview)
+    qtbot.waitUntil(panel.wrong.isVisible, timeout=WAIT_MS)
+    assert "pitch is -0.1 mm" in panel.wrong.text()
 
 
 def test_an_error_goes_when_the_next_picture_is_good(qtbot, wiring, tmp_path):

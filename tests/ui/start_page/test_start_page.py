@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QColor, QImage
 
 from app.core.progress import NO_PROGRESS
 from app.core.resources import resource
@@ -15,6 +16,8 @@ from app.ui.framework.theme import DARK, LIGHT
 from app.ui.framework.view import View
 from app.ui.shell.new_job import MATERIALS, NewPart, new_job
 from app.ui.shell.start import begin
+from app.ui.shell.start_page.file_card import FileCard
+from app.ui.shell.start_page.page import StartPage
 from app.ui.shell.start_page.thumbnail import thumbnail
 from app.ui.views.canvas.modes import CanvasTool
 from tests.ui.conftest import WAIT_MS
@@ -145,3 +148,36 @@ def test_what_was_said_of_the_part_before_does_not_lie_over_the_page(wiring):
     wiring.window_.notice.ask("What is to become of the changes?", [("Save", lambda: None)], stays=True)
     wiring.open_start()
     assert wiring.window_.notice.isVisible(), "a question waits for its answer"
+
+
+def test_columns_are_even_in_the_narrowest_window(qtbot):
+    page = StartPage()
+    qtbot.addWidget(page)
+    page.new.show_machines([("linuxcnc", "LinuxCNC")], "linuxcnc")
+    page.show_files(*([FileCard(Path(name), name, "today") for name in names] for names in ("ab", "cdef")))
+    page.resize(1024, 560)
+    page.show()
+    qtbot.waitExposed(page)
+    widths = [card.width() for card in (*page.files, *page.samples)]
+    assert max(widths) - min(widths) <= 1, widths
+    left = {card.x() for card in page.files} | {page.new.x()}
+    assert left < {card.x() for card in page.samples}
+
+
+def test_a_picture_keeps_its_shape_when_the_card_gets_another_width(qtbot):
+    card = FileCard(Path("a.draw"), "a", "today")
+    qtbot.addWidget(card)
+    picture = QImage(200, 100, QImage.Format.Format_RGB32)
+    picture.fill(QColor("#ff0000"))
+    card.show_picture(picture)
+    card.resize(150, card.height())
+    seen = card.grab().toImage()
+    ratio = seen.devicePixelRatio()
+    red = [
+        (x, y)
+        for x in range(seen.width())
+        for y in range(seen.height())
+        if seen.pixelColor(x, y).getRgb()[:3] == (255, 0, 0)
+    ]
+    wide, high = (max(each) - min(each) + 1 for each in zip(*red, strict=True))
+    assert abs(wide / high - 2.0) < 0.1 and wide > 100 * ratio

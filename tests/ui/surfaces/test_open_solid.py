@@ -11,8 +11,8 @@ from PySide6.QtGui import QDropEvent
 from app.ui.framework.figures import TIMES
 from app.ui.framework.view import View
 from app.ui.views.surfaces.scene_computation import SceneState
-from app.usecases.solid_files import SOLIDS, is_solid
-from app.usecases.solid_scene import OpenedSolid
+from app.usecases.scene.solid_files import SOLIDS, is_solid
+from app.usecases.scene.solid_scene import OpenedSolid
 from app.usecases.step_extra import step_files_readable
 
 WAIT_MS = 60_000

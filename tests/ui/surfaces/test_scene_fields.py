@@ -20,8 +20,8 @@ from app.ui.views.surfaces.new_parts import (
     surface_from_curves,
 )
 from app.ui.views.surfaces.scene_fields import SceneFieldKind, passes_fields, scene_fields, surface_fields, tool_fields
-from app.usecases.drawn_sections import drawn_sections
-from app.usecases.surface import compute
+from app.usecases.scene.compute import compute
+from app.usecases.scene.drawn_sections import drawn_sections
 from tests.conftest import ROOT
 
 SAMPLES = ROOT / "resources" / "samples"

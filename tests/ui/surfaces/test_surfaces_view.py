@@ -11,7 +11,7 @@ from app.ui.views.surfaces.scene_computation import SceneState
 from app.ui.views.surfaces.scene_raster import SceneColourBy, SceneLayer
 from app.ui.views.surfaces.shown_scene import is_scene
 from app.ui.views.surfaces.view import ViewDirection
-from app.usecases.scene_lines import LineRole
+from app.usecases.scene.lines import LineRole
 
 WAIT_MS = 60_000
 COMPOUND = resource("samples", "compound.toml")

@@ -28,7 +28,7 @@ from app.model.finding import Finding, FindingKind
 from app.model.job import Job, OriginXY, OriginZ, Stock
 from app.model.operation import CutParameters, PocketOperation, Side
 from app.model.tool import Tool
-from app.usecases.make import MakeResult, export
+from app.usecases.making.make import MakeResult, export
 from app.usecases.sheet.made import made_sheet
 from tests.formats.pdf_words import pdf_objects, pdf_pages
 

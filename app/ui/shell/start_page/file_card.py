@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QEnterEvent, QImage, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
@@ -72,7 +72,10 @@ class FileCard(QAbstractButton):
         painter.setClipPath(outline)
         painter.fillRect(top, theme.canvas)
         if not self._picture.isNull():
-            painter.drawImage(top, self._picture)
+            size = QSizeF(self._picture.size()).scaled(top.size(), Qt.AspectRatioMode.KeepAspectRatio)
+            place = QRectF(QPointF(), size)
+            place.moveCenter(top.center())
+            painter.drawImage(place, self._picture)
         painter.restore()
         painter.setPen(QPen(theme.hairline, 1))
         painter.drawLine(top.bottomLeft(), top.bottomRight())

@@ -12,6 +12,8 @@ from ..new_job import MATERIALS, NewPart
 from .file_card import HEIGHT
 
 _LENGTHS = (("Along X", 80.0), ("Along Y", 50.0), ("Thickness", 10.0))
+_NAME_PX = 68
+"""So narrow that the card takes two columns of the page, no more, in a window of 1024 px."""
 
 
 class NewCard(QFrame):
@@ -31,13 +33,17 @@ class NewCard(QFrame):
         super().__init__()
         self.setObjectName("startCard")
         self.lengths = [
-            NumberField(NumberSpec(name, low=0.1, high=10_000, tip="Of the part; the stock is as thick as it."))
+            NumberField(
+                NumberSpec(name, low=0.1, high=10_000, tip="Of the part; the stock is as thick as it."),
+                label_width=_NAME_PX,
+            )
             for name, _ in _LENGTHS
         ]
         for field, (_, value) in zip(self.lengths, _LENGTHS, strict=True):
             field.show_value(value)
-        self.material = ListField("Material", [(name, name.capitalize()) for name in MATERIALS])
-        self.machine = ListField("Machine", [])
+            field.note.hide()
+        self.material = ListField("Material", [(name, name.capitalize()) for name in MATERIALS], _NAME_PX)
+        self.machine = ListField("Machine", [], _NAME_PX)
         self.outline, self.begin = QCheckBox("Draw its outline"), QPushButton("Begin")
         self.outline.setChecked(True)
         self.begin.setProperty("role", "primary")

@@ -12,8 +12,8 @@ from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPen, QTransfo
 
 from ....core.progress import Progress
 from ....model.curves import Curve
-from ....usecases.bitmap_options import is_picture
-from ....usecases.solid_files import is_solid
+from ....usecases.pixels.options import is_picture
+from ....usecases.scene.solid_files import is_solid
 from ...framework.theme import Theme
 from ...views.canvas.painting.curve_path import curve_path
 from ...views.cut.camera import Camera, StandardView
@@ -59,7 +59,7 @@ def _curves(path: Path) -> Sequence[Curve]:
     from ....formats.readers import read_drawing
 
     if path.suffix.lower() in SUFFIXES:
-        part = load_project(path)[0].state.job.part
+        part = load_project(path).project.state.job.part
     else:
         part = read_drawing(path.name, read_file(path)).part
     shown = {layer.name for layer in part.layers if layer.visible}
@@ -92,7 +92,7 @@ def _program_path(path: Path, progress: Progress) -> QPainterPath:
 def _space(path: Path, size: QSize, theme: Theme, progress: Progress) -> QImage:
     """Return a scene's surfaces, or a solid, seen from above one corner."""
     from ....formats.scene.toml import sources_of
-    from ....usecases.solid_scene import open_solid
+    from ....usecases.scene.solid_scene import open_solid
     from ...views.surfaces.scene_raster import SceneColours, SceneStyle, raster
 
     data = read_file(path)

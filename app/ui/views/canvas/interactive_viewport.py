@@ -59,7 +59,7 @@ class InteractiveViewport(Viewport):
         cursor_moved: x, y under the mouse, mm. prompt_changed: what is expected next. tool_changed: CanvasTool.
         hovered: what lies under the mouse, or "". message: the sentence of an error.
         key_typed: a character meant for the command line. menu_requested: where on the screen the selection's menu is
-            asked for.
+            asked for. cancelled: something is given up, by Esc.
     """
 
     cursor_moved = Signal(float, float)
@@ -69,6 +69,7 @@ class InteractiveViewport(Viewport):
     message = Signal(str)
     key_typed = Signal(str)
     menu_requested = Signal(QPoint)
+    cancelled = Signal()
 
     def __init__(
         self, document: Document, scene: ViewportScene, answers: MouseAnswers, parent: QWidget | None = None
@@ -146,6 +147,7 @@ class InteractiveViewport(Viewport):
 
     def cancel(self) -> None:
         """Give up what is going on: what is typed, the selection window, the shape, the tool, the selection."""
+        self.cancelled.emit()
         if self.entry.editing or not self.runner.typed.free:
             self.entry.give_up()
             self._tell()

@@ -31,9 +31,9 @@ from .zoom_controller import ZoomController, ZoomTarget
 
 if TYPE_CHECKING:
     from ....gcode.interpreter.dialect import Dialect
-    from ....usecases.make import MakeResult
+    from ....usecases.cutting.timeline import TimelinePlace
+    from ....usecases.making.make import MakeResult
     from ....usecases.mending import Mend
-    from ....usecases.timeline import TimelinePlace
     from ....verify.parts import Part
 
 
@@ -110,9 +110,7 @@ class CutController(Controller):
         activity = self._activity
         self.foreign_worker.busy_changed.connect(lambda _: self.changed.emit())
         for worker in (self.worker, self.foreign_worker):
-            worker.done.connect(self._on_done)
             worker.failed.connect(self._on_failed)
-        self.trial_worker.done.connect(self._on_tried)
         self.trial_worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
         activity.follow(self.foreign_worker)
         activity.follow(self.trial_worker, "Cutting a preview…")
@@ -206,12 +204,12 @@ class CutController(Controller):
             self._show_own(None)
             return
         name, colour = made.job.part.name, self._view.colour
-        self.worker.start(lambda progress: job_shown(made, name, colour, progress), 0)
+        self.worker.start(lambda progress: job_shown(made, name, colour, progress), 0, self._show_own)
 
     def _cut_foreign(self) -> None:
         foreign, colour = self._foreign, self._view.colour
         if foreign is not None:
-            self.foreign_worker.start(lambda progress: foreign_shown(foreign, colour, progress), 0)
+            self.foreign_worker.start(lambda progress: foreign_shown(foreign, colour, progress), 0, self._show_foreign)
 
     def _cut_as(self, given: UserSetup) -> None:
         """Cut the foreign program with other tools and stock."""
@@ -266,7 +264,7 @@ class CutController(Controller):
 
     def operation_of(self, motion: int) -> int | None:
         """Return the index of the job's operation that a motion of the cut belongs to; None where that is not known."""
-        from ....usecases.program_lines import operation_of_line
+        from ....usecases.making.program_lines import operation_of_line
 
         cut, made = self.cut, self._made
         if cut is None or cut is not self._own or made is None or motion < 0 or cut.picture.moves is None:
@@ -312,7 +310,7 @@ class CutController(Controller):
             self._panel.show_mends(())
             return
         fault = Fault(entry.kind, self.operation_of(entry.motion), entry.amount if entry.line else None, entry.disc)
-        library = [tool for each in load_libraries()[0].values() for tool in each.tools]
+        library = [tool for each in load_libraries().libraries.values() for tool in each.tools]
         self._panel.show_mends(mends(made.job, fault, library))
 
     def _mend(self, mend: Mend) -> None:
@@ -323,12 +321,16 @@ class CutController(Controller):
     def _preview(self, mend: Mend) -> None:
         """Have the job of a mend cut, to be looked at before anything is changed."""
         making, colour = self._computation.making(mend.job), self._view.colour
-        self.trial_worker.start(lambda progress: trial_shown(mend, making, colour, progress), self._document.revision)
+        revision = self._document.revision
+        self.trial_worker.start(
+            lambda progress: trial_shown(mend, making, colour, progress),
+            revision,
+            lambda trial: self._show_trial(trial, revision),
+        )
 
-    def _on_tried(self, answer: JobOutcome) -> None:
+    def _show_trial(self, trial: MendTrial, revision: int) -> None:
         """Show it, unless the job is another one by now, or another program is looked at."""
-        trial = answer.value
-        if not isinstance(trial, MendTrial) or answer.revision != self._document.revision or self.cut is not self._own:
+        if revision != self._document.revision or self.cut is not self._own:
             return
         if trial.cut is None:
             self.failed.emit("Nothing would be cut then.")
@@ -363,18 +365,16 @@ class CutController(Controller):
         theme = self._view.colours.theme
         self._view.go_to(PlacePin(entry.place, entry.title, entry.words, colour_of(entry.colour, theme)), entry.field)
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        result = answer.value
+    def _show_foreign(self, result: ShownCut | MissingSetup) -> None:
+        """Show the cut of another program, or ask for what is not known of it."""
         if isinstance(result, MissingSetup):
             self._form.ask(result)
             self._leave_other(result.foreign)
             self.changed.emit()
-        elif isinstance(result, ShownCut) and result.given is not None:
+        else:
             self._form.ask(None)
             self._shown_foreign = self._foreign
             self._show(result)
-        elif isinstance(result, ShownCut):
-            self._show_own(result)
 
     def _leave_other(self, foreign: ForeignProgram) -> None:
         """Show no cut of anything else while what is to be known of a program is asked for."""

@@ -21,7 +21,7 @@ from .live_cells import FrameRequest, LiveCells, LiveFrame, live_copy
 from .view import CutView
 
 if TYPE_CHECKING:
-    from ....usecases.timeline import Timeline, TimelinePlace
+    from ....usecases.cutting.timeline import Timeline, TimelinePlace
     from .shown_cut import ShownCut
 
 TICK_MS = 16
@@ -102,7 +102,6 @@ class CutPlayer(QObject):
         self._way, self._last_tick = 0, 0.0
         self._place = self._now = 0.0
         self.worker = Worker(self, head_start_s=0.0)
-        self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
         self._timer = QTimer(self, interval=TICK_MS)
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
@@ -156,7 +155,7 @@ class CutPlayer(QObject):
         shown = self.shown
         if shown is None or self.timeline is not None or self.worker.busy or self.failure:
             return
-        self.worker.start(lambda progress: prepared(shown, progress), 0)
+        self.worker.start(lambda progress: prepared(shown, progress), 0, self._on_prepared)
         self.state_changed.emit()
 
     def toggle(self, way: int = 1) -> None:
@@ -199,7 +198,7 @@ class CutPlayer(QObject):
 
     def go(self, motion: int) -> None:
         """Go to where so many motions are done; playing goes on from there."""
-        from ....usecases.timeline import TimelinePlace
+        from ....usecases.cutting.timeline import TimelinePlace
 
         if self.timeline is not None:
             moment = TimelinePlace(min(max(motion, 0), len(self.timeline)))
@@ -281,7 +280,7 @@ class CutPlayer(QObject):
         return timeline.wait_at(self._place) / LONGEST_WAIT_S if self.pace is PlaybackPace.TIME else 0.0
 
     def _moment(self, timeline: Timeline) -> TimelinePlace:
-        from ....usecases.timeline import TimelinePlace
+        from ....usecases.cutting.timeline import TimelinePlace
 
         if self.pace is PlaybackPace.TIME:
             return timeline.at(self._place) if self._place < timeline.total else timeline.last
@@ -304,21 +303,21 @@ class CutPlayer(QObject):
             return
         self._running = wish
         self._view.show_detail(None)
-        self.worker.start(lambda progress: cells.frame(wish, progress), 0)
+        self.worker.start(lambda progress: cells.frame(wish, progress), 0, self._on_frame)
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        value = answer.value
-        if isinstance(value, LiveCells) and self.shown is not None:
-            self._cells, self.timeline = value, value.playback.timeline
+    def _on_prepared(self, cells: LiveCells) -> None:
+        if self.shown is not None:
+            self._cells, self.timeline = cells, cells.playback.timeline
             self.at, self._now = self.timeline.last, self.timeline.total
             self.state_changed.emit()
             self.moved.emit()
-        elif isinstance(value, LiveFrame):
-            if self._wanted is self._running:
-                self._wanted = None
-            self._show(value)
-            if self._wanted is not None:
-                self._begin()
+
+    def _on_frame(self, frame: LiveFrame) -> None:
+        if self._wanted is self._running:
+            self._wanted = None
+        self._show(frame)
+        if self._wanted is not None:
+            self._begin()
 
     def _show(self, frame: LiveFrame) -> None:
         """Let the view show a moment."""
@@ -362,7 +361,7 @@ def prepared(shown: ShownCut, progress: Progress) -> LiveCells:
     Raises:
         HitofudeError: it does not fit into memory. Cancelled: another cut is shown.
     """
-    from ....usecases.playback import Playback
+    from ....usecases.cutting.playback import Playback
 
     playback = Playback(shown.cut, progress=progress)
     return LiveCells(playback, shown.picture, shown.cut.setup.tools)

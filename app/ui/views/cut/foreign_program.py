@@ -21,8 +21,8 @@ from .user_setup import Box, UserSetup
 
 if TYPE_CHECKING:
     from ....gcode.interpreter.dialect import Dialect
+    from ....usecases.cutting.ready_setup import ReadySetup
     from ....usecases.examine import ExaminedProgram
-    from ....usecases.setup import ReadySetup
     from ....verify.parts import Part
 
 GUESSED = "nobody"
@@ -85,7 +85,7 @@ def foreign_shown(foreign: ForeignProgram, colour: CutColourBy, progress: Progre
         HitofudeError: it has an error, or cuts nothing.
         Cancelled: the job was asked to stop.
     """
-    from ....usecases.cut import CutOptions, Engine, cut  # imports the engine: never on the window's thread
+    from ....usecases.cutting.cut import CutOptions, Engine, cut  # imports the engine: never on the window's thread
     from ....usecases.examine import ExamineOptions, examine
 
     data = foreign.source.bytes()
@@ -146,9 +146,9 @@ def _ready(examined: ExaminedProgram, foreign: ForeignProgram) -> tuple[ReadySet
 
 
 def _with(examined: ExaminedProgram, foreign: ForeignProgram, guesses: Mapping[int, Tool]) -> ReadySetup:
-    from ....usecases.setup import SetupRequest, setup_of
-    from ....usecases.setup_stock import box_stock
-    from ....usecases.setup_tools import ToolSource
+    from ....usecases.cutting.ready_setup import SetupRequest, setup_of
+    from ....usecases.cutting.setup_stock import box_stock
+    from ....usecases.cutting.setup_tools import ToolSource
 
     told = (ToolSource("the form", foreign.given.tools), ToolSource(GUESSED, guesses))
     stock = box_stock(foreign.given.stock) if foreign.given.stock is not None else None
@@ -160,7 +160,7 @@ def _on_a_table(ready: ReadySetup) -> ReadySetup:
     """Return a setup whose stock, assumed round the cuts, goes on below the deepest of them, so that their floor can be
     seen.
     """
-    from ....usecases.setup_stock import KnownStock, box_stock
+    from ....usecases.cutting.setup_stock import KnownStock, box_stock
 
     x0, y0, z0, x1, y1, z1 = _corners(ready)
     z0 -= max(LEAST_BELOW, BELOW * (z1 - z0))

@@ -23,8 +23,8 @@ from .relief import Bytes
 from .rendering.tool_body import Place
 
 if TYPE_CHECKING:
-    from ....usecases.playback import Playback, PlayFrame
-    from ....usecases.timeline import Timeline, TimelinePlace
+    from ....usecases.cutting.playback import Playback, PlayFrame
+    from ....usecases.cutting.timeline import Timeline, TimelinePlace
 
 
 _CHORDS = 8

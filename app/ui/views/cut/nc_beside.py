@@ -86,5 +86,5 @@ class NcBeside(QWidget):
             return
         count = grouped(len(self._shown.texts[self._file]), 0)
         several = f"{self._shown.names[self._file]} · " if len(self._shown.names) > 1 else ""
-        place = f"line {row + 1} of {count}" if row >= 0 else f"{count} lines"
+        place = f"line {row + 1} of {count}" if row >= 0 else f"{count} lines in all"
         self.where.setText(several + " · ".join(filter(None, (place, words))))

@@ -70,8 +70,8 @@ def write_recording(requested: RecordingRequest, progress: Progress) -> Recordin
 
 def _shots(requested: RecordingRequest, progress: Progress) -> Iterator[FrameChange]:
     """Yield what each picture shows, from the start to the end; what waits takes none."""
-    from ....usecases.playback import ONCE, Playback
-    from ....usecases.timeline import TimelinePlace
+    from ....usecases.cutting.playback import ONCE, Playback
+    from ....usecases.cutting.timeline import TimelinePlace
 
     shown, plan = requested.shown, requested.plan
     cells = LiveCells(Playback(shown.cut, options=ONCE, progress=progress), shown.picture, shown.cut.setup.tools)

@@ -36,6 +36,7 @@ def _wall(heights, i, j, level, weights, width):
                 above += weight
                 across -= weight * c
                 along -= weight * k
+    # the quantile has no end at 0 and 1: beyond 2 % the wall is as good as out of sight
     above = min(max(above, 0.02), 0.98)
     odds = log((1.0 - above) / above)
     far = SIDE_GAIN * width * odds * (PROBIT + PROBIT_CUBIC * odds * odds)
@@ -112,6 +113,7 @@ def relief_map(heights, lowest, highest, around, gains, frame, weights, shape, o
             light = np.uint64(255.5 - 255.0 * shape[4] * (1.0 - exp(-1.3 * shade)))
             square = gx * gx + gy * gy
             k = ONE + (gain - ONE) / (ONE + square / (limit * limit))
+            # x and y of the unit normal of a surface that is k times as steep
             k = k / sqrt(ONE + k * k * square)
             x, y = k * gx, k * gy
             rx, ry = SPREAD * sqrt(abs(x)), SPREAD * sqrt(abs(y))

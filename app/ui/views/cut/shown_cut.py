@@ -22,7 +22,7 @@ from .user_setup import UserSetup
 
 if TYPE_CHECKING:
     from ....gcode.interpreter.program import NcProgram
-    from ....usecases.cut import CutProgram
+    from ....usecases.cutting.cut import CutProgram
     from ..nc.line_marks import LineMarks
     from ..nc.motion_shapes import MotionShapes
 

@@ -9,7 +9,7 @@ from functools import cache, partial
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QImage, QOpenGLContext, QPainter, QPaintEvent, QSurfaceFormat
+from PySide6.QtGui import QImage, QOpenGLContext, QPainter, QPaintEvent, QResizeEvent, QSurfaceFormat
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
@@ -59,6 +59,14 @@ class GlSurface(QOpenGLWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self._paint = paint
         self._scene: CutScene | None = None
+        self._resizing = False
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Take another size; Qt would paint at once, and again when the window is painted."""
+        self._resizing = True
+        super().resizeEvent(event)
+        self._resizing = False
+        self.update()
 
     def initializeGL(self) -> None:  # noqa: N802 (Qt's name)
         """Make the scene; Qt calls this again when the widget moves to another window."""
@@ -74,7 +82,7 @@ class GlSurface(QOpenGLWidget):
 
     def paintGL(self) -> None:  # noqa: N802 (Qt's name)
         """Paint what is due and copy it to the screen."""
-        if self._scene is None:
+        if self._scene is None or self._resizing:
             return
         try:
             target = self._scene.ctx.detect_framebuffer(self.defaultFramebufferObject())

@@ -15,7 +15,7 @@ from ...framework.theme import LIGHT, Theme, mixed, text_font
 from .panel import colour_of
 
 if TYPE_CHECKING:
-    from ....usecases.timeline import Timeline, TimelineColumns
+    from ....usecases.cutting.timeline import Timeline, TimelineColumns
     from .cut_player import TimelineMark
 
 HEIGHT = 58

@@ -17,7 +17,7 @@ from .shown_cut import picture_of
 from .visible_region import RegionQuery, region_to_refine, serves
 
 if TYPE_CHECKING:
-    from ....usecases.cut import CutProgram
+    from ....usecases.cutting.cut import CutProgram
 
 MOST_LOOKS = 5
 """A finer look shows better what is seen, and so may ask for another one; so often at most."""
@@ -45,7 +45,7 @@ def zoomed_cut(followed: ZoomTarget, sight: RegionQuery, colour: CutColourBy, pr
         HitofudeError: it cannot be cut.
         Cancelled: the view has moved on.
     """
-    from ....usecases.cut import CutOptions, cut
+    from ....usecases.cutting.cut import CutOptions, cut
 
     program, cells = followed.program, followed.program.options.cells
     window = region_to_refine(sight, cells)

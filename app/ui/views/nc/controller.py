@@ -29,7 +29,7 @@ from .program_text import program_text
 from .view import NcView
 
 if TYPE_CHECKING:
-    from ....usecases.make import MakeResult
+    from ....usecases.making.make import MakeResult
 
 
 class NcController(Controller):
@@ -309,6 +309,8 @@ class NcController(Controller):
         dialect = source.dialect if source is not None else None
         if guessed is not None or not self.foreign:
             self._view.pane.head.show_dialect(guessed or dialect or Dialect.LINUXCNC, dialect, self.foreign)
+        self._view.foreign = self.foreign
+        self._view.beside.show_program(self._view.shown if self.foreign else None)
         self._view.pane.head.show_files([] if self.foreign else [own.name for own in self._own], self._own_at)
         if self._foreign is not None:
             where = "Not the job's program." if self._foreign.path else "In no file yet; Ctrl+Alt+S saves it."

@@ -13,7 +13,7 @@ from .places import ComparedProgram, drawn_apart
 from .program_reader import ProgramSource, ShownProgram, read_shown
 
 if TYPE_CHECKING:
-    from ....usecases.make import MakeResult
+    from ....usecases.making.make import MakeResult
 
 
 @dataclass(frozen=True, eq=False)

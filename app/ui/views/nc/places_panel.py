@@ -8,10 +8,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, Qt, Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QListWidgetItem,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QVBoxLayout,
+    QWidget,
+)
 
+from ...framework.catalogue import tr
 from ...framework.icons import IconButton
 from ...framework.theme import LIGHT, Theme
 
@@ -33,6 +43,17 @@ class ListedPlace:
     words: str
     tip: str
     weight: PlaceWeight
+
+
+class _SpokenRow(QStyledItemDelegate):
+    """A row in the language that is spoken when it is painted."""
+
+    def initStyleOption(  # noqa: N802 (Qt's name)
+        self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
+        """Put the words of that language in the place of the English ones."""
+        super().initStyleOption(option, index)
+        option.text = tr(option.text)
 
 
 class PlacesPanel(QWidget):
@@ -59,6 +80,7 @@ class PlacesPanel(QWidget):
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.setUniformItemSizes(True)
+        self.list.setItemDelegate(_SpokenRow(self.list))
         self.list.itemActivated.connect(lambda item: self.picked.emit(self.list.row(item)))
         self.list.itemClicked.connect(lambda item: self.picked.emit(self.list.row(item)))
         self.places: tuple[ListedPlace, ...] = ()
@@ -96,7 +118,7 @@ class PlacesPanel(QWidget):
         self.list.clear()
         for place in self.places[:_MOST]:
             item = QListWidgetItem(place.words)
-            item.setToolTip(place.tip)
+            item.setToolTip(tr(place.tip))
             item.setForeground(self._colour(place.weight))
             self.list.addItem(item)
         self.list.setFixedHeight(_ROW_PX * min(max(len(places), 1), _SEEN) + 2)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
@@ -16,7 +15,7 @@ from ....gcode.interpreter.dialect import Dialect
 from ....gcode.interpreter.options import PATIENT, ReadOptions, ToolOffset
 from ....gcode.interpreter.program import NcProgram
 from ....gcode.timing.duration import Duration
-from ...framework.worker import JobOutcome, Worker
+from ...framework.worker import Answer, Worker
 from .line_marks import LineMarks, line_marks
 from .motion_shapes import MotionShapes, ViewSide, shape_motions
 from .painting.motion_layer import MotionLayer
@@ -122,7 +121,7 @@ def read_shown(source: ProgramSource, side: ViewSide, progress: Progress) -> Sho
 
 
 class ProgramReader(QObject):
-    """Runs one job for the NC view at a time; a newer one takes its place, and its answer goes to whoever asked last.
+    """Runs one job for the NC view at a time; a newer one takes its place.
 
     Signals:
         failed(sentence).
@@ -133,28 +132,12 @@ class ProgramReader(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.worker = Worker(self)
-        self._then: Callable[[Any], None] = _nothing
-        self._job = 0
-        self.worker.done.connect(self._on_done)
-        self.worker.failed.connect(self._on_failed)
+        self.worker.failed.connect(lambda outcome: self.failed.emit(outcome.error or ""))
 
-    def start(self, function: Callable[[Progress], object], then: Callable[[Any], None]) -> None:
-        """Run `function(progress)` on another thread, then call `then(answer)` on this one."""
-        self._then = then
-        self._job = self.worker.start(function, 0)
+    def start(self, function: Callable[[Progress], Answer], take: Callable[[Answer], None]) -> None:
+        """Run `function(progress)` on another thread, then call `take(answer)` on this one."""
+        self.worker.start(function, 0, take)
 
     def read(self, source: ProgramSource, side: ViewSide, then: Callable[[ShownProgram], None]) -> None:
         """Read a program, then show it."""
         self.start(lambda progress: read_shown(source, side, progress), then)
-
-    def _on_done(self, answer: JobOutcome) -> None:
-        if answer.job_id == self._job:
-            self._then(answer.value)
-
-    def _on_failed(self, answer: JobOutcome) -> None:
-        if answer.job_id == self._job:
-            self.failed.emit(answer.error or "")
-
-
-def _nothing(_: object) -> None:
-    """Before anything was asked for."""

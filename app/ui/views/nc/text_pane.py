@@ -55,7 +55,7 @@ class TextPane(QWidget):
     def show_text(self, name: str, text: ProgramText) -> None:
         """Show a text that nothing is known of yet."""
         self.shown = None
-        self.head.show_program(name, counted(len(text), "line") if name else "")
+        self.head.show_program(name, counted(len(text), "NC line") if name else "")
         self.text.show_text(text)
         self.finder.set_text(text)
         self.finder.close_quietly()
@@ -66,7 +66,7 @@ class TextPane(QWidget):
         if shown.text.text != self.text.text.text:
             self.show_text(shown.source.name, shown.text)
         self.shown = shown
-        self.head.show_program(shown.source.name, counted(len(shown.text), "line"))
+        self.head.show_program(shown.source.name, counted(len(shown.text), "NC line"))
         self.text.show_looks(shown.looks)
         self._show_problems(shown.program.problems)
 

@@ -17,6 +17,7 @@ from .painting.motion_layer import MotionColourBy
 from .path_view import PathView
 from .places import ComparedProgram, difference_places, differing_rows, rows_of
 from .places_panel import PlacesPanel
+from .program_panel import ProgramPanel
 from .program_reader import ShownProgram
 from .program_text import ProgramText
 from .state_strip import StateStrip
@@ -38,6 +39,7 @@ class NcView(QWidget):
     Attributes:
         pane: the program's text. other: the second one's. side: from where the path is seen.
         compared: what the second program is; None = there is none.
+        beside: tells of a program that is not the job's. foreign: whether the shown one is such.
     """
 
     side_requested = Signal(ViewSide)
@@ -51,6 +53,7 @@ class NcView(QWidget):
         self.pane, self.other, self.state = TextPane(), TextPane(closable=True), StateStrip()
         self.path_head, self.path = PathHead(), PathView()
         self.differences = PlacesPanel("difference", "F7")
+        self.beside, self.foreign = ProgramPanel(), False
         right = QWidget()
         column = QVBoxLayout(right)
         column.setContentsMargins(0, 0, 0, 0)

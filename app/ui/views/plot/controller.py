@@ -83,10 +83,8 @@ class PlotController(Controller):
         self._today = date.today().isoformat
         self.ready: PreparedSheets | None = None
         self.worker = Worker(self, head_start_s=0.0)
-        self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
         self.writer = Worker(self, head_start_s=0.0)
-        self.writer.done.connect(self._on_written)
         self.writer.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
         for worker in (self.worker, self.writer):
             workspace.activity.ended.connect(worker.finish)
@@ -125,11 +123,12 @@ class PlotController(Controller):
             request.layout,
             self._today(),
         )
-        self.worker.start(lambda progress: _made_ready(shown, layout, today, progress), self._document.revision)
+        self.worker.start(
+            lambda progress: _made_ready(shown, layout, today, progress), self._document.revision, self._on_ready
+        )
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        assert isinstance(answer.value, PreparedSheets)
-        self.ready = answer.value
+    def _on_ready(self, ready: PreparedSheets) -> None:
+        self.ready = ready
         self._preview.show_sheets(self.ready.sheets, self.ready.columns)
         self._panel.show_result(self.ready.scale, len(self.ready.sheets), self.ready.size)
 
@@ -154,11 +153,10 @@ class PlotController(Controller):
             return
         sheets, name = self.ready.sheets, self._document.part.name
         self.said.emit(f"Writing {path.name}")
-        self.writer.start(lambda progress: _write(path, sheets, name), 0)
+        self.writer.start(lambda progress: _write(path, sheets, name), 0, self._on_written)
 
-    def _on_written(self, answer: JobOutcome) -> None:
-        assert isinstance(answer.value, WrittenSheets)
-        paths, count = answer.value.paths, answer.value.sheets
+    def _on_written(self, written: WrittenSheets) -> None:
+        paths, count = written.paths, written.sheets
         names = paths[0].name if len(paths) == 1 else f"{paths[0].name} … {paths[-1].name}"
         self._log.note(f"plot {names}", f"{counted(count, 'sheet')} written to {paths[0].parent}")
         self.said.emit(f"{names} {'is' if len(paths) == 1 else 'are'} written.")

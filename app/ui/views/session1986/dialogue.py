@@ -14,7 +14,7 @@ from ....core.progress import Progress
 from ....model.job import Job
 from ....raster.frame import POINTS
 from ...framework.figures import counted
-from ...framework.worker import JobOutcome, Worker
+from ...framework.worker import Answer, JobOutcome, Worker
 from .answers import amount, offered
 from .draft import ShapeDraft
 from .players import ListingPlayer, StillPlayer
@@ -60,7 +60,6 @@ class SessionDialogue(QObject):
         self.begin()
 
     def _connect(self) -> None:
-        self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
         self.worker.progress.connect(lambda fraction, _: self._head(f"{round(100 * fraction)} %"))
         for clock in (self.playing, self.listing):
@@ -177,7 +176,10 @@ class SessionDialogue(QObject):
         if choice == "3":
             self._begin_draft()
             return
-        self._work(lambda progress: shape_of(before if choice == "1" else sample_job(before, progress), progress))
+        self._work(
+            lambda progress: shape_of(before if choice == "1" else sample_job(before, progress), progress),
+            self._take_shape,
+        )
 
     def _begin_draft(self) -> None:
         self.screen.say("LINE X,Y X,Y   CIRCLE X,Y R   ARC X,Y X,Y CENTRE X,Y")
@@ -190,7 +192,7 @@ class SessionDialogue(QObject):
                 raise InputError("? Nothing is drawn. Enter a line, a circle or an arc.")
             job = self.draft.job(self._current())
             self._echo(text)
-            self._work(lambda progress: shape_of(job, progress))
+            self._work(lambda progress: shape_of(job, progress), self._take_shape)
             return
         if text:
             reply = self.draft.run(text)
@@ -203,7 +205,7 @@ class SessionDialogue(QObject):
         contour = self._amount(text, self.given.contour, shape.pitch, shape.widest)
         self.given = given = replace(self.given, contour=contour)
         self._echo(f"{contour:g}")
-        self._work(lambda progress: outline_of(shape, given, progress))
+        self._work(lambda progress: outline_of(shape, given, progress), self._take_outline)
 
     def _take_pocket(self, text: str) -> None:
         shape, before = self._shape(), self.given
@@ -223,7 +225,7 @@ class SessionDialogue(QObject):
         self._echo(f"{overlap:g}")
         if overlap < given.pocket:
             self.screen.say("! Less than the offset: metal may stay between the paths.")
-        self._work(lambda progress: paths_of(shape, given, progress))
+        self._work(lambda progress: paths_of(shape, given, progress), self._take_paths)
 
     def _end(self, text: str) -> None:
         if text:
@@ -238,26 +240,26 @@ class SessionDialogue(QObject):
         assert self.shape is not None, "amounts are asked for when there is a shape"
         return self.shape
 
-    def _work(self, function: Callable[[Progress], object]) -> None:
+    def _work(self, function: Callable[[Progress], Answer], take: Callable[[Answer], None]) -> None:
         """Have something computed; the display stays, and the question is asked again where it fails."""
         self._asked = self.ask
         self.ask, self.screen.prompt, self.screen.typed, self.screen.hair = SessionQuestion.WORK, "", "", None
         self._head("WORKING")
-        self.worker.start(function, 0)
+        self.worker.start(function, 0, take)
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        value = answer.value
-        if isinstance(value, EnteredShape):
-            self.shape = value
-            self._say(value.notes)
-            self._question(SessionQuestion.CONTOUR)
-        elif isinstance(value, ShapeOutline):
-            self.outline = value
-            self._play(value.stills)
-        elif isinstance(value, ShapePaths):
-            self.paths = value
-            self._say(value.notes)
-            self._play(value.stills)
+    def _take_shape(self, shape: EnteredShape) -> None:
+        self.shape = shape
+        self._say(shape.notes)
+        self._question(SessionQuestion.CONTOUR)
+
+    def _take_outline(self, outline: ShapeOutline) -> None:
+        self.outline = outline
+        self._play(outline.stills)
+
+    def _take_paths(self, paths: ShapePaths) -> None:
+        self.paths = paths
+        self._say(paths.notes)
+        self._play(paths.stills)
 
     def _on_failed(self, answer: JobOutcome) -> None:
         """Ask again for what was wrong: of the pocket tool's amounts it can only be the offset."""

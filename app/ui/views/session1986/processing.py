@@ -18,15 +18,15 @@ from ....model.finding import Finding
 from ....model.job import Job
 from ....raster.frame import POINTS, BitmapFrame
 from ....raster.steps import StepState
-from ....usecases.bitmap_options import MARGIN_PX, BitmapSize
+from ....usecases.pixels.options import MARGIN_PX, BitmapSize
 from .answers import EnteredOffsets, job_of
 from .screen import BOTTOM, TOP
 from .stills import ScreenStill, still_of, stills_of
 
 if TYPE_CHECKING:
     from ....raster.trace import PixelChain
-    from ....usecases.bitmap_part import BitmapPart
-    from ....usecases.bitmap_way import OperationPaths
+    from ....usecases.pixels.part import BitmapPart
+    from ....usecases.pixels.way import OperationPaths
 
 _SAID = 3
 """Findings that are told in the dialogue."""
@@ -110,7 +110,7 @@ def shape_of(job: Job, progress: Progress = NO_PROGRESS) -> EnteredShape:
     Raises:
         HitofudeError: nothing in it is closed.
     """
-    from ....usecases.bitmap_job import drawn_job
+    from ....usecases.making.bitmap_job import drawn_job
 
     progress.step(0.2, "Drawing")
     drawn = drawn_job(job, ScreenSize())
@@ -125,7 +125,7 @@ def outline_of(shape: EnteredShape, given: EnteredOffsets, progress: Progress = 
         HitofudeError: the tool does not fit into the shape.
     """
     from ....exhibits.stages import stages
-    from ....usecases.bitmap_way import operation_paths
+    from ....usecases.pixels.way import operation_paths
 
     job = job_of(shape.job, given)
     paths = operation_paths(job, 1, shape.part, progress.part(0.0, 0.8))
@@ -146,8 +146,8 @@ def paths_of(shape: EnteredShape, given: EnteredOffsets, progress: Progress = NO
     """
     from ....exhibits.stages import stages
     from ....gcode.posts.posts import load_post
-    from ....usecases.bitmap_way import compute_on_bitmap
-    from ....usecases.written import write_and_check
+    from ....usecases.making.written import write_and_check
+    from ....usecases.pixels.way import compute_on_bitmap
 
     job = job_of(shape.job, given)
     made = compute_on_bitmap(job, shape.part, progress.part(0.0, 0.6))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from ....drafting.document import DocumentChange
-from ....usecases.bitmap_options import BitmapSize
+from ....usecases.pixels.options import BitmapSize
 from ...framework.controller import Controller
 from ...framework.missing import NOTHING, MissingHint
 from ...framework.worker import JobOutcome, Worker
@@ -47,7 +47,6 @@ class StagesController(Controller):
 
     def _connect(self) -> None:
         worker = self.worker
-        worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
         worker.cancelled.connect(lambda _: self._on_cancelled())
         worker.busy_changed.connect(lambda _: self.changed.emit())
@@ -107,7 +106,7 @@ class StagesController(Controller):
         ):
             return
         self._asked, self.error, before = request, "", self.reel
-        self.worker.start(lambda progress: film_set_of(request, before, progress), self._document.revision)
+        self.worker.start(lambda progress: film_set_of(request, before, progress), self._document.revision, self._show)
         self.changed.emit()
 
     def _choose_rules(self, rules: FillRules) -> None:
@@ -134,15 +133,10 @@ class StagesController(Controller):
         self._view.show_film(*((reel.film, reel.part.frame) if reel is not None else (None, None)))
         self.changed.emit()
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        if isinstance(answer.value, FilmSet):
-            self._show(answer.value)
-
     def _on_failed(self, answer: JobOutcome) -> None:
-        """Show no stages but the reason: those of another job or size would mislead."""
+        """Show no stages but the reason, in their place: those of another job or size would mislead."""
         self.error = answer.error or ""
         self._show(None)
-        self.failed.emit(self.error)
 
     def _on_cancelled(self) -> None:
         """Show no stages rather than those of an earlier job."""

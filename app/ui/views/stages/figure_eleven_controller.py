@@ -39,7 +39,6 @@ class FigureElevenController(Controller):
         self._panel, self._form, self._own, self._log = panel, panel.figure_eleven, own, workspace.log
         self.worker = Worker(self)
         workspace.activity.follow(self.worker)
-        self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
         self.worker.busy_changed.connect(self._form.show_busy)
         self._form.requested.connect(self.measure_or_cancel)
@@ -56,14 +55,11 @@ class FigureElevenController(Controller):
             self._form.show_fault("No program is shown. Open one in NC, or measure the sample.")
             return
         cells = int(self._form.cells.value)  # type: ignore[call-overload]  # the choices are numbers of cells
-        self.worker.start(partial(_measured, source, cells), 0)
+        self.worker.start(partial(_measured, source, cells), 0, self._on_measured)
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        from ....exhibits.figure_eleven import FigureEleven
-
-        if isinstance(answer.value, FigureEleven):
-            self._form.show_figure(answer.value)
-            self._log.note("figure11", answer.value.text())
+    def _on_measured(self, figure: FigureEleven) -> None:
+        self._form.show_figure(figure)
+        self._log.note("figure11", figure.text())
 
     def _on_failed(self, answer: JobOutcome) -> None:
         self._form.show_fault(answer.error or "")

@@ -9,12 +9,12 @@ from ....core.errors import ParameterError
 from ....core.progress import NO_PROGRESS, Progress
 from ....model.job import Job
 from ....raster.frame import STAGES_BYTES
-from ....usecases.bitmap_options import BitmapSize
+from ....usecases.pixels.options import BitmapSize
 from .film import Film, film_of
 
 if TYPE_CHECKING:
-    from ....usecases.bitmap_part import BitmapPart
-    from ....usecases.bitmap_way import BitmapProgram
+    from ....usecases.pixels.part import BitmapPart
+    from ....usecases.pixels.way import BitmapProgram
 
 MOST_PX = 2048 * 2048
 """Pixels of the largest bitmap that is shown stage by stage."""
@@ -71,7 +71,7 @@ def film_set_of(request: FilmRequest, before: FilmSet | None = None, progress: P
         Cancelled: by progress.
     """
     from ....exhibits.stages import Variant, stages
-    from ....usecases.bitmap_way import compute_on_bitmap  # imports the engines: never on the window's thread
+    from ....usecases.pixels.way import compute_on_bitmap  # imports the engines: never on the window's thread
 
     if before is not None and request.same_paths(before.request):
         if request.published in before.films:
@@ -90,7 +90,7 @@ def film_set_of(request: FilmRequest, before: FilmSet | None = None, progress: P
 
 
 def _drawn(request: FilmRequest) -> BitmapPart:
-    from ....usecases.bitmap_job import drawn_job
+    from ....usecases.making.bitmap_job import drawn_job
 
     return drawn_job(request.job, request.size).part
 

@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QTimer, Signal
 
 from ....core.errors import HitofudeError
+from ....core.progress import Progress
 from ....drafting.document import DocumentChange
 from ....model.part import Part
 from ....raster.codes import PixelCode
-from ...framework.controller import Controller
+from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import counted
 from ...framework.theme import Theme
-from ...framework.worker import JobOutcome, Worker
+from ...framework.verdict import VerdictLevel, VerdictSummary
+from ...framework.worker import Answer, JobOutcome, Worker
 from ...framework.workspace import Workspace
 from . import code_colours
 from .import_panel import ImportPanel, PictureAspect
@@ -26,7 +28,7 @@ from .pixel_view import PixelMark
 from .view import StagesView
 
 if TYPE_CHECKING:
-    from ....usecases.bitmap_job import BitmapJob
+    from ....usecases.making.bitmap_job import BitmapJob
 
 _REST_MS = 60
 _WORDS = {PixelCode.EMPTY: "paper", PixelCode.CONTOUR: "lines of ink", PixelCode.INSIDE: "to be machined"}
@@ -58,7 +60,6 @@ class ImportController(Controller):
 
     def _connect(self) -> None:
         panel, worker = self._panel, self.worker
-        worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
         self._workspace.activity.follow(worker)
         self._rest.timeout.connect(self._read)
@@ -71,9 +72,17 @@ class ImportController(Controller):
         self._document.subscribe(self._on_change)
         self._view.theme_changed.connect(lambda _: self._show())
 
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """The picture that is looked at; None while there is none."""
+        if self.preview is None:
+            return None
+        verdict = VerdictSummary(VerdictLevel.NONE, "A picture, not taken yet")
+        return ShownDocument(self.preview.reading.path.name, False, verdict)
+
     def open(self, path: Path) -> None:
         """Read a picture and show it beside its fields."""
-        self._start(lambda progress: open_picture(path, progress))
+        self.take_from(lambda progress: open_picture(path, progress), self.show_preview)
 
     def leave(self) -> None:
         """Show the stages again."""
@@ -97,8 +106,16 @@ class ImportController(Controller):
                 "Undo the change to have them back.",
             )
 
-    def _start(self, function: Callable[..., object]) -> None:
-        self.worker.start(function, self._document.revision)
+    def take_from(self, function: Callable[[Progress], Answer], take: Callable[[Answer], None]) -> None:
+        """Run a function beside the window and take what it returns; what cannot be taken is said in the panel."""
+
+        def take_or_say(made: Answer) -> None:
+            try:
+                take(made)
+            except HitofudeError as error:
+                self._say(str(error))
+
+        self.worker.start(function, self._document.revision, take_or_say)
 
     def _want(self, reading: PictureSettings) -> None:
         """Read it otherwise, when the field rests for a moment."""
@@ -107,7 +124,7 @@ class ImportController(Controller):
     def _read(self) -> None:
         reading = self._panel.reading
         if reading is not None:
-            self._start(lambda progress: preview_of(reading, progress))
+            self.take_from(lambda progress: preview_of(reading, progress), self.show_preview)
 
     def _take(self) -> None:
         """Make the picture the part; what is still to be read is read first."""
@@ -116,29 +133,23 @@ class ImportController(Controller):
             return
         self._rest.stop()
         stale = preview.reading is not reading
-        self._start(lambda progress: part_of(preview_of(reading, progress) if stale else preview, before, progress))
+        self.take_from(
+            lambda progress: part_of(preview_of(reading, progress) if stale else preview, before, progress),
+            lambda ready: self._load(ready, preview),
+        )
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        try:
-            self._accept(answer)
-        except HitofudeError as error:
-            self._say(str(error))
-
-    def _accept(self, answer: JobOutcome) -> None:
-        """Show a preview, or load the part."""
-        if isinstance(answer.value, PicturePreview):
-            fresh = self.preview is None or answer.value.reading.path != self.preview.reading.path
-            self.preview, self._chosen = answer.value, -1
-            if fresh or self._panel.reading is None:
-                self._see = PictureAspect.READING
-                self._panel.begin(answer.value)
-                self._workspace.notice.dismiss()
-            else:
-                self._panel.show_preview(answer.value)
-            self._show()
-            self.shown.emit()
-        elif answer.value is not None and self.preview is not None:
-            self._load(answer.value, self.preview)  # type: ignore[arg-type]  # the job of `part_of`
+    def show_preview(self, preview: PicturePreview) -> None:
+        """Show what was read, with its fields when it is another picture."""
+        fresh = self.preview is None or preview.reading.path != self.preview.reading.path
+        self.preview, self._chosen = preview, -1
+        if fresh or self._panel.reading is None:
+            self._see = PictureAspect.READING
+            self._panel.begin(preview)
+            self._workspace.notice.dismiss()
+        else:
+            self._panel.show_preview(preview)
+        self._show()
+        self.shown.emit()
 
     def _load(self, ready: BitmapJob, preview: PicturePreview) -> None:
         path, computation = preview.reading.path, self._workspace.computation

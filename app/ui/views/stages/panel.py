@@ -10,7 +10,7 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QScrollArea, QVBoxLayout, QWidget
 
-from ....usecases.bitmap_options import BitmapSize
+from ....usecases.pixels.options import BitmapSize
 from ...framework.fields import ChoiceField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted, grouped
 from ...framework.labels import muted

@@ -23,7 +23,7 @@ from ....raster.picture_file import MM_PER_INCH
 from ....raster.picture_options import InkMeaning, PictureOptions
 
 if TYPE_CHECKING:
-    from ....usecases.bitmap_job import BitmapJob
+    from ....usecases.making.bitmap_job import BitmapJob
 
 ASSUMED_DPI = 300.0
 """Pixels an inch of a picture that does not name its size, until somebody says it."""
@@ -148,8 +148,8 @@ def part_of(preview: PicturePreview, before: Job, progress: Progress = NO_PROGRE
         HitofudeError: nothing in the picture is to be machined.
         Cancelled: by progress.
     """
-    from ....usecases.bitmap_job import picture_job  # imports the engines: never on the window's thread
-    from ....usecases.options import MakeOptions
+    from ....usecases.job.options import MakeOptions
+    from ....usecases.making.bitmap_job import picture_job  # imports the engines: never on the window's thread
 
     reading = preview.reading
     progress.step(0.1, "Following the edges of the pixels")

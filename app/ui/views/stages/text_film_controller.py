@@ -54,7 +54,6 @@ class TextFilmController(Controller):
         self._asked: TextFilmRequest | None = None
         self._seen = False
         workspace.activity.follow(self.worker)
-        self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
         self.worker.cancelled.connect(lambda _: self.changed.emit())
         self.worker.busy_changed.connect(lambda _: self.changed.emit())
@@ -114,7 +113,7 @@ class TextFilmController(Controller):
             return
         self._asked, self.error = asked, ""
         self._show(None)
-        self.worker.start(lambda progress: _made(letter, source, progress), 0)
+        self.worker.start(lambda progress: _made(letter, source, progress), 0, self._on_made)
         self.changed.emit()
 
     def _show(self, film: TextFilm | None) -> None:
@@ -122,21 +121,20 @@ class TextFilmController(Controller):
         self._panel.show_film(film)
         self.changed.emit()
 
-    def _on_done(self, answer: JobOutcome) -> None:
-        from ....exhibits.films.step import TextFilm
+    def _on_made(self, film: TextFilm) -> None:
+        """Show a film, unless another text was chosen meanwhile."""
+        if film.text.value == self._view.text:
+            self._show(film)
 
-        if isinstance(answer.value, TextFilm) and answer.value.text.value == self._view.text:
-            self._show(answer.value)
-        elif isinstance(answer.value, WrittenFilm):
-            self.said.emit(f"{counted(answer.value.steps, 'step')} saved in {answer.value.folder}")
+    def _on_written(self, written: WrittenFilm) -> None:
+        self.said.emit(f"{counted(written.steps, 'step')} saved in {written.folder}")
 
     def _on_failed(self, answer: JobOutcome) -> None:
         if self._view.films.film is not None:  # it is there, but could not be written
             self.failed.emit(answer.error or "")
             return
-        self.error = answer.error or ""
+        self.error = answer.error or ""  # said in the place of the film
         self._show(None)
-        self.failed.emit(self.error)
 
     def choose_folder(self) -> None:
         """Ask where all steps go, and write them."""
@@ -152,7 +150,7 @@ class TextFilmController(Controller):
         """Have pictures, tables and figures of all steps written into a folder: whole or not at all."""
         film = self._view.films.film
         if film is not None and not self.worker.busy:
-            self.worker.start(lambda progress: _written(film, folder, progress), 0)
+            self.worker.start(lambda progress: _written(film, folder, progress), 0, self._on_written)
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from ....core.errors import HitofudeError, InputError
 from ....core.resources import resource
 from ....formats.scene.edit import line_of, with_table
 from ....model.scene import Scene
-from ....usecases.solid_files import SOLIDS, STEPS
+from ....usecases.scene.solid_files import SOLIDS, STEPS
 from ....usecases.step_extra import fetch_step_reader, step_files_readable
 from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import counted
@@ -32,7 +32,7 @@ from .view import SurfacesView
 
 if TYPE_CHECKING:
     from ....gcode.interpreter.dialect import Dialect
-    from ....usecases.solid_scene import OpenedSolid
+    from ....usecases.scene.solid_scene import OpenedSolid
     from ....verify.parts import Part
 
 SAMPLES = ("compound", "spheres", "torus", "die")
@@ -142,7 +142,7 @@ class SceneController(Controller):
 
     def _read_solid(self, path: Path) -> None:
         from ....formats.scene.toml import sources_of
-        from ....usecases.solid_scene import open_solid
+        from ....usecases.scene.solid_scene import open_solid
 
         whole = path.absolute()
         sources = sources_of(lambda name: read_file(Path(name)))
@@ -150,7 +150,7 @@ class SceneController(Controller):
 
     def _on_solid(self, solid: OpenedSolid) -> None:
         """Show a solid, and ask about its units where its file does not tell."""
-        from ....usecases.solid_scene import INCH
+        from ....usecases.scene.solid_scene import INCH
 
         stem = Path(solid.name).stem
         self._preferences.add_recent(Path(solid.path))
@@ -164,6 +164,7 @@ class SceneController(Controller):
                 ],
                 stays=True,
             )
+            self._workspace.notice.show_with(self._view)
 
     def new(self) -> None:
         """Begin a scene, after asking when changes to another one would be lost."""
@@ -252,7 +253,7 @@ class SceneController(Controller):
 
     def add_from_curves(self, kind: str) -> None:
         """Add a surface made of the curves that are selected in the drawing, in the order in which they were drawn."""
-        from ....usecases.drawn_sections import drawn_sections
+        from ....usecases.scene.drawn_sections import drawn_sections
 
         document = self._workspace.document
         wanted = {"loft": 2, "ruled": 2, "revolved": 1, "swept": 2}[kind]
@@ -364,7 +365,7 @@ class SceneController(Controller):
         self.changed.emit()
 
     def _on_computed(self, shown: ShownScene, again: bool) -> None:
-        from ....usecases.surface_picture import boundary_points
+        from ....usecases.scene.picture import boundary_points
 
         points = boundary_points(shown.computed)
         self._view.show_scene(shown, points, again)
@@ -390,7 +391,7 @@ class SceneController(Controller):
 
         def part() -> Part:
             from ....formats.scene.toml import sources_of
-            from ....usecases.scene_part import scene_part
+            from ....usecases.scene.part import scene_part
 
             return scene_part(
                 computed.scene, sources_of(lambda name: read_file(shown.path.parent / name)), None, None, None

@@ -23,7 +23,7 @@ from .shown_scene import ShownScene
 from .view import SurfacesView, ViewDirection
 
 if TYPE_CHECKING:
-    from ....usecases.surface_nc import WrittenScene
+    from ....usecases.scene_program.nc import WrittenScene
 
 FORMATS: Mapping[str, str] = {
     "NC program (*.ngc)": ".ngc",
@@ -112,11 +112,11 @@ class SceneExportController(Controller):
 def _export(request: _ExportRequest, path: Path, progress: Progress) -> _ExportedScene:
     """Write one file, or one a tool or sheet."""
     from ....formats.plot.surface_plot import VIEWS
+    from ....usecases.scene.plot import PlotScene, PlottedPart
+    from ....usecases.scene.points import scene_points_csv
+    from ....usecases.scene_program.nc import write_scene_nc
+    from ....usecases.scene_program.report import surface_report
     from ....usecases.surface_files import plot_files, program_files
-    from ....usecases.surface_nc import write_scene_nc
-    from ....usecases.surface_plot import PlotScene, PlottedPart
-    from ....usecases.surface_points import scene_points_csv
-    from ....usecases.surface_report import surface_report
 
     computed, suffix, remark = request.shown.computed, path.suffix.lower(), ""
     if suffix in _PLOTS:

@@ -7,7 +7,7 @@ from typing import Any
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, Signal
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QVBoxLayout, QWidget
 
-from ....usecases.scene_lines import BoundaryPoint
+from ....usecases.scene.lines import BoundaryPoint
 from ...framework.figures import counted
 from ...framework.labels import muted
 from ...framework.theme import Theme

@@ -24,7 +24,7 @@ from .scene_document import UNTITLED, SceneDocument
 from .shown_scene import ShownScene, shown_scene
 
 if TYPE_CHECKING:
-    from ....usecases.surface_nc import WrittenScene
+    from ....usecases.scene_program.nc import WrittenScene
 
 REST_MS = 250
 """So long nothing changes before a text is read and computed."""
@@ -229,7 +229,7 @@ def prove(shown: ShownScene, progress: Progress) -> ProvenScene:
     Raises:
         HitofudeError: the control cannot do what is asked. Cancelled: the job was asked to stop.
     """
-    from ....usecases.surface_nc import write_scene_nc
+    from ....usecases.scene_program.nc import write_scene_nc
 
     written = write_scene_nc(shown.computed, progress)
     return ProvenScene(written, written.time_s)

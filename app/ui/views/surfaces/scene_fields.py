@@ -41,7 +41,7 @@ class SceneField:
     Attributes:
         kind: how it is asked for. name: before the value. key: where it stands within its table.
         value: a number (None: automatic), a tuple of numbers, a text, a flag, or one of `choices`.
-        unit, low, high, decimals, tip, auto: of numbers; see `fields.Spec`. choices: value and text of each.
+        unit, low, high, decimals, tip, auto: of numbers; see `fields.NumberSpec`. choices: value and text of each.
         edits: what other values, by key, a new value makes; None: that of `key`.
     """
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....model.scene import LineType
-from ....usecases.scene_lines import LineRole, SceneLines
+from ....usecases.scene.lines import LineRole, SceneLines
 from ..cut.camera import Camera
 from .shown_scene import ScenePicture
 

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 from ....core.atomic import read_whole
 from ....core.errors import Cancelled, HitofudeError, InputError
 from ....core.progress import NO_PROGRESS, Progress
-from ....usecases.scene_lines import LineRole, SceneLines, scene_lines
+from ....usecases.scene.lines import LineRole, SceneLines, scene_lines
 
 if TYPE_CHECKING:
     from ....model.scene import LineType, Scene
     from ....model.scene_curves import SceneFiles
-    from ....usecases.surface import ComputedFamily, ComputedScene
+    from ....usecases.scene.compute import ComputedFamily, ComputedScene
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -86,8 +86,8 @@ class ShownScene:
 
     def section(self, family: ComputedFamily, plane: int) -> ScenePicture:
         """Return what lies on a plane: x is mm along it, z the height, y 0."""
-        from ....usecases.surface_picture import outline
-        from ....usecases.surface_plot import boundary_name
+        from ....usecases.scene.picture import outline
+        from ....usecases.scene.plot import boundary_name
 
         def flat(points: Floats) -> Floats:
             along = (points[:, :2] - family.planes.origin) @ np.array(family.planes.along)
@@ -149,9 +149,9 @@ def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS, passe
     from ....formats.plot.surface_plot import colour_of, line_of
     from ....formats.scene.toml import read_scene, sources_of
     from ....model.scene import LineType
-    from ....usecases.surface import compute
-    from ....usecases.surface_picture import looked_at, move_lines
-    from ....usecases.surface_plot import PlotScene, PlottedPart, by_surface
+    from ....usecases.scene.compute import compute
+    from ....usecases.scene.picture import looked_at, move_lines
+    from ....usecases.scene.plot import PlotScene, PlottedPart, by_surface
 
     progress.step(0.0, f"Computing {path.name}")
     scene = read_scene(path.name, data)
@@ -185,7 +185,7 @@ def _surfaces_of(scene: Scene, sources: SceneFiles, progress: Progress) -> Compu
         HitofudeError: none can be made. Cancelled: the job was asked to stop.
     """
     from ....surfaces.patches.build import build_surface
-    from ....usecases.surface import compute
+    from ....usecases.scene.compute import compute
 
     try:
         return compute(scene, sources, progress.part(0.0, 0.5))

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QMenu, QSlider, QVBoxLayout, QWidget
 
 from ....model.finding import Finding
-from ....usecases.scene_lines import BoundaryPoint
+from ....usecases.scene.lines import BoundaryPoint
 from ...framework.dropping import drop
 from ...framework.fields import ChoiceField
 from ...framework.figures import counted

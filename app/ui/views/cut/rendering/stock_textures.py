@@ -96,8 +96,7 @@ class StockTextures:
         self._walls = self._filled(self._walls, picture.relief[..., 4:])
         for texture in (self._heights, self._blocks, self._walls):
             texture.filter = (ctx.NEAREST, ctx.NEAREST)
-        self._relief.build_mipmaps()
-        self._highest, self._averaged = picture.highest, True
+        self._highest, self._averaged = picture.highest, False  # averaged when it rests: that takes a while
 
     def patch(self, patch: CellPatch) -> None:
         """Take other heights, relief and colours over for a rectangle of cells; after `fill` and `colour`."""
@@ -137,7 +136,9 @@ class StockTextures:
         for name, around in (("hole", box.hole), ("stock_box", box.sides)):
             self._program[name] = picture_cells(picture, around)
         self._program["finer"] = int(plain is not None)
-        self._set_relief_filter(frame, picture, moving=at_once)
+        if self._set_relief_filter(frame, picture, moving=at_once):
+            self._ctx.finish()
+            yield None
         low, high = self._rows_in_sight(frame, picture)
         parts = (
             plain.uneven_tiles(low // FINE, -(-high // FINE)) if plain is not None else _strips(low, high, frame.rays)
@@ -180,12 +181,15 @@ class StockTextures:
         first, last = np.clip([np.floor(rows[0]) - 1, np.ceil(rows[1]) + 1], 0, frame.rays[1]).astype(int)
         return int(first), int(last)
 
-    def _set_relief_filter(self, frame: CutFrame, picture: CutPicture, moving: bool) -> None:
+    def _set_relief_filter(self, frame: CutFrame, picture: CutPicture, moving: bool) -> bool:
+        """Choose how the relief is seen from afar; return whether it had to be averaged for that."""
         ctx, sharp = self._ctx, picture.pitch * frame.camera.scale > _SHARP
-        if not (sharp or self._averaged or moving):
+        due = not (sharp or self._averaged or moving)
+        if due:
             self._relief.build_mipmaps()
             self._averaged = True
         self._relief.filter = (ctx.LINEAR if sharp or not self._averaged else ctx.LINEAR_MIPMAP_NEAREST, ctx.LINEAR)
+        return due
 
     def _set_uniforms(self, frame: CutFrame, picture: CutPicture, reach: float) -> None:
         look, camera, program = frame.look, frame.camera, self._program

@@ -1,0 +1,1 @@
+"""What stands round the views: menus and keys, bars, command line, badge."""

@@ -1,0 +1,71 @@
+"""Which key does what: the keys of the table, and what the user made of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from PySide6.QtGui import QKeySequence
+
+from ...framework.preferences import Preferences
+from .actions import Actions
+
+
+class Shortcuts:
+    """The window's keys; what differs from the table is remembered."""
+
+    def __init__(self, actions: Actions, preferences: Preferences) -> None:
+        self._actions, self._preferences = actions, preferences
+        for name, key in _pairs(preferences.settings.shortcuts).items():
+            if name in self._actions.specs:
+                self._actions.set_key(name, key)
+
+    def owner(self, key: str, but: str = "") -> str | None:
+        """Return the name of the action that has a key, other than `but`."""
+        wanted = QKeySequence(key)
+        return next(
+            (
+                name
+                for name, action in self._actions.by_name.items()
+                if name != but and not wanted.isEmpty() and action.shortcut() == wanted
+            ),
+            None,
+        )
+
+    def change(self, name: str, key: str) -> None:
+        """Give an action a key, "" = none; whoever had it loses it."""
+        other = self.owner(key, but=name)
+        if other is not None:
+            self._actions.set_key(other, "")
+        self._actions.set_key(name, key)
+        self._keep()
+
+    def reset(self, name: str) -> None:
+        """Give an action its key of the table again."""
+        self.change(name, self._actions.specs[name].key)
+
+    def reset_all(self) -> None:
+        """Give every action its key of the table again."""
+        for name, spec in self._actions.specs.items():
+            self._actions.set_key(name, spec.key)
+        self._keep()
+
+    def is_own(self, name: str) -> bool:
+        """Whether the user chose this key."""
+        return name in changed_keys(self._actions)
+
+    def _keep(self) -> None:
+        pairs = tuple(f"{name}={key}" for name, key in changed_keys(self._actions).items())
+        self._preferences.keep(replace(self._preferences.settings, shortcuts=pairs))
+
+
+def changed_keys(actions: Actions) -> dict[str, str]:
+    """Return the keys that are not those of the table, by action."""
+    return {
+        name: actions.key(name)
+        for name, spec in actions.specs.items()
+        if QKeySequence(spec.key) != actions[name].shortcut()
+    }
+
+
+def _pairs(kept: tuple[str, ...]) -> dict[str, str]:
+    return {name: key for name, sign, key in (pair.partition("=") for pair in kept) if sign}

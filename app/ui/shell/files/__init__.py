@@ -1,0 +1,1 @@
+"""Reading and writing: drawings, projects, NC programs, sheets, pictures beneath the drawing."""

@@ -1,0 +1,40 @@
+"""The user's own file that a film of one of the texts is made of: what NC or Surfaces shows."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ....core.errors import InputError
+from ...views.nc.controller import NcController
+from ...views.surfaces.scene_document import SceneDocument
+
+if TYPE_CHECKING:
+    from ....exhibits.films.making import FilmSource
+
+
+class OwnFilmFiles:
+    """Finds the file that is open."""
+
+    def __init__(self, nc: NcController, scene: SceneDocument) -> None:
+        self._nc, self._scene = nc, scene
+
+    def of(self, letter: str) -> FilmSource | None:
+        """Return the file that is open for a text: the scene for C, else the program; None where there is none."""
+        from ....exhibits.films.making import FilmSource
+
+        if letter == "C":
+            scene = self._scene
+            folder = scene.path.parent if scene.path is not None else Path()
+            return (
+                FilmSource(scene.name, scene.text.encode(), lambda name: _read(folder / name)) if scene.open else None
+            )
+        shown = self._nc.shown
+        return FilmSource(shown.source.name, shown.source.bytes(), lambda name: _read(Path(name))) if shown else None
+
+
+def _read(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise InputError(f"Cannot read {path}: {error.strerror or error}; choose another file.") from error

@@ -1,0 +1,1 @@
+"""From a drawing to an NC program that was written, read back, cut and judged."""

@@ -1,0 +1,1 @@
+"""A computed scene as an NC program: written, smoothed, cut out of its stock, and proven against the surfaces."""

@@ -1,0 +1,48 @@
+"""Programs in languages that are not read say which, beside the first word that is not understood."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from app.gcode.interpreter.foreign_languages import foreign_language
+from app.gcode.interpreter.program import Severity
+from app.gcode.interpreter.reader import read_program
+from tests.conftest import ROOT
+
+
+@pytest.mark.parametrize(
+    ("text", "named", "line"),
+    [
+        ("0  BEGIN PGM PART MM\n1  BLK FORM 0.1 Z X+0 Y+0 Z-20\n2 L X+10 R0 FMAX M3\n", "Heidenhain", 1),
+        ("; Impeller\nG94 G710\nG17\nG1 X10 F300\n", "Siemens", 2),
+        ("G17 G90\nG2 X60 Y10 CR=10\n", "Siemens", 2),
+        ("G0 X0\nG1 X=IC(5) F10\n", "Siemens", 2),
+        ("G0 X1\nR1=5\n", "Siemens", 2),
+        ("$HOLES.MIN%\nG15 H1\nM2\n", "Okuma", 1),
+        ("TOOL PATH/FACE,TOOL,MILL\nGOTO/0.0,0.0,10.0\n", "APT", 2),
+        ("IN;SP1;PU0,0;PD100,0;\n", "HP-GL", 1),
+        ("G28\nM82\nG1 X5 E3.2 F1200\n", "3D printer", 2),
+        ("G21\nG1 X5 Y5 Z0.2 E3.2 F1200\n", "3D printer", 2),
+    ],
+)
+def test_the_language_is_named_at_the_line_that_tells(text: str, named: str, line: int) -> None:
+    program = read_program(text.encode())
+    told = [problem for problem in program.problems if "looks like" in problem.text]
+    assert any(problem.severity is Severity.ERROR for problem in program.problems)
+    assert [(named in problem.text, problem.line) for problem in told] == [(True, line)]
+
+
+def test_nothing_is_named_where_a_program_is_only_wrong() -> None:
+    program = read_program(b"G21\nG1 X1 F100 Q\n")
+    assert not any("looks like" in problem.text for problem in program.problems)
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "tests" / "gcode" / "golden").iterdir()), ids=lambda path: path.name)
+def test_programs_of_our_own_are_in_no_foreign_language(path: Path) -> None:
+    assert foreign_language(path.read_bytes()) is None
+
+
+def test_programs_of_other_makers_are_in_no_foreign_language(data: Path) -> None:
+    assert [path.name for path in (data / "nc").iterdir() if foreign_language(path.read_bytes())] == []

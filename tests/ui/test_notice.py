@@ -1,0 +1,47 @@
+"""The bar over the view: what speaks of one view is seen there alone."""
+
+import pytest
+from PySide6.QtWidgets import QStackedWidget, QWidget
+
+from app.ui.framework.notice import Notice
+
+
+@pytest.fixture
+def views(qtbot) -> QStackedWidget:
+    stack = QStackedWidget()
+    qtbot.addWidget(stack)
+    for _ in range(2):
+        stack.addWidget(QWidget())
+    stack.show()
+    return stack
+
+
+@pytest.fixture
+def notice(qtbot) -> Notice:
+    made = Notice()
+    qtbot.addWidget(made)
+    return made
+
+
+def test_a_sentence_about_a_view_comes_and_goes_with_it(views, notice):
+    notice.ask("It has no units.", [("Inches", lambda: None)], stays=True)
+    notice.show_with(views.widget(1))
+    assert notice.isHidden(), "its view is not at the front yet"
+    for front in (1, 0, 1):
+        views.setCurrentIndex(front)
+        assert notice.isHidden() == (front == 0)
+
+
+def test_what_was_answered_or_followed_by_another_does_not_come_back(views, notice):
+    notice.ask("It has no units.", [("Inches", lambda: None)])
+    notice.show_with(views.widget(0))
+    notice.buttons[0].click()
+    for front in (1, 0):
+        views.setCurrentIndex(front)
+        assert notice.isHidden()
+    notice.ask("It has no units.")
+    notice.show_with(views.widget(0))
+    notice.ask("plate.nc is written.")
+    for front in (1, 0):
+        views.setCurrentIndex(front)
+        assert not notice.isHidden() and notice.sentence == "plate.nc is written."
