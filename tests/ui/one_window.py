@@ -234,6 +234,8 @@ def _close_what_stands_over(wiring: WindowController) -> None:
     wiring.tour.number = 0
     wiring.language.help.hide()
     wiring.language.help._laid_out.clear()
+    for row in wiring.window_.views.legend.rows.values():
+        row.setChecked(True)
     wiring.palette.hide()
     wiring.palette._entries.clear()
     wiring.palette.edit.clear()
@@ -287,10 +289,11 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
     cut, curves, reading = views.cut, window.curves_panel, window.drawing_page.reading
     form = window.panel.operation_form
     tool = window.panel.tool_form
-    of_tool = [each for form in (tool, tool.hold) for each in vars(form).values() if isinstance(each, NumberField)]
+    forms = (tool, tool.hold, window.panel.job_form)
+    numbers = [each for of_form in forms for each in vars(of_form).values() if isinstance(each, NumberField)]
     picture, scene, surfaces = window.import_panel, window.scene_side, views.surfaces
     return (
-        *(tool, tool.hold, tool.hold.picture, *of_tool),
+        *(*forms, tool.hold.picture, window.panel.job_form.copies_picture, *numbers),
         *(
             wiring.inlay_controller,
             views.cut.profile,
@@ -320,7 +323,8 @@ def _empty_what_is_hidden(wiring: WindowController) -> None:
     window = wiring.window_
     window.canvas.set_findings(())
     wiring.cut_controller.player.speeds = dict(USUAL)
-    for choices in (window.panel.tool_form.proposal.stock, window.panel.tool_form.hold.holder):
+    tool, job = window.panel.tool_form, window.panel.job_form
+    for choices in (tool.proposal.stock, tool.hold.holder, job.clamps):
         choices.set_choices([])
     window.drawing_page.reading.units.set_choices([])
     window.drawing_page.reading.to_zero.show_value(False)
@@ -333,9 +337,9 @@ def _empty_what_is_hidden(wiring: WindowController) -> None:
     window.views.curves.comb.setChecked(False)
     window.curves_panel.figures.clear()
     window.views.curves.deviation._cursor = None
-    for field in wiring.window_.panel.operation_form.fields.values():
-        if isinstance(field.field, ChoiceField):
-            _choose_nothing(field.field)
+    for field in (*(each.field for each in window.panel.operation_form.fields.values()), *vars(job).values()):
+        if isinstance(field, ChoiceField):
+            _choose_nothing(field)
     for holder in (window.cut_panel.histogram, window.views.curves.deviation):
         if holder._plot is not None:
             holder._plot.setParent(None)

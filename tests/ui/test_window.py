@@ -139,7 +139,8 @@ def test_drawing_by_command_and_by_mouse_then_computing(qtbot, wiring):
     window.command_line.edit.setFocus()
     qtbot.keyClicks(window.command_line.edit, "rect 0,0 60,40")
     qtbot.keyClick(window.command_line.edit, Qt.Key.Key_Return)
-    assert len(wiring.document.part.entities) == 4
+    # the first line of a run waits until the language is loaded
+    qtbot.waitUntil(lambda: len(wiring.document.part.entities) == 4, timeout=WAIT_MS)
     assert not window.views.empty.isVisible()
     assert window.command_line.log.lines[-1].command == "rect 0,0 60,40"
     qtbot.mouseClick(window.tool_strip.buttons["tool_circle"], Qt.MouseButton.LeftButton)
