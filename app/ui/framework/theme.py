@@ -56,6 +56,14 @@ class Theme:
     parameter: QColor
     regions: tuple[QColor, ...]
 
+    @property
+    def tools(self) -> tuple[QColor, ...]:
+        """The cycle of nine for a program's tools, in their order, the same in every view; the first three are those of
+        the Paths view.
+        """
+        three = (self.pocket, self.contour, self.rest)
+        return (*three, *(colour for colour in self.regions if colour not in three))
+
     def faint(self, part: float) -> Theme:
         """Return the theme with `part` of each colour left, and the canvas for the rest: lines that lie over one
         another stay faint.

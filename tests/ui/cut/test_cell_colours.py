@@ -2,10 +2,14 @@
 
 import numpy as np
 import pytest
+from PySide6.QtGui import QColor
 
+from app.ui.framework.theme import DARK, LIGHT
 from app.ui.views.cut.cell_colours import OUT_OF_REACH, STOCK, CutColourBy, cell_colours, possible
 from app.ui.views.cut.cut_picture import CutMoves, CutPicture
 from app.ui.views.cut.relief import relief
+from app.ui.views.cut.theme_colours import colormap_of
+from app.ui.views.nc.painting.motion_layer import tool_colour
 from tests.ui.cut.pictures import INKS
 
 MOVE = np.array([[-1, 0], [1, 2]], np.int32)
@@ -33,10 +37,17 @@ def test_depth_runs_from_the_top_to_the_deepest_cell():
 
 def test_tools_and_surfaces_have_a_colour_each_and_a_name():
     made = cell_colours(picture(move=MOVE, moves=MOVES), CutColourBy.TOOL, INKS)
-    assert made.values.tolist() == [[STOCK, 1], [0, 1]]
-    assert [name for _, name in made.key.names] == ["T2", "T5"]
+    assert made.values.tolist() == [[STOCK, 0], [1, 0]]
+    assert [name for _, name in made.key.names] == ["T5", "T2"]  # in the order of their first move
     surfaces = cell_colours(picture(move=MOVE, moves=MOVES), CutColourBy.SURFACE, INKS)
     assert surfaces.values.tolist() == [[STOCK, 0], [1, 1]]
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+def test_a_tool_has_the_colour_that_it_has_in_the_nc_view(theme):
+    """Tools of the text were green and orange, and green and pink in the cut."""
+    of_cells = colormap_of(theme).tools
+    assert [QColor(*of_cells[k % len(of_cells)]) for k in range(20)] == [tool_colour(k, theme) for k in range(20)]
 
 
 def test_order_of_moves_is_told_by_their_lines():

@@ -141,7 +141,7 @@ def test_colours_of_a_palette_reach_the_screen_cell_by_cell(context):
     camera = seen(picture, StandardView.TOP)
     image = painted(context, picture, camera, CutColourBy.TOOL)
     light = float(brightness(camera, np.zeros(1), np.zeros(1))[0])
-    for quarter, colour in enumerate((STOCK, (0, 255, 0), (255, 0, 0), (0, 0, 255))):
+    for quarter, colour in enumerate((STOCK, (255, 0, 0), (0, 255, 0), (0, 0, 255))):
         px, py, _ = camera.project(np.array([[1.25 + 2.5 * quarter, 5.0, -1.0]]), SIZE)[0]
         assert np.allclose(image[round(py), round(px)], np.array(colour) * light, atol=3)
 

@@ -18,8 +18,8 @@ OUT_OF_REACH, STOCK = 254, 255
 """Values of cells that no tool of the job reaches, and of those that nobody cut."""
 
 STEPS = 254
-CYCLE = 8
-"""Colours of things that are told apart by number."""
+CYCLE = 72
+"""Places for things that are told apart by number: as often as it goes in, a cycle of eight or of nine colours."""
 
 _FINE, _COARSE = 1.0, 10.0
 FINE_PLACES = (0.47, 0.53)
@@ -45,14 +45,15 @@ class Colormap:
     """Colours to choose from, 0 to 255.
 
     Attributes:
-        metal: what was cut. cycle: for things that are told apart by number.
+        metal: what was cut. tools, surfaces: for things that are told apart by number.
         depth, order: ramps, from the top down and from the first move to the last.
         gouge, right, left, unreachable: too deep, within tolerance, too high, and too high for any tool of the job.
         stock: what was not cut.
     """
 
     metal: Rgb8
-    cycle: tuple[Rgb8, ...]
+    tools: tuple[Rgb8, ...]
+    surfaces: tuple[Rgb8, ...]
     depth: tuple[Rgb8, ...]
     order: tuple[Rgb8, ...]
     gouge: Rgb8
@@ -142,9 +143,9 @@ def key_of(picture: CutPicture, colour: CutColourBy, inks: Colormap, span: Colou
         CutColourBy.DEPTH: lambda: _depth_key(picture.top, inks, span),
         CutColourBy.DEVIATION: lambda: _deviation_key(picture.tolerance, inks, span),
         CutColourBy.MOVE: lambda: _move_key(moves.line if moves is not None else None, inks, span),
-        CutColourBy.TOOL: lambda: _numbered_key(moves.tools[0] if moves is not None else None, "T{}", inks),
+        CutColourBy.TOOL: lambda: _numbered_key(moves.tools[0] if moves is not None else None, "T{}", inks, inks.tools),
         CutColourBy.SURFACE: lambda: _numbered_key(
-            moves.surfaces[0] if moves is not None else None, "Surface {}", inks
+            moves.surfaces[0] if moves is not None else None, "Surface {}", inks, inks.surfaces
         ),
     }
     return makers.get(colour, lambda: _plain_key(inks))()
@@ -210,11 +211,10 @@ def _numbered_values(picture: CutPicture, numbers: Numbered | None) -> Bytes:
     return np.asarray(lookup[picture.move])
 
 
-def _numbered_key(known: NDArray[np.int32] | None, name: str, inks: Colormap) -> ColourKey:
+def _numbered_key(known: NDArray[np.int32] | None, name: str, inks: Colormap, cycle: tuple[Rgb8, ...]) -> ColourKey:
     numbers = known.tolist() if known is not None else []
-    count = len(inks.cycle)
-    names = tuple((inks.cycle[k % CYCLE % count], name.format(number)) for k, number in enumerate(numbers))
-    return ColourKey(_palette(np.array([inks.cycle[k % count] for k in range(CYCLE)], float), inks), names=names)
+    names = tuple((cycle[k % CYCLE % len(cycle)], name.format(number)) for k, number in enumerate(numbers))
+    return ColourKey(_palette(np.array([cycle[k % len(cycle)] for k in range(CYCLE)], float), inks), names=names)
 
 
 def _move_values(picture: CutPicture, span: ColourSpan) -> Bytes:

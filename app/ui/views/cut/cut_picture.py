@@ -35,8 +35,10 @@ class CutMoves:
 
     @cached_property
     def tools(self) -> Numbered:
-        """The T numbers that there are, and the place of each move's among them."""
-        return np.unique(self.tool, return_inverse=True)
+        """The T numbers that there are, in the order of their first move, and the place of each move's among them."""
+        numbers, first, places = np.unique(self.tool, return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        return numbers[order], np.argsort(order)[places]
 
     @cached_property
     def surfaces(self) -> Numbered:

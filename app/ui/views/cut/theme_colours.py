@@ -23,7 +23,7 @@ def render_style_of(theme: Theme) -> RenderStyle:
         hatch=_share(theme.unreachable),
         paths=(rapid, pocket, plunge, contour),
         strength=(0.36, 0.66, 0.10) if dark else (0.50, 0.56, 0.08),
-        tools=tuple(_share(colour) for colour in theme.regions),
+        tools=tuple(_share(colour) for colour in theme.tools),
         steel=(0.76, 0.78, 0.81) if dark else (0.70, 0.72, 0.75),
         holder=(0.42, 0.45, 0.50) if dark else (0.44, 0.47, 0.52),
         edge=(0.80, 0.83, 0.88) if dark else (0.16, 0.18, 0.21),
@@ -37,6 +37,7 @@ def colormap_of(theme: Theme) -> Colormap:
     metal = (178, 182, 188) if dark else (204, 207, 211)
     return Colormap(
         metal,
+        tuple(_bytes(colour) for colour in theme.tools),
         tuple(_bytes(colour) for colour in theme.regions),
         _DEPTH,
         _ORDER,

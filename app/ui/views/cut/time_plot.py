@@ -162,7 +162,7 @@ class TimePlot(QWidget):
     def _paint_tools(self, painter: QPainter, room: QRectF, timeline: Timeline) -> None:
         """Draw which tool is in the spindle, in the colours that its cuts have."""
         ends = np.concatenate([[0], timeline.tool_changes, [len(timeline)]])
-        known = np.unique(timeline.tool).tolist()
+        known = list(dict.fromkeys(timeline.tool[ends[:-1][ends[:-1] < len(timeline)]].tolist()))
         painter.setFont(text_font(10))
         for first, last in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True):
             if last <= first:
@@ -170,7 +170,7 @@ class TimePlot(QWidget):
             begin = self._x(float(timeline.ends[first - 1]) if first else 0.0)
             end = self._x(float(timeline.ends[last - 1]) if last < len(timeline) else timeline.total)
             number = int(timeline.tool[first])
-            colour = self._theme.regions[known.index(number) % len(self._theme.regions)]
+            colour = self._theme.tools[known.index(number) % len(self._theme.tools)]
             painter.fillRect(QRectF(begin, room.bottom() + 3, max(end - begin - 1, 1), _BAND), colour)
             if first:
                 painter.fillRect(QRectF(begin - 1, room.top(), 1, room.height()), self._theme.hairline)

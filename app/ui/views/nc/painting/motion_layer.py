@@ -68,8 +68,7 @@ class MotionPaint:
 
 def tool_colour(order: int, theme: Theme) -> QColor:
     """Return the colour of the program's first (0), second (1), ... tool."""
-    three = (theme.pocket, theme.contour, theme.rest)
-    return three[order] if order < len(three) else theme.regions[(order - 1) % len(theme.regions)]
+    return theme.tools[order % len(theme.tools)]
 
 
 def motion_colour(kind: MotionKind, theme: Theme) -> QColor:
