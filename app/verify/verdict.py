@@ -111,7 +111,7 @@ def gouge_depths(
         chosen = chosen[_touches(moves, job, stock)[chosen]]
     depth, places = np.full(len(chosen), np.inf), np.zeros((len(chosen), 2))
     low = np.minimum(moves.start[chosen, 2], moves.end[chosen, 2])
-    rows = move_rows(moves)[chosen]
+    rows = move_rows(moves, chosen)
     rows = _clipped(rows, stock) if stock is not None else rows
     radius = cutting_radius(moves, job)[chosen]
     exempt = in_dog_bones(rows, program.dog_bones)
@@ -167,7 +167,7 @@ def _slanted(bound: OperationBound, moves: Moves, job: Job, chosen: NDArray[np.i
     slanted = SlantedMoves(moves.start[chosen], moves.end[chosen], tip, rate, widest)
     walls = np.concatenate([contour_rows(contour) for region in bound.area.regions for contour in region.contours])
     depth, places = reach_beyond(slanted, within_half_turn(walls))
-    rows = move_rows(moves)[chosen]
+    rows = move_rows(moves, chosen)
     outside, beyond = _outside(rows, bound.area.regions)
     depth[outside] = np.maximum(slanted.width(np.ones(len(chosen)))[outside], 0.0) + beyond
     places[outside] = rows[outside, 2:4]
@@ -213,7 +213,7 @@ def clamps_met(program: Program, job: Job, depths: MoveDepths | None = None) -> 
         chosen = np.setdiff1d(chosen, depths.move[depths.depth > LEVEL])
     if not len(chosen):
         return MoveDepths(chosen, np.zeros(0), np.zeros((0, 3)))
-    rows, need = move_rows(moves)[chosen], np.array([job.tool(number).radius for number in moves.tool[chosen].tolist()])
+    rows, need = move_rows(moves, chosen), np.array([job.tool(number).radius for number in moves.tool[chosen].tolist()])
     depth, places = _depths(
         rows, need, np.concatenate([contour_rows(c) for region in program.clamps for c in region.contours])
     )
@@ -319,7 +319,7 @@ def _cleared_before(moves: Moves, k: int, radius: dict[int, float]) -> bool:
     chosen = before[deep & (moves.kind[:k] != MoveKind.RAPID)]
     if not len(chosen):
         return False
-    rows = move_rows(moves)[chosen]
+    rows = move_rows(moves, chosen)
     point = np.repeat([np.concatenate([moves.end[k, :2], moves.end[k, :2], [0, 0, 0, 0]])], len(chosen), axis=0)
     distance, _ = curve_distance(rows, point)
     larger = np.array([radius[int(tool)] for tool in moves.tool[chosen]]) - radius[int(moves.tool[k])]

@@ -25,12 +25,14 @@ from app.exhibits.films.measures import distances_to_polyline
 from app.exhibits.films.programs import points_of
 from app.exhibits.films.proven import ChordAxis, intervals_in_cylinder, proven_film, surface_witness
 from app.exhibits.films.step import TEXTS, FilmStep, PublishedText, TextFilm
+from app.exhibits.films.step_drawing import BOLD, FAINT, FINE
 from app.fitting.point_curves.effective_points import EffectiveOptions, effective_points
 from app.fitting.point_curves.region_profile import profile_of_formula
 from app.fitting.point_curves.space_curve import SpaceCurve
 from app.geometry.arcs.bezier import elevated
 from app.simulation.field.workpiece import Grid
 from app.surfaces.patches.patch import BsplineSurface
+from tests import raster_program
 
 STEPS = {
     "B": [f"S{n}" for n in range(100, 111)],
@@ -150,6 +152,15 @@ def test_a_film_of_another_program_and_of_one_that_has_nothing_to_show() -> None
     assert made.text is PublishedText.D and len(made.steps) == 11
 
 
+def test_of_a_long_program_the_film_measures_no_more_than_was_proven() -> None:
+    """Chords of a picture would be farther off, about the short arcs between passes."""
+    data = raster_program.text(raster_program.rows(wide=12.0, deep=3.0)).encode()
+    made = effective_film("raster.ngc", data, points_of("raster.ngc", data), EffectiveFilmOptions(0.005, 0.1))
+    last = made.steps[-1]
+    farthest = value(last, "by effective points: farthest effective point")
+    assert 0 < farthest <= value(last, "nearness that was proven") + 1e-5
+
+
 # ---- E
 
 
@@ -244,6 +255,25 @@ def basis(knots: np.ndarray, degree: int, at: float) -> np.ndarray:
 def test_boundary_points_are_as_high_on_both_surfaces() -> None:
     assert value(step("C", "(f)"), "largest distance in z, all planes") <= 1e-9
     assert value(step("C", "(g)"), "boundary points") == 34
+
+
+def test_covered_section_curves_are_drawn_lightly_and_the_topmost_in_their_colours() -> None:
+    """Of the places of the picture of (f): over a covered one is a coloured one, over a coloured one is none."""
+    traces = step("C", "(f)").page.frame.traces
+    light = [trace for trace in traces if trace.pen.width == FINE and trace.pen.colour == FAINT]
+    bold = [trace for trace in traces if trace.pen.width == BOLD]
+    assert len(light) == 3 and len({trace.pen.colour for trace in bold}) == 3 and len(bold) > 60
+    chords = np.array([[trace.points[0], trace.points[-1]] for trace in bold])
+    rows = np.concatenate([trace.points for trace in light])
+    left, right = chords[:, :, 0].min(axis=1), chords[:, :, 0].max(axis=1)
+    over = []
+    for x, y in rows.tolist():
+        at = np.flatnonzero((left <= x) & (x <= right))
+        if len(at):
+            (x0, y0), (x1, y1) = chords[at[0]]
+            over.append(y0 + (y1 - y0) * (x - x0) / max(x1 - x0, 1e-12) - y)
+    assert np.mean(np.array(over) > 0.5) > 0.3  # covered
+    assert min(over) > -0.05  # nothing light is above what is topmost
 
 
 def test_a_place_of_a_surface_is_that_of_the_recursion() -> None:

@@ -16,8 +16,10 @@ from app.cli.main import main
 from app.core.errors import GeometryError, InputError, ParameterError
 from app.core.resources import resource
 from app.formats.job.toml import read_job
+from app.gcode.checks.check import CheckReference, check
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.reader import read_program
+from app.gcode.posts.posts import load_post
 from app.gcode.rework.restart import RestartOptions, restart
 from app.model.contour_operation import ContourOperation
 from app.model.entry import Lead, LeadKind
@@ -330,6 +332,45 @@ def test_a_place_too_narrow_for_the_tool_is_refused() -> None:
     slot = "polyline 0,0 20,0 20,8 24,8 24,0 50,0 50,30 0,30 close\n"
     with pytest.raises(GeometryError, match="does not fit between the walls"):
         made(slot, CONTROL)
+
+
+BENT = "polyline 30.392,5.603 -0.579,29.792 -14.838,4.751 -27.906,-19.19 13.659,-30.06 close\n"
+"""Its third corner turns by one degree, which LinuxCNC takes for none."""
+
+
+@pytest.mark.parametrize("direction", ["climb", "conventional"])
+@pytest.mark.parametrize("left", [0.0, 0.4])
+def test_a_gentle_bend_counts_by_what_the_path_is_off_across(direction: str, left: float) -> None:
+    result = made(BENT, CONTROL + f'direction = "{direction}"\nstock_to_leave = {left}\n')
+    assert result.clean, [finding.text for finding in result.findings]
+    assert result.report.data["check"]["largest_distance_mm"] < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("word", "instead"), [("Y30.0000", "Y30.0200"), ("X40.0000", "X39.9900"), ("G41 D3", "G42 D3")]
+)
+@pytest.mark.parametrize("draw", ["rectangle 0,0 40,30\n", "rectangle 0,0 40,30 round 0.3\n"])
+def test_a_contour_that_is_off_is_found(word: str, instead: str, draw: str) -> None:
+    """Across the path nothing is let through that is let through along it."""
+    job = read_job("j.toml", CONTROL.encode()).job
+    result = make("part.draw", draw.encode(), MakeOptions(job=job, post="linuxcnc"))
+    (file,) = result.files
+    assert word in file.nc.text
+    reference = CheckReference(result.program, result.job, load_post("linuxcnc"))
+    assert not check(file.nc.text.encode(), file, reference).problems
+    assert check(file.nc.text.replace(word, instead).encode(), file, reference).problems
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_random_polygons_are_clean(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(3, 8))
+    angles = (np.arange(count) + rng.uniform(-0.3, 0.3, count)) * 2 * np.pi / count
+    corners = (rng.uniform(15, 35, count) * np.array([np.cos(angles), np.sin(angles)])).T.round(3)
+    draw = "polyline " + " ".join(f"{x},{y}" for x, y in corners.tolist()) + " close\n"
+    for side in ("outside", "inside"):
+        result = made(draw, CONTROL.replace('"outside"', f'"{side}"'))
+        assert result.clean, [finding.text for finding in result.findings]
 
 
 def test_one_register_holds_one_thing() -> None:

@@ -15,7 +15,7 @@ from app.geometry.distance import DistanceField
 from app.geometry.primitives import pack
 from app.geometry.region import nested
 from app.model.part import Contour
-from app.verify.carved_roof import ConePath, _discs, _Elements, prove_roof
+from app.verify.carved_roof import ConePath, _Carving, _discs, _Elements, prove_roof
 from tests.part_shapes import circle, square
 
 PYRAMID = ConePath(
@@ -82,3 +82,21 @@ def test_largest_discs_behind_walls_have_their_closed_forms(
     feet, _ = elements.feet(discs.wall, discs.share)
     assert len(feet) > 50
     assert np.allclose(discs.radius, [radius(foot) for foot in feet], atol=2e-6)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_best_motion_is_found_among_all(seed: int) -> None:
+    """Each disc against each motion at many places: none leaves less than is told, where more is left than counts."""
+    made = np.random.default_rng(seed)
+    start = np.column_stack([made.uniform(0, 30, (60, 2)), made.uniform(-3, 0, 60)])
+    path = ConePath(start, start + made.normal(0, 2, (60, 3)) * [1, 1, 0.5], 0.2, 0.6, 9.0)
+    centres, radius = made.uniform(0, 30, (300, 2)), made.uniform(0.1, 2.0, 300)
+    share = np.linspace(0, 1, 501)
+    places = path.start[:, None] + (path.end - path.start)[:, None] * share[None, :, None]
+    apart = np.hypot(*(centres[:, None, None] - places[None, :, :, :2]).transpose(3, 0, 1, 2))
+    sampled = (apart + radius[:, None, None] - path.tip + places[None, :, :, 2] * path.rate).min(axis=(1, 2))
+    told = _Carving.of(path).uncarved(centres, radius, 0.5, NO_PROGRESS)
+    much = sampled > 0.5
+    assert much.sum() > 50 and (told[~much] <= 0.5).all()
+    assert (told[much] <= sampled[much] + 1e-9).all() and (sampled[much] - told[much]).max() < 0.01
+    assert told.max() == pytest.approx(sampled.max(), abs=0.01)

@@ -13,6 +13,7 @@ from ...fitting.point_curves.correction import Correction, CorrectionCurve, Corr
 from ...fitting.point_curves.effective_method import EffectiveMethod
 from ...fitting.point_curves.effective_points import EffectiveOptions, PointState, effective_points
 from ...model.motion import Floats
+from ...usecases.scene_program.smooth import chord_parameters
 from ...usecases.smoothing.result import SmoothedProgram, SmoothOptions
 from ...usecases.smoothing.smooth import smooth
 from .measures import distances_to_polyline, feet_on_polyline
@@ -24,6 +25,8 @@ _BEFORE, _AFTER = 2, 3
 _CORNER = np.radians(30.0)
 _OFF_SEEN = 0.08
 """Of the path's extent, how far the farthest curve is drawn from the facets."""
+_CHORD = 1e-5
+"""mm; a curve's picture, and what is measured of it, keep to it as near: less than what is told of it."""
 _SHOWN = 6
 """Ranges that a picture of a place shows."""
 
@@ -374,5 +377,6 @@ def _curve_near(done: SmoothedProgram, points: Floats) -> Floats | None:
             until = float(len(piece.curve))
             if piece.judgement is not None and piece.judgement.feet is not None:
                 until = float(piece.judgement.feet[min(len(points), len(piece.points)) - 1])
-            return piece.curve.at(np.linspace(0.0, until, max(2000, 20 * len(points))))
+            own = chord_parameters(piece.curve, _CHORD)
+            return piece.curve.at(np.append(own[own < until], until))
     return None

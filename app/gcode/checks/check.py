@@ -28,6 +28,7 @@ from ..posts.post import Post
 from ..posts.posts import comes_with_program
 from ..writer.programmed_contour import allowed_distances
 from ..writer.write import NcFile, writing_tolerance
+from .beside import beside
 from .blocks import HoleBlocks, approach_problems, block_problems, blocks_of
 from .hole_pauses import HolePauses
 from .lines import MotionOwners, ReferencePath, Rows, motion_owners
@@ -57,6 +58,7 @@ class Check:
         post: by which it was written.
         move: (n,) index of the program's move that each motion was written for; lifts count to the move before them,
             the approach of a tool to its first move.
+        by_control: whether the control makes some of the path from the contour.
     """
 
     largest_distance_mm: float
@@ -65,6 +67,7 @@ class Check:
     program: NcProgram
     post: Post
     move: Rows
+    by_control: bool = False
 
     def require(self, name: str) -> None:
         """Refuse a text that differs.
@@ -83,6 +86,11 @@ class Check:
                 else f"{self.post.title} is a post of your own: mend its file, where a post that comes with the "
                 "program shows how"
             )
+            if self.by_control:
+                mend = (
+                    f"{self.post.title} does not make it of a contour with pieces so short, or bends so gentle: take "
+                    'compensation = "wear" or "computer", or a post with more decimals'
+                )
             raise HitofudeError(
                 f"{self.problems[0].message(name)}{more} What was written cannot be proven to be the path that was "
                 f"computed, so it is not kept; {mend}."
@@ -95,7 +103,7 @@ class _FileCheck:
 
     Attributes:
         tolerance: mm. allowed: (n,) how far the path may be from each move, mm: as much, or more where the control
-            makes it from the contour.
+            makes it from the contour. ends: (n,) how far its end may be.
     """
 
     read: NcProgram
@@ -106,6 +114,7 @@ class _FileCheck:
     safe_z: float
     tolerance: float
     allowed: Floats
+    ends: Floats
     start_state: StartState = FRESH
 
     @property
@@ -141,7 +150,7 @@ def check(data: bytes, file: NcFile, reference: CheckReference, progress: Progre
     moves = program.moves.part(file.first, stop)
     origin = work_origin(job, stock_box(job, program.regions, program.lines))
     step = writing_tolerance(job, post)
-    allowed = allowed_distances(moves, job, step)
+    allowed, ends = allowed_distances(moves, job, step)
     compared = _FileCheck(
         read,
         moves,
@@ -151,6 +160,7 @@ def check(data: bytes, file: NcFile, reference: CheckReference, progress: Progre
         job.travel_z - origin[2],
         step,
         allowed,
+        ends,
     )
     mine, far, problems = _differences(compared)
     if not problems:
@@ -159,7 +169,9 @@ def check(data: bytes, file: NcFile, reference: CheckReference, progress: Progre
         problems += tuple(_text_problems(compared, ProgramBuffer(data), post))
     move = np.minimum(np.searchsorted(file.nc.lines, read.motions.line), len(moves) - 1)
     move[mine.rows] = mine.move
-    return Check(float(np.max(far)), float(np.max(allowed)), problems, read, post, move + file.first)
+    return Check(
+        float(np.max(far)), float(np.max(allowed)), problems, read, post, move + file.first, bool(np.any(ends > step))
+    )
 
 
 class _Differences(NamedTuple):
@@ -173,8 +185,9 @@ class _Differences(NamedTuple):
 def _differences(compared: _FileCheck) -> _Differences:
     """Return how a program, as it was read, differs from the moves that it was written of."""
     read = compared.read
-    mine = motion_owners(read.motions, compared.file.nc.lines, compared.begins, compared.reference, compared.allowed)
+    mine = motion_owners(read.motions, compared.file.nc.lines, compared.begins, compared.reference, compared.ends)
     far = distances(read.motions, compared.reference, mine)
+    far = beside(read.motions, compared.reference, mine, far, compared.ends > compared.tolerance)
     found = sorted(_problems(compared, mine, far), key=lambda problem: problem.line)
     return _Differences(mine, far, (*read.problems, *found))
 
@@ -190,6 +203,7 @@ def _elsewhere(
         read=read,
         tolerance=compared.tolerance + NOISE,
         allowed=compared.allowed + NOISE,
+        ends=compared.ends + 2 * NOISE * (compared.ends > compared.tolerance) + NOISE,
         start_state=start_state,
     )
     return tuple(replace(problem, text=f"{problem.text} {LEFT_SO}") for problem in _differences(elsewhere).problems)

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,13 @@ _TOGETHER = 1e-6
 
 _AMPLIFIED = 5.0
 """Times the writing tolerance by which a corner of the path may be off that a control makes from two rounded sides."""
+
+
+_NO_CORNER = 0.05
+"""Radians; a control that turns less goes on without an arc (LinuxCNC)."""
+
+_GENTLE = 0.06
+"""Radians; of a bend that a control may take for none, or by which rounding turns a small arc."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +81,7 @@ def programmed_moves(moves: Moves, job: Job, stretches: Sequence[CompensatedStre
     own = [each for each in stretches if job.operations[int(moves.operation[each.first])].offset_by_control]
     if not own:
         return ProgrammedMoves(moves, corners)
+    turns = moves.sweeps()
     end, centre, kind = moves.end.copy(), moves.centre.copy(), moves.kind.copy()
     for stretch in own:
         operation = job.operations[int(moves.operation[stretch.first])]
@@ -90,33 +99,38 @@ def programmed_moves(moves: Moves, job: Job, stretches: Sequence[CompensatedStre
         end[sides[-1].move : stretch.stop, :2] = _xy(sides[-1].end)
         for each in sides:
             if each.corner:
-                corners[each.move], kind[each.move], centre[each.move] = True, MoveKind.LINE, np.nan
+                kind[each.move], centre[each.move] = MoveKind.LINE, np.nan
+                corners[each.move] = abs(turns[each.move]) > _NO_CORNER
     return ProgrammedMoves(replace(moves, end=end, centre=centre, kind=kind), corners)
 
 
-def allowed_distances(moves: Moves, job: Job, tolerance: float) -> NDArray[np.float64]:
-    """Return (n,) how far the written path may be from each move, mm.
+class AllowedDistances(NamedTuple):
+    """How far a written path may be from each of n moves, mm: (n,) of the path, and of the ends of its motions."""
 
-    That is the writing tolerance; more where a control makes the path from the contour. There corners of the path are
-    farther off than the sides are that meet in them, and a small outer arc of the contour that is turned by its
-    rounding turns the tool's centre by the tool's radius: along the path, and so away from no wall.
+    path: NDArray[np.float64]
+    ends: NDArray[np.float64]
+
+
+def allowed_distances(moves: Moves, job: Job, tolerance: float) -> AllowedDistances:
+    """Return how far the written path may be from each move.
+
+    That is the writing tolerance. Where a control makes the path from the contour it is several times as much, as
+    corners of the path are farther off than the sides are that meet in them, and by what the path is off where the
+    control takes a gentle bend for none. Ends may be farther off along the path: there, and where a small outer arc of
+    the contour that is turned by its rounding turns the tool's centre by the tool's radius.
 
     Args:
         moves: of the tool's centre, mm.
         tolerance: mm, for a path that is written itself.
     """
     own = np.array([each.offset_by_control for each in job.operations], bool)
-    if not own.any():
-        return np.full(len(moves), tolerance)
-    operation = np.maximum(moves.operation, 0)
-    climbs = np.array([each.cut.direction is Direction.CLIMB for each in job.operations])[operation]
-    radius = np.array([job.tool(each.cut.tool).radius for each in job.operations])[operation]
-    outside = np.where(moves.kind == MoveKind.ARC_CW, climbs, ~climbs) & (moves.kind >= MoveKind.ARC_CW)
-    on_contour = np.full(len(moves), np.inf)
-    on_contour[outside] = (np.hypot(*(moves.end[:, :2] - moves.centre).T) - radius)[outside]
-    on_contour[on_contour <= _POINT] = np.inf  # corners, which are turned round exactly
-    smallest = np.minimum(on_contour, np.append(on_contour[1:], np.inf))
-    return np.where(own[operation], tolerance * (_AMPLIFIED + radius / smallest), tolerance)
+    path, ends = np.full(len(moves), tolerance), np.full(len(moves), tolerance)
+    if own.any():
+        operation = np.maximum(moves.operation, 0)
+        radius = np.array([job.tool(each.cut.tool).radius for each in job.operations])[operation]
+        path[own[operation]] = (tolerance * _AMPLIFIED + radius * _GENTLE**2 / 2)[own[operation]]
+        ends[own[operation]] = (tolerance * _AMPLIFIED + radius * _GENTLE)[own[operation]]
+    return AllowedDistances(path, ends)
 
 
 @dataclass(slots=True)

@@ -194,7 +194,7 @@ def _written(program: Program, job: Job, post: Post, file: tuple[int, int], prog
         post,
         box,
         blend_mm(job, post),
-        float(np.max(allowed_distances(program.moves, job, writing_tolerance(job, post)), initial=0.0)),
+        float(np.max(allowed_distances(program.moves, job, writing_tolerance(job, post)).path, initial=0.0)),
         *file,
     )
     remarks = Remarks(

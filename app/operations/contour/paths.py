@@ -50,8 +50,8 @@ from .stroke import StrokeExtras, strokes_of
 _FAR = 4.0
 """Finish widths; where a finish path is farther than this from what was roughed, it is cut at all depths."""
 
-_SAME_RADIUS = 1e-4
-"""mm; a radius that is smaller by less is as large: how drawings are rounded."""
+_SAME_RADIUS = 2e-3
+"""mm; an arc must be larger by as much than what a control offsets it by, so that rounding leaves an arc of it."""
 
 _THIN = 0.1
 """Of the cutter's diameter; no more than this is taken off at the full depth of several passes in one."""
@@ -150,7 +150,7 @@ def _check_arcs(work: _ContourJob) -> None:
         return
     rows = work.area.primitives.rows[~work.area.bare]
     least = work.wall + operation.wear
-    small = np.flatnonzero((rows[:, TURN] > 0) & (rows[:, R] < least - _SAME_RADIUS))
+    small = np.flatnonzero((rows[:, TURN] > 0) & (rows[:, R] < least + _SAME_RADIUS))
     if len(small):
         row = rows[small[np.argmin(rows[small, R])]]
         x, y = points_at(row[None], np.array([0.5]))[0]

@@ -273,7 +273,7 @@ class _CuttingPath:
     @staticmethod
     def of(chosen: NDArray[np.int64], moves: Moves, radius: float) -> _CuttingPath:
         """Return the path of some moves."""
-        rows = move_rows(moves)[chosen]
+        rows = move_rows(moves, chosen)
         arc = (rows[:, TURN] != 0)[:, None]
         size = rows[:, R, None]
         low = np.where(arc, rows[:, CX:R] - size, np.minimum(rows[:, :2], rows[:, 2:4]))

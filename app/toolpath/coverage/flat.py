@@ -16,13 +16,19 @@ from ...model.moves import MoveKind, Moves
 from ...model.part import Region
 
 
-def move_rows(moves: Moves) -> Rows:
-    """Return moves as rows (n, 8) of `app.geometry.primitives`, seen from above; a full circle is one row."""
-    centre = np.nan_to_num(moves.centre)
-    start, end = moves.start[:, :2], moves.end[:, :2]
-    arc = moves.kind >= MoveKind.ARC_CW
+def move_rows(moves: Moves, chosen: NDArray[np.integer] | None = None) -> Rows:
+    """Return moves as rows (n, 8) of `app.geometry.primitives`, seen from above; a full circle is one row.
+
+    Args:
+        moves: all of them.
+        chosen: (n,) indices of those that are wanted; None = all.
+    """
+    at = np.arange(len(moves)) if chosen is None else chosen
+    start, end = moves.end[np.maximum(at - 1, 0), :2], moves.end[at, :2]
+    centre, kind = np.nan_to_num(moves.centre[at]), moves.kind[at]
     radius = (np.hypot(*(start - centre).T) + np.hypot(*(end - centre).T)) / 2
-    turn = np.where(moves.kind == MoveKind.ARC_CCW, 1.0, -1.0)
+    turn = np.where(kind == MoveKind.ARC_CCW, 1.0, -1.0)
+    arc = kind >= MoveKind.ARC_CW
     return np.column_stack([start, end, centre, np.where(arc, radius, 0.0), np.where(arc, turn, 0.0)])
 
 

@@ -185,4 +185,4 @@ def _divided(moves: Moves, cuts: dict[int, list[tuple[float, float]]]) -> Moves:
 def _points(moves: Moves, index: Indices, fraction: Floats) -> NDArray[np.float64]:
     """Return the points (n, 3) at fractions of moves."""
     start, end = moves.start[index, 2], moves.end[index, 2]
-    return np.column_stack([points_at(move_rows(moves)[index], fraction), start + (end - start) * fraction])
+    return np.column_stack([points_at(move_rows(moves, index), fraction), start + (end - start) * fraction])

@@ -90,7 +90,7 @@ def runs(moves: Moves, cell: dict[int, float]) -> Iterator[Indices]:
     chosen = np.flatnonzero(moves.kind != MoveKind.RAPID)
     if not len(chosen):
         return
-    flat = lengths(move_rows(moves)[chosen])
+    flat = lengths(move_rows(moves, chosen))
     tool, begins = moves.tool[chosen], chain_begins(chosen, flat)
     changed = np.concatenate([[True], tool[1:] != tool[:-1]])
     count = np.cumsum(flat / np.array([cell[int(number)] for number in tool]) + 2)
@@ -118,7 +118,7 @@ def places(moves: Moves, chosen: Indices, radius: float) -> PathPlaces:
         chosen: (k,) indices of the moves, in order, k >= 1.
         radius: of the cutter, mm.
     """
-    rows = move_rows(moves)[chosen]
+    rows = move_rows(moves, chosen)
     flat = lengths(rows)
     begins = chain_begins(chosen, flat)
     chain = np.cumsum(begins) - 1

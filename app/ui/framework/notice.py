@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
 from .fields import restyle
 from .icons import IconButton
+from .seen_with import SeenWith
 
 Answers = Sequence[tuple[str, Callable[[], None]]]
 
@@ -33,7 +34,7 @@ class Notice(QWidget):
         self.text.setWordWrap(True)
         self.buttons: list[QPushButton] = []
         self._stays = self._of_job = False
-        self._about: QWidget | None = None
+        self._seen_with = SeenWith(self)
         self.sentence = ""
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(16, 4, 8, 4)
@@ -47,7 +48,7 @@ class Notice(QWidget):
 
     def hide(self) -> None:
         """Close the bar; it does not come back with the view that it spoke of."""
-        self._follow(None)
+        self._seen_with.follow(None)
         super().hide()
 
     def dismiss(self) -> None:
@@ -78,7 +79,7 @@ class Notice(QWidget):
             of_job: True when it holds of the job as it is now, and is to go when that changes.
         """
         self._stays, self._of_job, self.sentence = stays, of_job, sentence
-        self._follow(None)
+        self._seen_with.follow(None)
         for button in self.buttons:
             self._row.removeWidget(button)
             button.deleteLater()
@@ -99,18 +100,4 @@ class Notice(QWidget):
 
     def show_with(self, view: QWidget) -> None:
         """Be seen only while the view is that the sentence speaks of; the next sentence stands for itself."""
-        self._follow(view)
-        self.setVisible(not view.isHidden())
-
-    def _follow(self, about: QWidget | None) -> None:
-        if self._about is not None:
-            self._about.removeEventFilter(self)
-        self._about = about
-        if about is not None:
-            about.installEventFilter(self)
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Be seen where what it speaks of is."""
-        if watched is self._about and event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
-            self.setVisible(event.type() == QEvent.Type.Show)
-        return super().eventFilter(watched, event)
+        self._seen_with.follow(view)

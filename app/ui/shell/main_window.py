@@ -117,7 +117,12 @@ class MainWindow(QMainWindow):
             self.plot_panel,
             self.views.nc.beside,
         ]
-        self.notice, self.card, self.command_line, self.status = Notice(), QuestionCard(), CommandLine(), StatusBar()
+        self.notice, self.card, self.command_line, self.status = (
+            Notice(),
+            QuestionCard(self.canvas),
+            CommandLine(),
+            StatusBar(),
+        )
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
         self.findings_list = FindingsList(self)
         self.file_label = QLabel()

@@ -118,8 +118,12 @@ class WrittenProgram:
             return ()
         table = "inch" if units is Units.INCH else "mm"
         text = (
-            f"The post {self.post.title} writes {decimals} decimals: the path written is up to {far:.3f} mm from the "
-            "computed one, for which gouges and what is left are measured; set more decimals in the post "
+            f"The path that {self.post.title} makes of the written contour is up to {far:.3f} mm from the computed "
+            "one, for which gouges and what is left are measured, as the contour is rounded and gentle bends are taken "
+            'for none; take compensation = "wear" or "computer", or set more decimals in the post.'
+            if any(each.by_control for each in self.checks)
+            else f"The post {self.post.title} writes {decimals} decimals: the path written is up to {far:.3f} mm from "
+            "the computed one, for which gouges and what is left are measured; set more decimals in the post "
             f"(decimals.{table})."
         )
         return (Finding(FindingKind.TOLERANCE, text, amount=far),)

@@ -241,8 +241,20 @@ def _gouging(
 
 
 def chords_of(curve: SpaceCurve, within: float) -> Floats:
-    """Return places (n, 3) along a curve whose chords are nowhere farther from it than so much, mm: each piece is left
+    """Return places (n, 3) along a curve whose chords are nowhere farther from it than so much, mm.
+
+    Raises:
+        InputError: a piece would take too many.
+    """
+    return curve.at(chord_parameters(curve, within))
+
+
+def chord_parameters(curve: SpaceCurve, within: float) -> Floats:
+    """Return parameters (n,) of a curve whose chords are nowhere farther from it than so much, mm: each piece is left
     by a chord of 1 / n of it by no more than an eighth of its second derivative's bound over n².
+
+    Raises:
+        InputError: a piece would take too many.
     """
     control = curve.control
     degree = control.shape[1] - 1
@@ -251,5 +263,4 @@ def chords_of(curve: SpaceCurve, within: float) -> Floats:
     if parts.max(initial=1.0) > _MOST_CHORDS:
         raise InputError(f"A curve would take {int(parts.max())} chords of {within:g} mm; use a larger tolerance.")
     at = [piece + np.arange(int(count)) / count for piece, count in enumerate(parts.tolist())]
-    places = np.concatenate([*at, [math.nextafter(float(len(curve)), 0.0)]])
-    return curve.at(places)
+    return np.concatenate([*at, [math.nextafter(float(len(curve)), 0.0)]])

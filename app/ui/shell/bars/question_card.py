@@ -15,6 +15,7 @@ from ....formats.reading_question import ReadingChoice, ReadingQuestion
 from ....model.reading import ReadingOptions
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
+from ...framework.seen_with import SeenWith
 from ...framework.theme import HEADING_PX, text_font
 
 ROW_PX = 28
@@ -28,8 +29,14 @@ class QuestionCard(QWidget):
         buttons: of the answers, in order; `cancel`: the drawing is not opened.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, drawing: QWidget) -> None:
+        """Make a card.
+
+        Args:
+            drawing: where the drawing is seen that is asked about.
+        """
         super().__init__()
+        self._drawing, self._seen_with = drawing, SeenWith(self)
         self.setObjectName("card")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setAccessibleName("Question about the drawing")
@@ -48,6 +55,11 @@ class QuestionCard(QWidget):
         )
         self._lay_out()
         self.hide()
+
+    def hide(self) -> None:
+        """Close the question; it does not come back with the drawing."""
+        self._seen_with.follow(None)
+        super().hide()
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()
@@ -86,8 +98,11 @@ class QuestionCard(QWidget):
         self.cancel.setVisible(waits)
         for button in (*self.buttons, self.cancel):
             button.setFixedHeight(ROW_PX)
+        self._seen_with.follow(None)
         self.show()
-        if waits and self.buttons:
+        if not waits:
+            self._seen_with.follow(self._drawing)
+        elif self.buttons:
             self.buttons[0].setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _add(self, row: int, choice: ReadingChoice, answer: Callable[[ReadingOptions], None]) -> None:

@@ -16,6 +16,7 @@ from ....gcode.interpreter.dialect import Dialect
 from ....gcode.interpreter.options import ToolOffset
 from ....gcode.interpreter.program import Severity
 from ....model.finding import Finding, FindingKind
+from ....model.job import Job
 from ...framework.computation import ComputationState
 from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import clock, counted
@@ -30,6 +31,17 @@ from .view import NcView
 
 if TYPE_CHECKING:
     from ....usecases.making.make import MakeResult
+
+MOST_TOOLS = 9999
+"""The highest T number of a tool."""
+
+
+def tool_table(job: Job) -> dict[int, ToolOffset]:
+    """Return a job's tools as the tool table that other programs are read with; of tools that it has not nothing is
+    known, as without a table.
+    """
+    known = {tool.number: ToolOffset(diameter=tool.diameter) for tool in job.tools}
+    return dict.fromkeys(range(1, MOST_TOOLS + 1), ToolOffset()) | known
 
 
 class NcController(Controller):
@@ -164,7 +176,9 @@ class NcController(Controller):
         shown, side = self._view.shown, self._view.side
         if shown is not None:
             self.reading.start(
-                partial(compared, shown, ProgramSource(path.name, path=path, tools=self._tools()), side),
+                partial(
+                    compared, shown, ProgramSource(path.name, path=path, tools=tool_table(self._document.job)), side
+                ),
                 self._on_compared,
             )
 
@@ -214,11 +228,9 @@ class NcController(Controller):
         self.said.emit(f"{path.name} is written.")
 
     def _read(self, source: ProgramSource, remember: bool = False) -> None:
-        self.reading.read(replace(source, tools=self._tools()), self._view.side, partial(self._on_foreign, remember))
-
-    def _tools(self) -> dict[int, ToolOffset]:
-        """Return the job's tools as the tool table that programs are read with."""
-        return {tool.number: ToolOffset(diameter=tool.diameter) for tool in self._document.job.tools}
+        self.reading.read(
+            replace(source, tools=tool_table(self._document.job)), self._view.side, partial(self._on_foreign, remember)
+        )
 
     def _on_foreign(self, remember: bool, shown: ShownProgram) -> None:
         source = shown.source
