@@ -82,8 +82,6 @@ class OneWindow:
         wiring = self._wiring
         if wiring is None or self._new is None:
             return
-        if wiring.window_.isHidden():  # a test closed it
-            wiring.window_.show()
         reset(wiring, self._view)
         self._put_back()
         self.left = left_in(wiring, self._new)

@@ -42,7 +42,7 @@ ALL_OFF = "every operation of the job is switched off, so nothing is cut; switch
 
 
 NO_CONE = (
-    "T1 {} is a {} cutter; a {} operation needs a V cutter with its angle: choose another tool, or give it kind and "
+    "T1 {} is a {} cutter; a {} operation needs a V cutter with its angle{}: choose another tool, or give it kind and "
     "tip_angle."
 )
 OTHER_TOOL = "T1 {} is a {}; a {} operation needs a {}: choose another tool, or give it another kind."
@@ -60,7 +60,9 @@ def refused(word: str, tool: Tool) -> str:
         return OTHER_TOOL.format(tool.label, tool.kind.value, word, kind.TOOL)
     if tool.kind is ToolKind.DRILL and not kind.DRILLS:
         return NO_MILL.format(word)
-    return NO_CONE.format(tool.label, tool.kind.value, word) if kind.CARVES and tool.kind is not ToolKind.V else ""
+    if not kind.CARVES or tool.kind is ToolKind.V or (kind.CARVES_ROUND and tool.kind is ToolKind.BALL):
+        return ""
+    return NO_CONE.format(tool.label, tool.kind.value, word, " or a ball" if kind.CARVES_ROUND else "")
 
 
 @pytest.mark.parametrize("way", ["exact", "pixels"])
