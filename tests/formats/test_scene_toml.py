@@ -172,6 +172,16 @@ def test_samples_are_read_and_written_again(samples: Path, name: str) -> None:
     assert read_scene(name, write_scene(scene)) == scene
 
 
+def test_the_die_is_roughed_and_finished(samples: Path) -> None:
+    scene = read_scene("die", (samples / "die.toml").read_bytes())
+    *roughing, finishing = scene.passes
+    assert len(roughing) >= 2 and all(each.stock_to_leave > 0 and each.tool != finishing.tool for each in roughing)
+    depths = [each.floor for each in roughing]
+    assert depths == sorted(depths, reverse=True) and finishing.floor < min(depths) and finishing.stock_to_leave == 0
+    diameters = {tool.number: tool.diameter for tool in scene.tools}
+    assert diameters[finishing.tool] < diameters[roughing[0].tool]
+
+
 def test_inches_are_mm_inside_but_not_directions_angles_and_defaults() -> None:
     text = b"""units = "in"
 [heights]
