@@ -54,10 +54,8 @@ def published_angles(chains: Sequence[PixelChain]) -> str:
     sharp = int(np.sum(arccos > half))
     return (
         f"By formula I' the averages of five vectors turn by {np.degrees(arccos.max()):.0f} degrees at most; never "
-        "more "
-        f"than 180, so that of {counted(sharp, 'place')} that turn by more than 90 it cannot tell the {right} that "
-        "turn "
-        "to the right. Settled: the sign of the cross product."
+        f"more than 180, so that of {counted(sharp, 'place')} that turn by more than 90 it cannot tell the {right} "
+        "that turn to the right. Settled: the sign of the cross product."
     )
 
 

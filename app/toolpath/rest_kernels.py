@@ -136,8 +136,7 @@ def in_air(rows, order, nodes, cutters, chunks, cutter, out):
 
 @kernel(
     "int64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], int64[::1], float64[:, "
-    "::1], float64[::1],"
-    " float64[:, ::1], float64[::1], float64[:, ::1])"
+    "::1], float64[::1], float64[:, ::1], float64[::1], float64[:, ::1])"
 )
 def left_cells(rows, order, nodes, cutters, bound, bound_order, bound_nodes, rule, squares, sizes, out):
     """Write the centres of the cells in which metal is left; return how many.

@@ -313,9 +313,8 @@ def test_more_cells_than_memory_holds_are_told_before(
 
 def test_no_window_library_is_needed(slot: Path, tmp_path: Path) -> None:
     code = (
-        "import sys; from app.cli.main import main; assert main(sys.argv[1:]) == 0; "
-        "print([name for name in sys.modules if name.split('.')[0] in ('PySide6', 'pyqtgraph', 'moderngl') or '.ui' in "
-        "name])"
+        "import sys; from app.cli.main import main; assert main(sys.argv[1:]) == 0; print([name for name in "
+        "sys.modules if name.split('.')[0] in ('PySide6', 'pyqtgraph', 'moderngl') or '.ui' in name])"
     )
     options = ["--tool=1=flat:6", "--engine=cpu", "--quiet", "--image", str(tmp_path / "o.png")]
     command = [sys.executable, "-c", code, "cut", str(slot), STOCK, *options]

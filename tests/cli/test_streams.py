@@ -126,9 +126,8 @@ def test_of_another_machine_they_stay_for_a_day(tmp_path: Path, monkeypatch: pyt
 def test_a_killed_run_leaves_nothing_for_long(tmp_path: Path) -> None:
     """Killed between writing and placing; the next command into that folder sweeps."""
     code = (
-        "import os, signal; from pathlib import Path; from app.core import atomic; "
-        "os.chmod = lambda *_: os.kill(os.getpid(), signal.SIGKILL); "
-        f"atomic.write_together({{Path({str(tmp_path / 'out.ngc')!r}): b'x'}})"
+        "import os, signal; from pathlib import Path; from app.core import atomic; os.chmod = lambda *_: "
+        f"os.kill(os.getpid(), signal.SIGKILL); atomic.write_together({{Path({str(tmp_path / 'out.ngc')!r}): b'x'}})"
     )
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False)
     assert len([path for path in tmp_path.iterdir() if path.name.endswith(".part")]) == 1

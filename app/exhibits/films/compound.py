@@ -147,9 +147,8 @@ class _CompoundSteps:
         return FilmStep(
             "(b)",
             "One line and a rule",
-            "A line on the XY plane and a rule are entered, from which follow the lines in "
-            "which the cutting planes, upright on it, meet that plane: in the example parallel ones, a distance d "
-            "apart.",
+            "A line on the XY plane and a rule are entered, from which follow the lines in which the cutting planes, "
+            "upright on it, meet that plane: in the example parallel ones, a distance d apart.",
             "The distance may also follow a height of the ridges between passes.",
             sketch.page(),
             (
@@ -243,10 +242,8 @@ class _CompoundSteps:
             "The topmost points of all section curves are the compound surface's; where they pass "
             "from surface i to surface j, the boundary point CRij is kept.",
             "A boundary point is solved for, not picked from the sequences: where one surface crosses another, both "
-            "are as "
-            f"high there. Put back into the surfaces' own formulas the heights of all {len(apart)} such points are "
-            "up to "
-            f"{worst:.1e} mm apart. Covered sections are drawn lightly.",
+            f"are as high there. Put back into the surfaces' own formulas the heights of all {len(apart)} such points "
+            f"are up to {worst:.1e} mm apart. Covered sections are drawn lightly.",
             sketch.page(),
             (
                 FilmFigure("boundary points here", len(rows) - 1),
@@ -307,9 +304,8 @@ class _CompoundSteps:
         return FilmStep(
             "(h)",
             "Draw it, told apart",
-            "The path follows the points in the order of generation, on the screen or on an XY "
-            "plotter; between boundary points each surface's part has its own colour, or a solid, dotted or chain "
-            "line.",
+            "The path follows the points in the order of generation, on the screen or on an XY plotter; between "
+            "boundary points each surface's part has its own colour, or a solid, dotted or chain line.",
             "A ball's path is the same construction on the offset surfaces, so it gouges no neighbour.",
             self._all_runs(True).page(),
             (FilmFigure("surfaces told apart", len(rows) - 1),),

@@ -323,8 +323,7 @@ class _DexelSteps:
             "Most of a sphere lies inside the cylinders beside it; two planes through its centre, at the "
             "ends of these, leave a wedge, very slim where the path bends little.",
             f"Over the part that is looked at whole spheres would be {counts.spheres:,} polygons, wedges are "
-            f"{counts.wedges:,}. "
-            "Wedges are red, half spheres at the ends of the path yellow.",
+            f"{counts.wedges:,}. Wedges are red, half spheres at the ends of the path yellow.",
             self._net(self._shown_facets(self.cutter.radius / 8)).page(),
             (
                 FilmFigure("polygons with wedges", counts.wedges, "", counts.spheres),
@@ -342,10 +341,9 @@ class _DexelSteps:
         return FilmStep(
             "S105",
             "Into facets of size d",
-            "Cylinders become strips of rectangles, wedges strips of quads, of size d; those "
-            "that look up cannot be the lower side and are left out. d may be larger than w: at d = 2 w no "
-            "difference is "
-            "seen, and several d > w can be tried.",
+            "Cylinders become strips of rectangles, wedges strips of quads, of size d; those that look up cannot be "
+            "the lower side and are left out. d may be larger than w: at d = 2 w no difference is seen, and several d "
+            "> w can be tried.",
             "The table tries them: heights are held against the closed form, cell by cell, beside walls excepted.",
             self._net(self._shown_facets(max(self.facet, self.cutter.radius / 12))).page(),
             (
@@ -365,8 +363,7 @@ class _DexelSteps:
             "The grid is taken for the frame buffer: the facets are drawn by parallel projection from "
             "below, and the depth buffer keeps the lowest.",
             "Drawn in plain arrays here, so that the film is the same everywhere; `cut --engine patent` has the "
-            "graphics "
-            "hardware draw them.",
+            "graphics hardware draw them.",
             self._shades(np.where(seen_cells, self.depth, np.nan)).page(),
             (
                 FilmFigure("facets drawn", len(self.facets.kind)),
@@ -406,9 +403,8 @@ class _DexelSteps:
             "S108",
             "Trim the dexels",
             "Every dexel that is higher than its depth is trimmed to it.",
-            "The heights of record are a closed form in each cell (green); facets of size d lie inside what is "
-            "swept, so "
-            f"metal is left by up to {error:.2g} mm square to the surface, more straight up where it is steep.",
+            "The heights of record are a closed form in each cell (green); facets of size d lie inside what is swept, "
+            f"so metal is left by up to {error:.2g} mm square to the surface, more straight up where it is steep.",
             sketch.page(),
             (
                 FilmFigure("volume taken off here", taken, "mm³"),

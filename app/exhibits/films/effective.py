@@ -207,8 +207,7 @@ class _EffectiveSteps:
                 "S116",
                 "A range is found",
                 "If one is not, the range is what was looked at before: Pi to Pk-1. Its ends are effective, those "
-                "between "
-                "invalid.",
+                "between invalid.",
                 "One cone of directions for each start finds the same ranges without the loop: "
                 + ("compared here, all are the same." if same else "compared here, they differ."),
                 self._range(0).page(),
@@ -283,8 +282,7 @@ class _EffectiveSteps:
                 "S21",
                 "Choose effective points",
                 "About an effective point so many effective ones before and after it are chosen: in the example two "
-                "and "
-                "three, which picks P(i-6), P(i-4), P(i-3), P(i), P(i+1) and P(i+3).",
+                "and three, which picks P(i-6), P(i-4), P(i-3), P(i), P(i+1) and P(i+3).",
                 "",
                 look.page(),
                 (FilmFigure("chosen", len(chosen)), FilmFigure("of effective", len(self.effective))),
@@ -294,17 +292,15 @@ class _EffectiveSteps:
                 "The correction curve",
                 "A smooth curve goes through these, or near them.",
                 "Through: the cubic spline by chord lengths, its outer two pieces one cubic. Near: the one cubic of "
-                "least "
-                "squares.",
+                "least squares.",
                 with_curve.page(),
                 (FilmFigure("control points by", len(chosen)),),
             ),
             FilmStep(
                 "S23",
                 "Move the points",
-                "Effective ends move to the curve, always; invalid points only if they are within a share of an "
-                "end, or "
-                "move less than a limit. The others are left out.",
+                "Effective ends move to the curve, always; invalid points only if they are within a share of an end, "
+                "or move less than a limit. The others are left out.",
                 "An end that two ranges share takes the mean of both moves: with curves through the ends that is none, "
                 f"with curves near them up to {near.moved[self.effective].max():.6f} mm here.",
                 close.page(),

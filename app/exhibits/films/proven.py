@@ -153,8 +153,7 @@ class _ProvenSteps:
                 "figure 3",
                 "The region",
                 "Round each segment, its axis z, lies a solid of revolution r = f(z): a cylinder, or any other that "
-                "the "
-                "user chooses, such as a barrel, wide between the points.",
+                "the user chooses, such as a barrel, wide between the points.",
                 "At the points the region holds a ball, so that neighbours overlap at every corner. Here r = "
                 f"{self.profile.text}; heights are drawn {scale:.0f} times too large.",
                 outline.page(),
@@ -199,9 +198,8 @@ class _ProvenSteps:
         return FilmStep(
             f"figure 4, round {number}",
             "Fit, look at the points, look at the region",
-            "A least-squares B-spline with so many control points; are all command points near? Is the whole curve "
-            "in the "
-            "region? If not, control points are added, and the curve is made anew.",
+            "A least-squares B-spline with so many control points; are all command points near? Is the whole curve in "
+            "the region? If not, control points are added, and the curve is made anew.",
             f"Spans that fail are halved. {after}",
             sketch.page(),
             (
@@ -271,9 +269,8 @@ class _ProvenSteps:
                 "Curve and cylinder",
                 "Where the curve passes the surface of a cylinder is computed; between "
                 "these parameters it is in it or not.",
-                "The roots of squared distance less squared radius, a polynomial of each Bézier piece; the height "
-                "over the "
-                f"axis is drawn {scale:.0f} times too large.",
+                "The roots of squared distance less squared radius, a polynomial of each Bézier piece; the height over "
+                f"the axis is drawn {scale:.0f} times too large.",
                 pictures[0],
                 (FilmFigure("chord", chord), FilmFigure("crossings", len(cuts)), FilmFigure("radius", radius, "mm")),
                 rows,
@@ -358,8 +355,7 @@ class _ProvenSteps:
                 "If the curve from P to Q is shorter than the shortest way "
                 "P, X, Q by way of any point X of the region's surface, it cannot leave the region.",
                 "X is looked for on the whole surface here. What decides in the program is the spheroid against the "
-                "outline, "
-                "on ever shorter intervals, never a sample.",
+                "outline, on ever shorter intervals, never a sample.",
                 pictures[1],
                 (
                     FilmFigure("curve, at most", seen.length, "mm"),

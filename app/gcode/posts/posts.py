@@ -225,6 +225,5 @@ def _check_template(template: str, known: frozenset[str], place: str) -> None:
     if any(spec and (name not in COUNTS or not re.fullmatch("0[1-9]", spec)) for name, spec in used.items()):
         raise InputError(
             f"{place}: {template!r} cannot be filled in; only {', '.join(sorted(COUNTS & known))} can have zeros "
-            "before, "
-            "as in {program:04}."
+            "before, as in {program:04}."
         )

@@ -356,8 +356,8 @@ def _check_modes(source: TranslationSource, after: NcProgram, made: bytes, read:
         line = wrong[0] if wrong else min(here)
         raise InputError(
             f"{source.name} cannot be written for {source.post.title}: line {line} of what is written hangs on modes "
-            "that "
-            "another job may have left in force; let the post's program.start say them, as G17 {units} G90 G94 G40."
+            "that another job may have left in force; let the post's program.start say them, as G17 {units} G90 G94 "
+            "G40."
         )
 
 

@@ -165,8 +165,7 @@ def _turns_finding(operation: ThreadOperation, tool: Tool, way: ThreadWay) -> Fi
     hand = ", left-handed," if operation.left_hand else ""
     where = "on the boss" if operation.external else "in the hole"
     text = (
-        f"T{tool.number} mills {operation.thread.value}{hand} {where}: "
-        f"{how}, {'up' if way.up else 'down'}{moved}. The cut shows no turns of a thread, only the "
-        "core within the mill's teeth."
+        f"T{tool.number} mills {operation.thread.value}{hand} {where}: {how}, {'up' if way.up else 'down'}{moved}. The "
+        "cut shows no turns of a thread, only the core within the mill's teeth."
     )
     return Finding(FindingKind.ASSUMED, text, counts=False)

@@ -56,8 +56,7 @@ HEIGHTS_METHODS = {
     "to either side",
     Engine.GPU: "how far from the cpu's they may be; cells beside an upright wall may fall to either side",
     Engine.PATENT: "how far facets are at most inside the surface, square to it (d² / 8r of balls, d their size from "
-    "corner to corner); "
-    "cells beside an upright wall may fall to either side",
+    "corner to corner); cells beside an upright wall may fall to either side",
 }
 SPOTS = 100
 """Places that the report lists."""

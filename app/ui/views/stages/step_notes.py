@@ -8,8 +8,7 @@ from collections.abc import Mapping
 
 NOTES: Mapping[int, str] = {
     110: "The screen has {cols} by {rows} points{then}. What is drawn on it is stored as data, and from here on the "
-    "pixels are all "
-    "that is known. A pixel belongs to the contour when the contour passes through its square.",
+    "pixels are all that is known. A pixel belongs to the contour when the contour passes through its square.",
     120: "The text calls the offset “well known” and leaves it open. Here a pixel belongs to A' when its distance "
     "from everything outside, less 1.21 pixels, reaches the radius: so the tool cannot gouge, wherever in their "
     "pixels the contours ran.",
@@ -33,16 +32,14 @@ NOTES: Mapping[int, str] = {
     "stripes.",
     130: "The screen is rewritten with the filled area. It is the pocket tool's field of work; the line round it is "
     "the contour tool's.",
-    301: "The same eight-direction tracing, now on the border of what is left. What the averages of five vectors "
-    "come to "
-    "by formula I', and what it cannot tell, is computed under “Published”.",
+    301: "The same eight-direction tracing, now on the border of what is left. What the averages of five vectors come "
+    "to by formula I', and what it cannot tell, is computed under “Published”.",
     302: "All borders after the first one are only peeled off.",
     303: "Start pixel and chain code are stored. Nothing is taken from the area between here and step 306 but whole "
     "borders.",
-    304: "The text leaves pixels unmarked where strands are nearer than two pixels, so that areas do not fall "
-    "apart: so "
-    "it is done under “Published”, with the pixels that differ; step 307 takes them after all. Settled, a neck that is "
-    "too narrow parts: the tool does not fit there.",
+    304: "The text leaves pixels unmarked where strands are nearer than two pixels, so that areas do not fall apart: "
+    "so it is done under “Published”, with the pixels that differ; step 307 takes them after all. Settled, a neck that "
+    "is too narrow parts: the tool does not fit there.",
     305: "As many borders come off as the radius has pixels. What is left is exactly what is farther than that in "
     "city blocks, steps along rows and columns: aslant too little comes off, by a factor of 0.707.",
     306: "The frame that was stored in step 303 comes back, and the tool's centre is led along it.",
@@ -65,16 +62,13 @@ NOTES: Mapping[int, str] = {
     "Settled: one fit to all pixels, with the half pixel that tracing takes off put back.",
     402: "If the whole path was one circle, smoothing ends here.",
     403: "Long means ten tool diameters. They are found first, so that nothing shorter spoils them. Settled: the "
-    "longest "
-    "fit within the tolerance. “Published”: both sums SA and SB, and a histogram of directions with one peak.",
+    "longest fit within the tolerance. “Published”: both sums SA and SB, and a histogram of directions with one peak.",
     404: "Averages of five vectors shift with the pixel they begin at; under “Published” five beginnings are tried, "
-    "and "
-    "the sharpest counts. Settled: a corner is where two fitted pieces cross.",
+    "and the sharpest counts. Settled: a corner is where two fitted pieces cross.",
     405: "The same test as in 403, from corner to corner.",
     406: "Settled: the centre comes from a fit to all pixels of the stretch. “Published”: from eight of them.",
     407: "“Published” lays a spline through what is left. Fitted paths lie up to a pixel nearer to the walls than "
-    "their pixels, as near as the pixels' squares allow, "
-    "and never nearer than the tool does.",
+    "their pixels, as near as the pixels' squares allow, and never nearer than the tool does.",
 }
 """Two or three sentences for each step, as `note` fills them in."""
 
