@@ -4,6 +4,7 @@ full feed.
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +12,13 @@ import numpy as np
 import pytest
 
 from app.cli.main import main
+from app.model.finding import FindingKind
+from app.model.moves import Moves
+from app.model.scene import Passes
 from app.model.tool import Tool, ToolKind
+from app.operations.parallel.surface_moves import SurfaceMoves
 from app.surfaces.meshes.holes import holes
+from app.usecases.scene.findings import floor_findings
 from tests.surfaces.solids import FLOOR, WALL, pocketed_block, stl
 
 SCENE = """
@@ -163,6 +169,34 @@ def test_a_tip_below_the_underside_is_told_with_the_floor_that_helps(tmp_path: P
     assert status == 1 and kinds(report) == ["below_table"] and "floor = 0" in report["findings"][0]["text"]
     assert 2.5 < report["findings"][0]["amount"] <= 3.0
     assert told(tmp_path, shape=DOME, stock="box = [-12, -12, 0, 12, 12, 12]", pitch=1, passes="floor = 0")[0] == 0
+
+
+@pytest.mark.parametrize(("angle", "lowest"), [(0.0, 0.0), (30.0, -2.0), (45.0, -2.0)])
+def test_the_floor_holds_wherever_turned_passes_come(tmp_path: Path, angle: float, lowest: float) -> None:
+    """It was as wide as surfaces and overrun: at the corners of a turned rectangle, beyond, tips fell past it."""
+    shape = '{ kind = "plane", corner = [0, 0, 0], along = [20, 0, 0], across = [0, 20, 0] }'
+    passes = f"angle_deg = {angle}\noverrun = 1\nfloor = -2"
+    told(tmp_path, shape=shape, stock="box = [-9, -9, -8, 29, 29, 1]", pitch=1, passes=passes)
+    heights = [float(z) for z in re.findall(r"Z(-?[\d.]+)", (tmp_path / "s.ngc").read_text())]
+    assert min(heights) == lowest
+
+
+def test_a_tip_below_the_floor_of_its_own_passes_is_told() -> None:
+    """Asked of the moves alone, whatever made them."""
+    ends = np.array([[0.0, 0.0, 5.0], [1.0, 2.0, -2.5], [3.0, 4.0, -6.0]])
+    three = np.zeros(3)
+    moves = Moves(
+        ends, np.full((3, 2), np.nan), *(three.astype(np.uint8),) * 2, np.array([0, 1, 2], np.int16), *(three,) * 4
+    )
+    passes = [
+        Passes(1, pitch=1.0, floor=5.0),
+        Passes(1, "low", pitch=1.0, floor=-2.4),
+        Passes(1, pitch=1.0, floor=-6.0005),
+        Passes(1, pitch=1.0, floor=9.0),
+    ]
+    (found,) = floor_findings(SurfaceMoves(moves, three.astype(np.int64)), passes)
+    assert (found.kind, found.x, found.y) == (FindingKind.GOUGE, 1.0, 2.0)
+    assert "0.100 mm below the floor of passes low, Z -2.400" in found.text
 
 
 def test_steep_descents_go_at_the_plunge_rate(tmp_path: Path) -> None:

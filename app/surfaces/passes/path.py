@@ -61,17 +61,19 @@ them.
 """
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class Overrun:
     """How a cutter's centre leaves the box round the surfaces, to reach their feet.
 
     Attributes:
         far: beyond the box, mm, >= 0.
+        places: (n, 2) corners of the surfaces, XY, mm; None: of all that the cutter follows, a floor among it.
         box: x0, y0, x1, y1, mm: it stays in there as well, infinite where nothing is in the way.
         floor: the tip goes no lower out there, mm; nor lower than anywhere within the surfaces' box.
     """
 
     far: float
+    places: Floats | None = None
     box: tuple[float, float, float, float] = (-math.inf, -math.inf, math.inf, math.inf)
     floor: float = -math.inf
 
@@ -273,7 +275,8 @@ def cutter_path(
         Cancelled: the job was asked to stop.
     """
     facets = follower.facets
-    whole, across = extent_on(planes, facets.triangles[:, :, :2].reshape(-1, 2))
+    places = facets.triangles[:, :, :2].reshape(-1, 2) if overrun.places is None else overrun.places
+    whole, across = extent_on(planes, places)
     beside = [overrun.far > 0 and not across[0] - _NEAR <= offset <= across[1] + _NEAR for offset in planes.offsets]
     jobs = [
         PlaneStretch(plane, part)

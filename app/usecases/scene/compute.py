@@ -35,7 +35,7 @@ from ...surfaces.sections.compound import CompoundSurface, CuttingPlanes
 from ...surfaces.sections.planes import even_planes, widened
 from ...surfaces.sections.section import compound_surface
 from .effort import scene_effort
-from .findings import moves_findings, scene_findings
+from .findings import floor_findings, moves_findings, scene_findings
 from .plane_rules import expanded
 
 FLOOR = "floor"
@@ -128,7 +128,11 @@ def compute(scene: Scene, sources: SceneFiles, progress: Progress = NO_PROGRESS)
         context.stock,
         context.origin,
         context.grid,
-        (*found, *moves_findings(moves, context.stock, tools)),
+        (
+            *found,
+            *moves_findings(moves, context.stock, tools),
+            *floor_findings(moves, [each.passes for each in families]),
+        ),
     )
 
 
@@ -208,8 +212,9 @@ class _PlannedPasses:
 
 def _plan(context: _SceneContext, passes: Passes) -> _PlannedPasses:
     tool = _tool(context.scene, passes)
-    overrun = _overrun(passes, tool, context.stock)
-    return _PlannedPasses(passes, tool, overrun, _planes(context.facets.facets, passes, tool, overrun.far))
+    facets = context.facets.facets
+    overrun = _overrun(passes, tool, context.stock, facets.triangles[:, :, :2].reshape(-1, 2))
+    return _PlannedPasses(passes, tool, overrun, _planes(facets, passes, tool, overrun.far))
 
 
 def _family(context: _SceneContext, plan: _PlannedPasses, progress: Progress) -> ComputedFamily:
@@ -217,7 +222,7 @@ def _family(context: _SceneContext, plan: _PlannedPasses, progress: Progress) ->
     passes, tool, facets = plan.passes, plan.tool, context.facets
     below = facets.facets
     if passes.floor is not None:
-        below = _with_floor(below, passes.floor, len(context.built), plan.overrun.far)
+        below = _with_floor(below, passes.floor, len(context.built), plan.overrun.far + tool.radius)
     follower = Follower(below, tool, FollowOptions(passes.stock_to_leave, passes.chord_tolerance, context.grid))
     area = _area(passes.boundary, tool, context.sources)
     path = cutter_path(follower, plan.planes, area, progress.part(0.0, 0.7), plan.overrun)
@@ -238,11 +243,11 @@ def _planes(facets: SurfaceFacets, passes: Passes, tool: Tool, far: float) -> Cu
     return widened(planes, places, far, _step(passes, tool)) if far > 0 else planes
 
 
-def _overrun(passes: Passes, tool: Tool, stock: StockBox) -> Overrun:
+def _overrun(passes: Passes, tool: Tool, stock: StockBox, places: NDArray[np.float64]) -> Overrun:
     """Return how far passes leave the surfaces' box: as far as the tool still touches one, and metal is in its way."""
     far = tool.radius if passes.overrun is None else passes.overrun
     box = stock.x0 - tool.radius, stock.y0 - tool.radius, stock.x1 + tool.radius, stock.y1 + tool.radius
-    return Overrun(far, box, stock.z0)
+    return Overrun(far, places, box, stock.z0)
 
 
 def _step(passes: Passes, tool: Tool) -> float:
@@ -264,11 +269,18 @@ def _tool(scene: Scene, passes: Passes) -> Tool:
 
 
 def _with_floor(facets: SurfaceFacets, floor: float, number: int, far: float) -> SurfaceFacets:
-    """Return facets with a level one below everything, as wide as a tool's centre comes."""
-    places = facets.triangles[:, :, :2]
-    (x0, y0), (x1, y1) = (places.min(axis=(0, 1)) - far).tolist(), (places.max(axis=(0, 1)) + far).tolist()
+    """Return facets with a level one below everything, as wide as a tool comes on planes of any direction.
+
+    Args:
+        far: beside the surfaces, mm, its radius among it.
+    """
     if not math.isfinite(floor):
         raise ParameterError("The floor is no number; give a height in mm.")
+    places = facets.triangles[:, :, :2]
+    low, high = places.min(axis=(0, 1)), places.max(axis=(0, 1))
+    # a rectangle round the box, turned by any angle, and `far` more at each of its sides: so far its corners may be
+    reach = math.sqrt(2) * (math.dist(low, high) / 2 + far)
+    (x0, y0), (x1, y1) = ((low + high) / 2 - reach).tolist(), ((low + high) / 2 + reach).tolist()
     a, b, c, d = ([x, y, floor] for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))
     return joined([facets, SurfaceFacets.of_mesh(np.array([[a, b, c], [a, c, d]]), number)])
 

@@ -12,6 +12,7 @@ import numpy as np
 from ...core.tolerances import LEVEL
 from ...model.finding import Finding, FindingKind
 from ...model.moves import Purpose
+from ...model.scene import Passes
 from ...model.scene_shapes import MeshShape
 from ...model.stock_box import StockBox
 from ...model.tool import Tool
@@ -76,6 +77,23 @@ def moves_findings(moves: SurfaceMoves, stock: StockBox, tools: Sequence[Tool]) 
             "the stock."
         )
         yield Finding(FindingKind.BELOW_TABLE, text, x, y, amount=stock.z0 - z)
+
+
+def floor_findings(moves: SurfaceMoves, passes: Sequence[Passes]) -> Iterator[Finding]:
+    """Yield where tips go below the floor of their passes, which are those of the moves' operations, in order."""
+    ends, operation = moves.moves.end, moves.moves.operation
+    for number, each in enumerate(passes):
+        if each.floor is None:
+            continue
+        low = int(np.argmin(np.where(operation == number, ends[:, 2], np.inf)))
+        x, y, z = ends[low].tolist()
+        if operation[low] == number and z < each.floor - LEVEL:
+            name = each.name or f"with T{each.tool}"
+            text = (
+                f"The tool's tip goes {each.floor - z:.3f} mm below the floor of passes {name}, Z {each.floor:.3f}, at "
+                f"({x:.3f}, {y:.3f}); do not use this program, and report this with the scene."
+            )
+            yield Finding(FindingKind.GOUGE, text, x, y, amount=each.floor - z)
 
 
 def _size(facets: SurfaceFacets, tools: Sequence[Tool]) -> Iterator[Finding]:
