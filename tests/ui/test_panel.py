@@ -52,6 +52,7 @@ def panel(shared, document) -> Iterator[SidePanel]:
     """The panel as it is when the window opens."""
     _, made = shared
     made.resize(made.sizeHint())
+    made.show_results(OperationTimes({}), None)
     made.choose(FIRST)
     for group in made.operation_form.groups:
         group.group.fold.setChecked(False)
