@@ -7,6 +7,7 @@ import weakref
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QObject
 from shiboken6 import delete
 
 from app.core.errors import InputError
@@ -131,6 +132,44 @@ def test_a_job_that_is_done_holds_nothing(qtbot):
     del heavy, job
     gc.collect()
     assert gone() is None
+
+
+def test_garbage_is_collected_on_the_windows_thread_alone(qtbot, worker):
+    """A QObject that a job's thread freed, as the collector ran there when the job had ended, ended the program."""
+    threads = set()
+
+    def seen(phase: str, info: dict[str, int]) -> None:
+        threads.add(threading.current_thread())
+
+    gc.callbacks.append(seen)
+    try:
+        for k in range(3):
+            with qtbot.waitSignal(worker.done):
+                worker.start(lambda progress: [[k] for k in range(50_000)], k)
+        qtbot.waitUntil(gc.isenabled)
+        worker.finish()
+    finally:
+        gc.callbacks.remove(seen)
+    assert threads <= {threading.main_thread()}
+
+
+def test_what_only_a_job_holds_dies_on_the_windows_thread(qtbot, worker):
+    died_on, begun, left = [], threading.Event(), threading.Event()
+
+    class Held(QObject):
+        def __del__(self) -> None:
+            died_on.append(threading.current_thread())
+
+    def start() -> None:
+        held = Held()
+        worker.start(lambda progress: (begun.set(), left.wait(10), repr(held)), 0)
+
+    start()
+    assert begun.wait(10)
+    worker.cancel()  # from here on nobody else holds what the job works on
+    left.set()
+    qtbot.waitUntil(lambda: bool(died_on))
+    assert died_on == [threading.main_thread()]
 
 
 def test_what_is_too_much_memory_is_a_sentence_without_options(qtbot, worker):

@@ -66,8 +66,8 @@ class PanelSection(QWidget):
         """Add a row that keeps the panel's margins."""
         line = QHBoxLayout()
         line.setContentsMargins(EDGE, 0, EDGE, 0)
+        self.rows.addLayout(line)  # first: PySide frees a widget twice that went into a layout without a window
         line.addWidget(widget)
-        self.rows.addLayout(line)
 
 
 class ListRow(QWidget):

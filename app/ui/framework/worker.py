@@ -11,10 +11,10 @@ from collections.abc import Callable
 from contextlib import suppress
 from contextvars import copy_context
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from typing import Any, TypeVar
 
-from PySide6.QtCore import QObject, Qt, Signal, Slot
+from PySide6.QtCore import QCoreApplication, QObject, Qt, Signal, Slot
 from shiboken6 import isValid
 
 from ...core.errors import Cancelled, HitofudeError
@@ -58,27 +58,38 @@ class _PendingJob:
     take: Callable[[Any], None] | None
 
 
-class _NoCollector:
-    """Pauses the garbage collector while jobs run: with a large drawing one pass stops every thread for 0.1 to 0.2
-    s.
+class _JobsEnd(QObject):
+    """Where jobs end: on the window's thread, which alone collects garbage and lets go of what a job held.
+
+    A widget or controller that another thread frees is freed under Qt's feet, and the program is gone. So the collector
+    pauses while jobs run, goes on from here, and a job's thread keeps nothing. With a large drawing one pass would stop
+    every thread for 0.1 to 0.2 s besides.
     """
 
+    ended = Signal(object)
+
     def __init__(self) -> None:
-        self._jobs, self._lock = 0, threading.Lock()
+        super().__init__()
+        self._jobs = 0
+        self.ended.connect(self._on_ended, Qt.ConnectionType.QueuedConnection)
 
-    def __enter__(self) -> None:
-        with self._lock:
-            self._jobs += 1
-            gc.disable()
+    def begin(self) -> None:
+        """Count a job that is about to start."""
+        self._jobs += 1
+        gc.disable()
 
-    def __exit__(self, *_: object) -> None:
-        with self._lock:
-            self._jobs -= 1
-            if self._jobs == 0:
-                gc.enable()
+    @Slot(object)
+    def _on_ended(self, held: list[object]) -> None:
+        held.clear()
+        self._jobs -= 1
+        if self._jobs == 0:
+            gc.enable()
 
 
-_NO_COLLECTOR = _NoCollector()
+@cache
+def _jobs_end() -> _JobsEnd:
+    """Return the one that there is; it belongs to the thread that asks first, the window's."""
+    return _JobsEnd()
 
 
 class _Runner(threading.Thread):
@@ -86,16 +97,28 @@ class _Runner(threading.Thread):
 
     def __init__(self, work: _PendingJob, worker: Worker) -> None:
         super().__init__(name=f"job {work.job_id}", daemon=True)
-        self._work: _PendingJob | None = work
-        self._context = copy_context()
-        self._worker, self._told, self._fraction = worker, 0.0, 0.0
+        self._held: list[Any] = [work, worker, copy_context()]
+        self._end = _jobs_end()
+        self._told, self._fraction = 0.0, 0.0
         self._head_start = worker.head_start_s
 
     def run(self) -> None:
         """Run the function and answer; nothing may escape from here. What the function holds is let go of with it."""
-        work, self._work = self._work, None
-        if work is not None and not work.cancelled.wait(self._head_start):
-            self._context.run(self._run, work)
+        try:
+            self._start()
+        finally:
+            with suppress(RuntimeError):  # the program ends
+                self._end.ended.emit(self._held)
+
+    def _start(self) -> None:
+        work, _, context = self._held
+        if not work.cancelled.wait(self._head_start):
+            context.run(self._run, work)
+
+    @property
+    def _worker(self) -> Worker:
+        worker: Worker = self._held[1]
+        return worker
 
     def _tell(self, job_id: int, fraction: float, text: str) -> None:
         self._fraction, now = fraction, time.monotonic()
@@ -126,7 +149,7 @@ class _Runner(threading.Thread):
                 partial(self._tell, work.job_id), work.cancelled, remarks=partial(self._remark, work.job_id)
             )
             waits = waits_reported_to(lambda text: progress.step(self._fraction, text))
-            with _NO_COLLECTOR, within(budget_limit()), waits:
+            with within(budget_limit()), waits:
                 value = work.function(progress)
         except Cancelled:
             return
@@ -207,6 +230,7 @@ class Worker(QObject):
         self._threads = [thread for thread in self._threads if thread.is_alive()]
         runner = _Runner(work, self)
         self._threads.append(runner)
+        _jobs_end().begin()
         runner.start()
         if replaced is not None:
             self.cancelled.emit(replaced.job_id)
@@ -225,6 +249,7 @@ class Worker(QObject):
         self._drop()
         for thread in self._threads:
             thread.join(wait_s)
+        QCoreApplication.sendPostedEvents(_jobs_end())
 
     def _drop(self) -> _PendingJob | None:
         work, self._current = self._current, None

@@ -9,7 +9,7 @@ from ....gcode.interpreter.dialect import DIALECT_RULES
 from ....gcode.interpreter.program import ToolNote
 from ...framework.figures import clock, grouped
 from ...framework.labels import Elided, muted
-from ...framework.section import PanelSection, hairline
+from ...framework.section import EDGE, PanelSection, hairline
 from ...panels.side_panel import WIDTH
 from .program_reader import ShownProgram
 
@@ -36,6 +36,10 @@ class ProgramPanel(QScrollArea):
             self._of_program.add_indented(_row(name, value))
         self.tools: list[str] = []
         self._tool_rows: list[QWidget] = []
+        self._tool_column = QVBoxLayout()
+        self._tool_column.setContentsMargins(EDGE, 0, EDGE, 0)
+        self._tool_column.setSpacing(0)
+        self._of_tools.rows.addLayout(self._tool_column)
         inner = QWidget()
         inner.setObjectName("sidePanel")
         column = QVBoxLayout(inner)
@@ -61,7 +65,7 @@ class ProgramPanel(QScrollArea):
             for number, words in zip(used, self.tools, strict=True)
         ]
         for row in self._tool_rows:
-            self._of_tools.add_indented(row)
+            self._tool_column.addWidget(row)
 
 
 def _row(name: str, value: Elided) -> QWidget:
