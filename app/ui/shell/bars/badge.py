@@ -242,9 +242,9 @@ def _above(label: QLabel, buttons: Sequence[QPushButton]) -> QWidget:
     column.setSpacing(0)
     column.addWidget(label)
     row = QHBoxLayout()
+    column.addLayout(row)  # before anything stands in it, as in `PanelSection.add_indented`
     row.setSpacing(4)
     for button in buttons:
         row.addWidget(button)
     row.addStretch(1)
-    column.addLayout(row)
     return both

@@ -39,19 +39,18 @@ class VectorField(QWidget):
         name = muted(ask.name)
         name.setFixedWidth(LABEL_WIDTH)
         self.setToolTip(ask.tip)
-        row = QHBoxLayout()
+        grid, row = QGridLayout(self), QHBoxLayout()
+        grid.addLayout(row, 0, 1)  # before anything stands in it, as in `PanelSection.add_indented`
         row.setSpacing(4)
         for field in self.fields:
             field.edit.setFixedSize(_THIRD, ROW_HEIGHT)
             row.addWidget(field)
             field.committed.connect(lambda _: self.chosen.emit(tuple(each.number for each in self.fields)))
         row.addStretch(1)
-        grid = QGridLayout(self)
         grid.setContentsMargins(0, 1, 0, 1)
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(2)
         grid.addWidget(name, 0, 0)
-        grid.addLayout(row, 0, 1)
         grid.addWidget(reason, 1, 0, 1, 2)
         grid.setColumnStretch(1, 1)
 
