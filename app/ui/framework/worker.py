@@ -249,7 +249,9 @@ class Worker(QObject):
         self._drop()
         for thread in self._threads:
             thread.join(wait_s)
-        QCoreApplication.sendPostedEvents(_jobs_end())
+        end = _jobs_end()
+        if isValid(end):  # the program may be at its end
+            QCoreApplication.sendPostedEvents(end)
 
     def _drop(self) -> _PendingJob | None:
         work, self._current = self._current, None
