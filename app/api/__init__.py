@@ -8,6 +8,7 @@ from __future__ import annotations
 from ..core.errors import Cancelled, HitofudeError
 from ..core.progress import Progress
 from ..gcode.interpreter.dialect import Dialect
+from ..model.adaptive_operation import AdaptiveOperation
 from ..model.chamfer_operation import ChamferOperation
 from ..model.contour_operation import ContourOperation
 from ..model.curve_selectors import read_selectors
@@ -15,7 +16,7 @@ from ..model.face_operation import FaceOperation
 from ..model.finding import Finding, FindingKind
 from ..model.hole_operations import BoreOperation, CountersinkOperation, ReamOperation, TapOperation, ThreadOperation
 from ..model.job import Job, Stock
-from ..model.operation import AdaptiveOperation, CutParameters, DrillOperation, PocketOperation, RestOperation, Side
+from ..model.operation import CutParameters, DrillOperation, PocketOperation, RestOperation, Side
 from ..model.part import Units
 from ..model.slot_operation import SlotOperation
 from ..model.tool import Tool

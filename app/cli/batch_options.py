@@ -31,14 +31,6 @@ NOT_PASSED = frozenset(
 def add_batch_options(parser: OptionParser) -> None:
     """Add the options of `hitofude batch`."""
     parser.add_argument("parts", metavar="FOLDER|LIST.toml", type=Path, help="the parts: all in a folder, or a list")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="OUT",
-        type=Path,
-        required=True,
-        help="the folder to write to, made where there is none",
-    )
     kind = parser.add_mutually_exclusive_group()
     kind.add_argument("--check", action="store_true", help="check NC programs instead of making them of drawings")
     kind.add_argument("--smooth", action="store_true", help="smooth NC programs instead")
@@ -50,8 +42,6 @@ def add_batch_options(parser: OptionParser) -> None:
     parser.add_argument(
         "--sheets", choices=["pdf", "html"], help="of make: the sheet for the machine beside each program"
     )
-    parser.add_argument("--again", action="store_true", help="do all parts, whatever is done already")
-    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     add_passed(parser, BatchKind)
 
 

@@ -6,6 +6,7 @@ import argparse
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from ..core.errors import InputError
 from ..usecases.batch.lanes import ExecutorLane, Lane, ProcessLane, Work
@@ -22,11 +23,19 @@ def jobs_given(text: str) -> int:
 
 
 def add_lane_options(parser: OptionParser, what: str) -> None:
-    """Add the options of what is done by many processes.
+    """Add the options of what is done by many processes into one folder.
 
     Args:
         what: they do, in words, such as "parts".
     """
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT",
+        type=Path,
+        required=True,
+        help="the folder to write to, made where there is none",
+    )
     parser.add_argument(
         "--jobs", metavar="N", type=jobs_given, help=f"{what} at a time, each in its own process (default: one a core)"
     )
@@ -38,6 +47,8 @@ def add_lane_options(parser: OptionParser, what: str) -> None:
         help=f"of {what}, one that takes longer is ended (default 60)",
     )
     add_scheduler_option(parser)
+    parser.add_argument("--again", action="store_true", help=f"do all {what}, whatever is done already")
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
 def add_scheduler_option(parser: argparse._ActionsContainer) -> None:

@@ -36,14 +36,6 @@ def add_study_options(parser: OptionParser) -> None:
     """Add the options of `hitofude study`."""
     parser.add_argument("file", metavar="DRAWING|PROGRAM.ngc", type=Path, help="the drawing, or the NC program")
     parser.add_argument(
-        "-o",
-        "--output",
-        metavar="OUT",
-        type=Path,
-        required=True,
-        help="the folder to write to, made where there is none",
-    )
-    parser.add_argument(
         "--vary",
         metavar="OPTION=VALUES",
         action="append",
@@ -61,8 +53,6 @@ def add_study_options(parser: OptionParser) -> None:
         help=f"with --which-tool: tools to choose from: {TOOLS_HELP} (default: end mills from 1 to 25 mm)",
     )
     add_lane_options(parser, "combinations")
-    parser.add_argument("--again", action="store_true", help="do all combinations, whatever is done already")
-    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     add_passed(parser, (BatchKind.MAKE, BatchKind.SMOOTH))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from .adaptive_operation import AdaptiveOperation
 from .chamfer_operation import ChamferOperation
 from .contour_operation import ContourOperation
 from .face_operation import FaceOperation
@@ -16,7 +17,7 @@ from .hole_operations import (
     TapOperation,
     ThreadOperation,
 )
-from .operation import AdaptiveOperation, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from .operation import DrillOperation, Operation, PocketOperation, RestOperation, Side
 from .slot_operation import SlotOperation
 from .vcarve_operation import VcarveOperation
 

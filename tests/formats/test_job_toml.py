@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from app.core.errors import InputError
 from app.formats.job.toml import TOOL_KEYS, parse_origin, read_job
+from app.model.adaptive_operation import AdaptiveOperation
 from app.model.chamfer_operation import ChamferOperation
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer
@@ -22,7 +23,6 @@ from app.model.face_operation import FaceOperation
 from app.model.hole_operations import BoreOperation, ThreadOperation
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.operation import (
-    AdaptiveOperation,
     CutParameters,
     Direction,
     DrillOperation,

@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from app.core.errors import ParameterError
 from app.geometry.primitives import lengths, pack, sample, within_half_turn
 from app.geometry.region import nest, polygon_contour
+from app.model.adaptive_operation import AdaptiveOperation
 from app.model.entry import Entry, EntryKind
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.moves import MoveKind, Purpose
-from app.model.operation import AdaptiveOperation, CutParameters, Direction
+from app.model.operation import CutParameters, Direction
 from app.model.part import Contour, Entity, Part, Units
 from app.model.tool import Tool
 from app.operations.adaptive.limit import EngagementLimit

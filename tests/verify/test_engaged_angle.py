@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 from app.geometry.region import polygon_contour
+from app.model.adaptive_operation import AdaptiveOperation
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves
-from app.model.operation import AdaptiveOperation, CutParameters, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute

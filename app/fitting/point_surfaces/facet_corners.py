@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations, pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,12 +78,9 @@ def facet_corners(rows: Sequence[Floats], epsilon: float, progress: Progress = N
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, "Looking for facets")
-    found = facets_of_rows(rows, epsilon)
-    points = np.concatenate(rows)
-    pairs = row_neighbours(rows)
-    reach = spacing_of(rows)
+    found, points, pairs, reach, planes = row_facets(rows, epsilon)
     progress.step(0.4, "Looking for their corners")
-    planes, facets = planes_of(points, found, reach), len(found.planes)
+    facets = len(found.planes)
     places, weights = met_corners(found, pairs, planes, reach)
     if len(places) >= max(facets // 4, _LEAST):
         return FacetCorners(places, weights, ShapePlace.CORNER, facets, len(points))
@@ -91,6 +89,27 @@ def facet_corners(rows: Sequence[Floats], epsilon: float, progress: Progress = N
         return FacetCorners(places, weights, ShapePlace.EDGE, facets, len(points))
     effective = points[found.state == PointState.EFFECTIVE]
     return FacetCorners(effective, np.ones(len(effective)), ShapePlace.POINT, facets, len(points))
+
+
+class RowFacets(NamedTuple):
+    """The facets that n points of passes lie on.
+
+    Attributes:
+        found: of each point its facet. points: (n, 3) mm. pairs: neighbours, as `row_neighbours` has them.
+        reach: as `spacing_of` has it, mm. planes: of the facets.
+    """
+
+    found: CloudFacets
+    points: Floats
+    pairs: Ints
+    reach: float
+    planes: FacetPlanes
+
+
+def row_facets(rows: Sequence[Floats], epsilon: float) -> RowFacets:
+    """Return the facets of points of passes; args and errors as `facet_corners` has them."""
+    found, points, reach = facets_of_rows(rows, epsilon), np.concatenate(rows), spacing_of(rows)
+    return RowFacets(found, points, row_neighbours(rows), reach, planes_of(points, found, reach))
 
 
 def spacing_of(rows: Sequence[Floats]) -> float:

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats
 from ..point_curves.effective_points import PointState
-from ..point_curves.facets import CloudFacets, facets_of_rows, row_neighbours
-from .facet_corners import FacetCorners, FacetPlanes, ShapePlace, crossed_edges, met_corners, planes_of, spacing_of
+from ..point_curves.facets import CloudFacets
+from .facet_corners import FacetCorners, FacetPlanes, ShapePlace, crossed_edges, met_corners, row_facets
 
 Ints = NDArray[np.int64]
 
@@ -61,10 +61,8 @@ def surface_pieces(rows: Sequence[Floats], epsilon: float, progress: Progress = 
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, "Looking for facets")
-    found = facets_of_rows(rows, epsilon)
-    points, pairs, reach = np.concatenate(rows), row_neighbours(rows), spacing_of(rows)
+    found, points, pairs, reach, planes = row_facets(rows, epsilon)
     progress.step(0.4, "Looking for the edges between surfaces")
-    planes = planes_of(points, found, reach)
     group = _smooth_groups(found, pairs, planes)
     piece = np.full(len(points), NO_PIECE, np.int64)
     corners: list[FacetCorners] = []

@@ -34,9 +34,8 @@ def beside(
     found, arc = far.copy(), reference.kind >= MoveKind.ARC_CW
     bend = np.where(arc, _radius(reference, np.arange(len(far))), 0.0) * reference.sweep**2 / 2
     gentle = arc & (np.abs(reference.sweep) <= _GENTLE)
-    passed = (
-        controlled & gentle & (owned.count == 0)
-    )  # a bend that is taken for none: the next motion goes on from here
+    # a bend that is taken for none: the next motion goes on from here
+    passed = controlled & gentle & (owned.count == 0)
     found[passed] = np.minimum(far, bend)[passed]
     own = np.flatnonzero(controlled & (owned.count == 1) & (far > 0) & (reference.kind != MoveKind.RAPID))
     rows = owned.rows[owned.first[own]]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from ...model.adaptive_operation import AdaptiveOperation
 from ...model.finding import Finding
-from ...model.operation import AdaptiveOperation, Operation
+from ...model.operation import Operation
 from ...model.tool import Tool
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ...toolpath.narrow_regions import too_small

@@ -71,8 +71,12 @@ def feed_pieces(arc: DiscArc, limit: float, most: float) -> list[FeedPiece]:
     if most <= 1.0:
         return [FeedPiece(-arc.half, arc.half, 1.0)]
     edges = np.linspace(-arc.half, arc.half, _LOOKED + 1)
-    theta = np.minimum(arc.farthest_engaged(edges), math.pi / 2)
+    theta = arc.farthest_engaged(edges)
     worst = np.maximum(theta[:-1], theta[1:])
+    # it rises once and falls once: only beside the greatest is there more between two places than at both
+    first, last = max(int(np.argmax(theta)) - 1, 0), min(int(np.argmax(theta)) + 1, _LOOKED)
+    worst[first:last] = arc.farthest_engaged(np.linspace(edges[first], edges[last], _LOOKED + 1)).max()
+    worst = np.minimum(worst, math.pi / 2)
     times = np.minimum(math.sin(min(limit, math.pi / 2)) / np.maximum(np.sin(worst), 1e-9), most)
     times = np.maximum(1.0, np.floor(times * _STEPS + 1e-9) / _STEPS)
     pieces: list[FeedPiece] = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Any
 
 from PySide6.QtGui import QColor, QFont, QFontDatabase
@@ -56,7 +57,7 @@ class Theme:
     parameter: QColor
     regions: tuple[QColor, ...]
 
-    @property
+    @cached_property
     def tools(self) -> tuple[QColor, ...]:
         """The cycle of nine for a program's tools, in their order, the same in every view; the first three are those of
         the Paths view.

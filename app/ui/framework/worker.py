@@ -9,10 +9,10 @@ import time
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
-from contextvars import copy_context
+from contextvars import Context, copy_context
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from PySide6.QtCore import QCoreApplication, QObject, Qt, Signal, Slot
 from shiboken6 import isValid
@@ -58,6 +58,14 @@ class _PendingJob:
     take: Callable[[Any], None] | None
 
 
+class _Held(NamedTuple):
+    """What a job's thread holds while it runs."""
+
+    work: _PendingJob
+    worker: Worker
+    context: Context
+
+
 class _JobsEnd(QObject):
     """Where jobs end: on the window's thread, which alone collects garbage and lets go of what a job held.
 
@@ -79,7 +87,7 @@ class _JobsEnd(QObject):
         gc.disable()
 
     @Slot(object)
-    def _on_ended(self, held: list[object]) -> None:
+    def _on_ended(self, held: list[_Held]) -> None:
         held.clear()
         self._jobs -= 1
         if self._jobs == 0:
@@ -97,7 +105,7 @@ class _Runner(threading.Thread):
 
     def __init__(self, work: _PendingJob, worker: Worker) -> None:
         super().__init__(name=f"job {work.job_id}", daemon=True)
-        self._held: list[Any] = [work, worker, copy_context()]
+        self._held = [_Held(work, worker, copy_context())]
         self._end = _jobs_end()
         self._told, self._fraction = 0.0, 0.0
         self._head_start = worker.head_start_s
@@ -111,14 +119,13 @@ class _Runner(threading.Thread):
                 self._end.ended.emit(self._held)
 
     def _start(self) -> None:
-        work, _, context = self._held
-        if not work.cancelled.wait(self._head_start):
-            context.run(self._run, work)
+        (held,) = self._held
+        if not held.work.cancelled.wait(self._head_start):
+            held.context.run(self._run, held.work)
 
     @property
     def _worker(self) -> Worker:
-        worker: Worker = self._held[1]
-        return worker
+        return self._held[0].worker
 
     def _tell(self, job_id: int, fraction: float, text: str) -> None:
         self._fraction, now = fraction, time.monotonic()

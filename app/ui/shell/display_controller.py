@@ -149,7 +149,6 @@ class DisplayController(QObject):
         self._window.actions_[View.DRAW.value].setChecked(True)
         self._window.views.show_view(View.DRAW)
         self._window.views.show_start()
-        self.show_prompt()
         self.show_state()
 
     def show_prompt(self) -> None:

@@ -49,8 +49,7 @@ class StagesCoordinator(QObject):
         """Bring the picture to the front when it comes."""
         if self._pictures.preview is not None and self._display.view is not View.STAGES:
             self._display.show_view(View.STAGES)
-        self._display.show_prompt()
-        self._display.show_missing()
+        self._display.show_state()
 
     def _on_picture_taken(self, path: Path) -> None:
         self._window.workspace.preferences.add_recent(path)

@@ -23,6 +23,12 @@ from .task import BatchRow, BatchVerdict
 MOST_CHOICES = 2000
 """Of a study: what takes a second each is an hour's work on one core."""
 
+_NARROW = "\u202f"
+"""Space between thousands."""
+_SAME_MM2 = 0.01
+"""What is left is alike within this."""
+_WIDTH, _HEIGHT, _EDGE = 480, 180, 36
+"""Of the plot, px, and what its numbers take of that."""
 _UNSAFE = re.compile(r"[^A-Za-z0-9.+-]+")
 
 
@@ -136,10 +142,9 @@ class _Number:
         """Return its cell."""
         value = self.of(row)
         words = "" if value is None else minutes_words(value) if self.unit == "min" else f"{value:,.0f}"
-        return f'<td class="number" data-unit="{self.unit}">{words.replace(",", NARROW)}</td>'
+        return f'<td class="number" data-unit="{self.unit}">{words.replace(",", _NARROW)}</td>'
 
 
-NARROW = "\u202f"
 _NUMBERS = (
     _Number("time_s", "Time, min", "min", lambda row: row.time_s, 1),
     _Number("length_mm", "Length, mm", "mm", lambda row: row.length_mm, 3),
@@ -181,14 +186,10 @@ def best_words(choices: Sequence[StudyChoice], rows: Sequence[BatchRow]) -> str:
     if not order:
         return ""
     least = min((rows[at].left_mm2 or 0.0 for at in order if rows[at].verdict is BatchVerdict.CLEAN), default=0.0)
-    thorough = [at for at in order if (rows[at].left_mm2 or 0.0) <= least + SAME_MM2]
+    thorough = [at for at in order if (rows[at].left_mm2 or 0.0) <= least + _SAME_MM2]
     best, second = order[0], thorough[0] if thorough else order[0]
     said = f"Least time: {_best(choices[best], rows[best])}."
     return said if best == second else f"{said} Least left: {_best(choices[second], rows[second])}."
-
-
-SAME_MM2 = 0.01
-"""What is left is alike within this."""
 
 
 def _best(choice: StudyChoice, row: BatchRow) -> str:
@@ -209,10 +210,6 @@ def _choice_row(choice: StudyChoice, row: BatchRow, numbers: Sequence[_Number], 
         f"{''.join(number.in_html(row) for number in numbers)}"
         f'<td class="told">{found}<span class="name">{links}</span></td></tr>'
     )
-
-
-WIDTH, HEIGHT, EDGE = 480, 180, 36
-"""Of the plot, px, and what its numbers take of that."""
 
 
 @dataclass(frozen=True)
@@ -242,7 +239,7 @@ def _plot(choices: Sequence[StudyChoice], rows: Sequence[BatchRow]) -> str:
 
     def place(dot: _Dot) -> tuple[float, float]:
         across = (dot.value - low) / (high - low)
-        return EDGE + across * (WIDTH - 2 * EDGE), HEIGHT - EDGE - dot.time_s / most * (HEIGHT - 2 * EDGE)
+        return _EDGE + across * (_WIDTH - 2 * _EDGE), _HEIGHT - _EDGE - dot.time_s / most * (_HEIGHT - 2 * _EDGE)
 
     line = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(place, dots))
     marks = "".join(
@@ -250,14 +247,14 @@ def _plot(choices: Sequence[StudyChoice], rows: Sequence[BatchRow]) -> str:
         f"<title>{dot.value:g}: {minutes_words(dot.time_s)} min</title></circle>"
         for dot, (x, y) in zip(dots, map(place, dots), strict=True)
     )
-    bottom = HEIGHT - EDGE
+    bottom = _HEIGHT - _EDGE
     numbers = (
-        f'<text x="{EDGE}" y="{HEIGHT - 14}">{low:g}</text>'
-        f'<text x="{WIDTH - EDGE}" y="{HEIGHT - 14}" text-anchor="end">{high:g}</text>'
-        f'<text x="{WIDTH / 2}" y="{HEIGHT - 14}" text-anchor="middle">{escape(choices[0].axes[0].option)}</text>'
-        f'<text x="{EDGE}" y="20">{minutes_words(most)} min</text>'
+        f'<text x="{_EDGE}" y="{_HEIGHT - 14}">{low:g}</text>'
+        f'<text x="{_WIDTH - _EDGE}" y="{_HEIGHT - 14}" text-anchor="end">{high:g}</text>'
+        f'<text x="{_WIDTH / 2}" y="{_HEIGHT - 14}" text-anchor="middle">{escape(choices[0].axes[0].option)}</text>'
+        f'<text x="{_EDGE}" y="20">{minutes_words(most)} min</text>'
     )
     return (
-        f'<svg class="plot" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="time against the value">'
-        f'<path d="M{EDGE},{EDGE}V{bottom}H{WIDTH - EDGE}"/><polyline points="{line}"/>{marks}{numbers}</svg>'
+        f'<svg class="plot" viewBox="0 0 {_WIDTH} {_HEIGHT}" role="img" aria-label="time against the value">'
+        f'<path d="M{_EDGE},{_EDGE}V{bottom}H{_WIDTH - _EDGE}"/><polyline points="{line}"/>{marks}{numbers}</svg>'
     )

@@ -9,6 +9,7 @@ solved for, as the boundary points of a compound surface are.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +37,8 @@ _DEEPER = 1.5
 """Times what facets may be off: metal that is so much deeper was cut by another move."""
 _SAME = 1e-9
 """mm; a place of the program is the one that was looked at."""
-_HALVINGS = 60
+_SHARE = 4 * np.finfo(float).eps
+"""Of a chord: so near a crossing is found."""
 _LOOKS = 9
 """Places along a chord that say how much the surface below it is bent."""
 _MOST_PARTS = 64
@@ -225,6 +227,23 @@ class LiftedPolyline:
     lifted_mm: float
 
 
+class _Crossing(NamedTuple):
+    """Where two surfaces are as high: the place (3,) of the program, their height, and by how much they are not, mm."""
+
+    place: Floats
+    height: float
+    apart: float
+
+
+class _CrossedPieces(NamedTuple):
+    """Places (n, 3) and the piece of each, crossings among them; these on the surfaces, (b, 3), and apart, (b,), mm."""
+
+    places: Floats
+    piece: Ints
+    boundaries: Floats
+    apart: Floats
+
+
 class PassLifter:
     """Lifts polylines of a program onto the smooth surfaces behind them."""
 
@@ -240,8 +259,8 @@ class PassLifter:
         places = filled_places(points, self._pitch)
         away, at = self._tree.query(places)
         piece = np.where(away <= _SAME, self._smoothed.piece[at], NO_PIECE)
-        own, labels, crossings = self._with_crossings(places, piece)
-        own, labels = self._refined(own, labels)
+        crossed = self._with_crossings(places, piece)
+        own, labels = self._refined(crossed.places, crossed.piece)
         heights, known = self._heights(own, labels)
         along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(own[:, :2], axis=0), axis=1))])
         near = np.minimum(along, along[-1] - along) / max(min(_BLEND * self._pitch, along[-1] / 3), 1e-9)
@@ -252,8 +271,8 @@ class PassLifter:
         once = np.append(True, np.any(np.abs(np.diff(own, axis=0)) > _SAME, axis=1))
         return LiftedPolyline(
             new[once],
-            crossings[:, :3],
-            crossings[:, 3],
+            crossed.boundaries,
+            crossed.apart,
             chord,
             float(np.abs(new[:, 2] - own[:, 2]).max(initial=0.0)),
         )
@@ -266,10 +285,8 @@ class PassLifter:
                 heights[on] = each.spline.heights(places[on, :2])
         return heights, known
 
-    def _with_crossings(self, places: Floats, piece: Ints) -> tuple[Floats, Ints, Floats]:
-        """Return places and pieces with the places (b, 4) between where two surfaces are as high, and by how much they
-        are not.
-        """
+    def _with_crossings(self, places: Floats, piece: Ints) -> _CrossedPieces:
+        """Return places and pieces with those between where two surfaces are as high."""
         change = np.flatnonzero((piece[1:] != piece[:-1]) & (piece[1:] != NO_PIECE) & (piece[:-1] != NO_PIECE))
         found, rows = [], []
         for k in change.tolist():
@@ -278,36 +295,29 @@ class PassLifter:
                 found.append(crossing)
                 rows.append(k + 1)
         if not found:
-            return places, piece, np.zeros((0, 4))
-        crossings = np.array(found)
+            return _CrossedPieces(places, piece, np.zeros((0, 3)), np.zeros(0))
         both = np.column_stack([piece[np.array(rows) - 1], piece[rows]]).ravel()  # each surface up to there
         twice = np.repeat(rows, 2)
-        own = np.repeat(crossings[:, :3], 2, axis=0)
-        crossings[:, 2] = crossings[:, 4]
-        return np.insert(places, twice, own, axis=0), np.insert(piece, twice, both), crossings[:, [0, 1, 2, 3]]
+        own = np.repeat([each.place for each in found], 2, axis=0)
+        boundaries = np.array([(*each.place[:2], each.height) for each in found])
+        apart = np.array([each.apart for each in found])
+        return _CrossedPieces(np.insert(places, twice, own, axis=0), np.insert(piece, twice, both), boundaries, apart)
 
-    def _crossing(self, a: Floats, b: Floats, pieces: tuple[int, int]) -> Floats | None:
-        """Return the place between two where both surfaces are as high, what is left of their difference, and their
-        height; None where they are nowhere as high.
-        """
+    def _crossing(self, a: Floats, b: Floats, pieces: tuple[int, int]) -> _Crossing | None:
+        """Return where between two places both surfaces are as high; None where they are nowhere as high."""
+        from scipy.optimize import brentq
+
         one, other = (self._smoothed.fitted[k].spline for k in pieces)
 
         def apart(share: float) -> float:
             place = (a + share * (b - a))[None, :2]
             return float(one.heights(place)[0] - other.heights(place)[0])
 
-        low, high = 0.0, 1.0
-        first = apart(low)
-        if first * apart(high) >= 0:
+        if apart(0.0) * apart(1.0) >= 0:
             return None
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            if apart(middle) * first > 0:
-                low = middle
-            else:
-                high = middle
-        place = a + high * (b - a)
-        return np.array([*place, abs(apart(high)), one.heights(place[None, :2])[0]])
+        share = float(brentq(apart, 0.0, 1.0, xtol=_SHARE, rtol=_SHARE))
+        place = a + share * (b - a)
+        return _Crossing(place, float(one.heights(place[None, :2])[0]), abs(apart(share)))
 
     def _refined(self, places: Floats, piece: Ints) -> tuple[Floats, Ints]:
         """Return places and pieces with so many between that chords keep to the surfaces."""
