@@ -56,6 +56,7 @@ def test_a_picture_is_shown_as_it_is_read(opened):
     assert opened.display_controller.view is View.STAGES and panel.isVisible() and not window.stages_panel.isVisible()
     view = window.views.stages
     assert not view.rail.isVisible() and not view.player.isVisible() and not window.views.empty.isVisible()
+    assert window.file_label.text() == "scan.png" and "A picture, not taken yet" in window.status.badge.text()
     image, colours = view.pixels.grab().toImage(), code_colours(LIGHT)
     for (col, row), code in (
         ((300.5, 80.5), PixelCode.INSIDE),
