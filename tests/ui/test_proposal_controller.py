@@ -110,6 +110,20 @@ def test_an_opened_drawing_is_proposed_for_at_its_first_compute_alone(qtbot, wir
     assert computed_at_once(qtbot, wiring) == [type(each) for each in before]
 
 
+@pytest.mark.parametrize("is_sample", [False, True], ids=["a file", "a sample that is proposed for as it opens"])
+def test_compute_waits_for_the_drawing_that_is_being_opened(qtbot, wiring, samples, tmp_path, is_sample):
+    """It took the place of the opening, which was lost without a word."""
+    path = samples / "nameplate.draw"
+    if not is_sample:
+        path = tmp_path / "plate.draw"
+        path.write_text("\n".join(PLATE))
+    wiring.files.open_file(path)
+    wiring.compute()
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
+    assert wiring.document.path == path and wiring.computation.made.files
+    assert type(wiring.document.job.operations[-1]) is ContourOperation
+
+
 def test_operations_that_were_said_stay_at_the_first_compute(qtbot, wiring, tmp_path):
     path = tmp_path / "plate.draw"
     path.write_text("\n".join(PLATE) + "\n")

@@ -219,6 +219,11 @@ class Worker(QObject):
         """True while a job runs whose answer is still wanted."""
         return self._current is not None
 
+    @property
+    def job_id(self) -> int | None:
+        """The job whose answer is still wanted; None where there is none."""
+        return self._current.job_id if self._current is not None else None
+
     def start(
         self, function: Callable[[Progress], Answer], revision: int, take: Callable[[Answer], None] | None = None
     ) -> int:

@@ -462,6 +462,9 @@ class WindowController(QObject):
         if self._scene.at_front:
             self.scenes.compute()
             return
+        self.files.open_controller.once_open(self._compute_drawing)
+
+    def _compute_drawing(self) -> None:
         self._programs.show_own()
         self.proposal_controller.before(self._compute_job)
 
@@ -475,7 +478,8 @@ class WindowController(QObject):
         if self._scene.at_front:
             self.scene_export.start()
         else:
-            self.proposal_controller.before(self.files.export_controller.start)
+            before = partial(self.proposal_controller.before, self.files.export_controller.start)
+            self.files.open_controller.once_open(before)
 
     def cancel(self) -> None:
         """Leave the running job."""

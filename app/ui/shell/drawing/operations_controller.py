@@ -38,6 +38,10 @@ class OperationsController(QObject):
             if revision == self._document.revision:
                 take(made)
             else:
-                self.said.emit("The drawing was changed meanwhile; ask for the operations again.")
+                self._miss()
 
         self.worker.start(function, revision, take_if_current)
+
+    def _miss(self) -> None:
+        """Say that operations came too late."""
+        self.said.emit("The drawing was changed meanwhile; ask for the operations again.")

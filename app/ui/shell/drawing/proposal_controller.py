@@ -141,17 +141,16 @@ class ProposalController(OperationsController):
         )
 
     def before(self, act: Callable[[], None]) -> None:
-        """Do something with the job, such as computing it, after operations were proposed where that is due; of what is
-        asked for meanwhile the last is done.
+        """Do something with the job, such as computing it, after the operations that are being worked out, or that are
+        proposed where that is due; of what is asked for meanwhile the last is done.
         """
-        if not self.due:
-            act()
-            return
-        if self._then is not None and self.worker.busy:
+        if self.worker.busy:
             self._then = act
-            return
-        job, self._then = self._document.job, act
-        self._work_out(lambda progress: first_proposal(job, progress), self._begin_with)
+        elif self.due:
+            job, self._then = self._document.job, act
+            self._work_out(lambda progress: first_proposal(job, progress), self._begin_with)
+        else:
+            act()
 
     def propose(self, nesting: bool) -> None:
         """Have operations proposed by how the curves lie in one another, or by the rule of 1986."""
@@ -188,13 +187,26 @@ class ProposalController(OperationsController):
             self._workspace.notice.dismiss()
             self._work_out(lambda progress: find(job, numbers, progress), take)
 
+    def _work_out(self, function: Callable[[Progress], Answer], take: Callable[[Answer], None]) -> None:
+        """Work operations out and take them, and go on with what was asked for meanwhile."""
+
+        def take_and_go_on(made: Answer) -> None:
+            take(made)
+            then, self._then = self._then, None
+            if then is not None:
+                then()
+
+        super()._work_out(function, take_and_go_on)
+
+    def _miss(self) -> None:
+        self._forget()
+        super()._miss()
+
     def _begin_with(self, proposal: Proposal | None) -> None:
-        """Take what is proposed first, and go on with what that was for."""
-        then, self._then, self._begun_with = self._then, None, None
+        """Take what is proposed first."""
+        self._begun_with = None
         if proposal is not None:
-            self._take(proposal, goes_on=True)
-        if then is not None:
-            then()
+            self._take(proposal)
 
     def _add(self, chosen: ChosenOperations) -> None:
         """Take over operations that were added, and offer to switch off what machines all curves besides."""
@@ -234,8 +246,8 @@ class ProposalController(OperationsController):
 
         self._panel.change("Switch operations off", make)
 
-    def _take(self, proposal: Proposal, goes_on: bool = False) -> None:
-        """Take a proposal; where the work goes on with it, computing need not be offered."""
+    def _take(self, proposal: Proposal) -> None:
+        """Take a proposal."""
         from ....usecases.proposal.propose import ProposalRule
 
         self._begun_with = None
@@ -249,15 +261,21 @@ class ProposalController(OperationsController):
             self._workspace.log.note(f"propose {operation_name(each.operation)} T{each.operation.cut.tool}", each.why)
         for finding in proposal.findings:
             self._workspace.log.note("propose", finding.text, error=True)
-        self._ask_on(proposal, nesting, changed, goes_on)
+        self._ask_on(proposal, nesting, changed)
 
-    def _ask_on(self, proposal: Proposal, nesting: bool, changed: bool, goes_on: bool) -> None:
-        """Say what there is now, and offer what comes next; to undo only where something was changed."""
+    def _ask_on(self, proposal: Proposal, nesting: bool, changed: bool) -> None:
+        """Say what there is now, and offer what comes next: to compute unless the work goes on with it anyhow, to undo
+        only where something was changed.
+        """
         many = Counter(operation_name(each.operation).lower() for each in proposal.operations)
         names = ", ".join(name if count == 1 else f"{count} {TIMES} {name}" for name, count in many.items())
         left = f" {counted(len(proposal.findings), 'gap')} to close: see the log." if proposal.findings else ""
         other = ("As in 1986", "propose_1986") if nesting else ("By the drawing", "propose")
-        answers = [*([] if goes_on else [("Compute", "compute")]), other, *([("Undo", "undo")] if changed else [])]
+        answers = [
+            *([] if self._then is not None else [("Compute", "compute")]),
+            other,
+            *([("Undo", "undo")] if changed else []),
+        ]
         self._workspace.notice.ask(
             f"Proposed: {names}.{left}", [(text, self._commands[name].trigger) for text, name in answers], of_job=True
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -153,6 +154,7 @@ class OpenController(QObject):
         super().__init__()
         self._document, self._worker = document, worker
         self._job_id: int | None = None
+        self._then: Callable[[], None] | None = None
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
 
@@ -164,10 +166,17 @@ class OpenController(QObject):
             reading: how a drawing is read.
             before: the job that goes on with a drawing; None = the document's.
         """
-        before = before or self._document.job
+        before, self._then = before or self._document.job, None
         self._job_id = self._worker.start(
             lambda progress: _read(path, reading, before, progress), self._document.revision
         )
+
+    def once_open(self, action: Callable[[], None]) -> None:
+        """Do something with the drawing that is being read as soon as it is open, or else at once."""
+        if self._job_id is not None and self._job_id == self._worker.job_id:
+            self._then = action
+        else:
+            action()
 
     def _on_done(self, answer: JobOutcome) -> None:
         if answer.job_id != self._job_id:
@@ -189,6 +198,9 @@ class OpenController(QObject):
         else:
             self._document.load(opened.job, opened.path, opened.source)
         self.opened.emit(opened)
+        then, self._then = self._then, None
+        if then is not None:
+            then()
 
     def _on_failed(self, answer: JobOutcome) -> None:
         if answer.job_id == self._job_id:
