@@ -239,6 +239,7 @@ def _close_what_stands_over(wiring: WindowController) -> None:
     wiring.palette.edit.clear()
     wiring.palette.list.clear()
     window = wiring.window_
+    window.views.start.show_files((), ())
     for made in (*window.findChildren(InlayForm), *window.canvas.findChildren(QMenu, options=CHILDREN)):
         made.setParent(None)
         made.deleteLater()

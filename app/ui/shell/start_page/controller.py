@@ -24,7 +24,7 @@ _DAY_S = 86_400.0
 _SAMPLES = (
     ("plate.draw", "A plate", "cut out, with holes and slots"),
     ("nameplate.draw", "A sign", "engraved lettering"),
-    ("die.toml", "A mould", "finish ten surfaces"),
+    ("die.toml", "A mould", "roughed and finished"),
     ("fig2.dxf", "Fig. 2 of 1986", "the patent's own drawing"),
 )
 
