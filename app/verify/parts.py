@@ -34,7 +34,7 @@ from .verdict import OperationBound, bounds_of, followed_walls
 
 if TYPE_CHECKING:
     from ..toolpath.coverage.floor_target import FloorTarget
-    from .solid_gouges import DepthInSolid
+    from .solid_depth import DepthInSolid
 
 
 TOLERANCE = 0.01
@@ -119,7 +119,7 @@ class SolidPart:
         Raises:
             Cancelled: by progress.
         """
-        from .solid_gouges import DepthInSolid  # compiled code: loaded where it is used
+        from .solid_depth import DepthInSolid  # compiled code: loaded where it is used
 
         if not self._depths:
             self._depths.append(DepthInSolid(self.solid, self.leave, progress))

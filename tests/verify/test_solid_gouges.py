@@ -20,7 +20,8 @@ from app.simulation.field.triangle_tree import TriangleTree
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.cutting.cut import CutOptions, CutProgram, CutSetup, cut
 from app.verify.parts import SolidPart
-from app.verify.solid_gouges import APART, CutColumns, DepthInSolid, apart
+from app.verify.solid_depth import CutColumns, DepthInSolid
+from app.verify.solid_gouges import APART, apart
 from tests.surfaces.solids import FLOOR, WALL, pocketed_block, stl
 from tests.verify.test_judge import program
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.finding import Finding, FindingKind
 from ...simulation.field.workpiece import Grid, Workpiece
-from ...verify.judge import places_of
+from ...verify.judgement import places_of
 from ...verify.parts import TOLERANCE
 from .reach import FamilyReach, Floats, Heights, SurfaceGrid, reached, slopes
 from .ridges import MOST, ridges
