@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats, MotionKind, Motions
-from ..interpreter.block_fault import BlockFault
-from ..interpreter.program import FeedMode, NcProgram
+from ..interpreter.program import BlockFault, FeedMode, NcProgram
 from ..interpreter.text import ProgramBuffer, code_of
 
 Flags = NDArray[np.bool_]

@@ -11,10 +11,10 @@ import numpy as np
 
 from ...model.motion import Floats, MotionKind, Motions
 from ...model.motion_path import ArcPaths, arc_paths
+from ..interpreter.block import BlockStep
 from ..interpreter.codes import CYCLES, ModalGroup
 from ..interpreter.dialect import DIALECT_RULES
 from ..interpreter.program import EventKind, NcProgram
-from ..interpreter.steps import BlockStep
 from ..posts.post import ArcCentre
 from ..writer.arcs import ArcRules, ReferenceArc, written_pieces
 from ..writer.curve_blocks import BlockFormat, curve_blocks

@@ -15,14 +15,13 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import MotionKind, Plane
 from ...model.part import Units
 from ..checks.start_states import foreign_start, read_from_start
-from ..interpreter.block import SLASH
+from ..interpreter.block import SLASH, BlockStep
 from ..interpreter.codes import ModalGroup
 from ..interpreter.dialect import DIALECT_RULES
-from ..interpreter.macro import is_macro
+from ..interpreter.foreign_codes import is_macro
 from ..interpreter.options import PATIENT, ReadOptions
 from ..interpreter.program import NcProgram
 from ..interpreter.reader import read_program, read_steps
-from ..interpreter.steps import BlockStep
 from ..interpreter.text import ProgramBuffer
 from ..posts.post import Post
 from ..rework.compare import DifferenceKind, ProgramDifference, compare

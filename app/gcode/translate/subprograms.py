@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ..interpreter.block import BlockStep
 from ..interpreter.dialect import DIALECT_RULES
-from ..interpreter.steps import BlockStep
 from ..interpreter.text import code_of
 from .translatable import TranslationSource
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.motion import MotionKind, Motions
+from ..interpreter.block import BlockStep
 from ..interpreter.program import NcProgram
-from ..interpreter.steps import BlockStep
 from .translatable import TAPPING
 
 _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 from ...model.motion import Plane
 from ...model.part import Units
+from ..interpreter.block import BlockStep
 from ..interpreter.codes import ModalGroup
 from ..interpreter.dialect import DIALECT_RULES, Dialect
 from ..interpreter.program import FeedMode, ModalState
-from ..interpreter.steps import BlockStep
 from ..writer.blocks import Blocks
 from ..writer.grid import spelled
 from .translatable import TAPPING, TranslationSource
