@@ -19,7 +19,7 @@ from ...model.job import Job
 from ..interpreter.dialect import Dialect
 from ..interpreter.program import BlockFault, ProgramProblem
 from ..interpreter.text import code_of
-from ..posts.post import Post
+from ..posts import Post
 from ..writer.template_fields import Fields, program_fields, tool_fields
 from ..writer.write import blend_mm
 

@@ -1,4 +1,4 @@
-"""What the header of our own programs tells (`app.gcode.writer.header_notes`): a key and its values in each comment."""
+"""What the header of our own programs tells (`app.gcode.writer.header`): a key and its values in each comment."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from ...core.errors import ParameterError
-from ...gcode import operation_notes
 from ...model.curve_selectors import on_layers
 from ...model.entry import LONGEST_LEAD
 from ...model.fields import parameters_of
@@ -21,7 +20,8 @@ from ...model.operation import Operation, Side
 from ...model.operation_kinds import OPERATION_KINDS
 from ...model.part import Units
 from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH, DrawingOptions
-from ..note_texts import unspelled
+from .. import operation_notes
+from ..operation_notes import unspelled
 from .program import HeaderNote, KeepOutNote, OperationNote, PlungeRateNote, StockNote, ToolNote
 
 MARK, MARK_ON = b"hitofude:", b"hitofude+"

@@ -204,7 +204,7 @@ class PlungeRateNote(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class HeaderNote:
-    """What the header of our own tells beside tools and stock (`app.gcode.writer.header_notes`); None or nothing where
+    """What the header of our own tells beside tools and stock (`app.gcode.writer.header`); None or nothing where
     it does not.
 
     Attributes:
