@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ..core.errors import ParameterError
 from ..core.progress import NO_PROGRESS, Progress
-from ..gcode.posts.posts import load_post
+from ..gcode.posts import load_post
 from ..geometry.distance import DistanceField
 from ..geometry.primitives import contour_rows
 from ..geometry.region import polygon_contour

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from app.gcode.checks.arc_distance_kernels import in_step
+from app.gcode.checks.check_kernels import in_step
 
 
 def points(arc: np.ndarray, t: np.ndarray) -> np.ndarray:

@@ -21,7 +21,7 @@ from app.formats.tools.files import read_tools, write_tools
 from app.formats.tools.library import ToolLibrary
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.gcode.writer.write import write_files
 from app.model.tool import Tool, ToolKind
 from app.model.tool_kind import ToolProfile, register, tool_kind, tool_kinds, withdraw

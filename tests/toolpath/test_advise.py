@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from app.core.errors import Cancelled, ParameterError
 from app.core.progress import Progress
 from app.formats.readers import read_drawing
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.geometry.distance import DistanceField
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import pack

@@ -10,7 +10,7 @@ import shapely
 from ezdxf.document import Drawing
 
 from app.formats.readers import read_drawing
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.gcode.writer.write import write_files
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers

@@ -8,7 +8,7 @@ import pytest
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import pack, within_half_turn
 from app.geometry.region import nested
-from app.verify.slanted_clearance import SlantedMoves, reach_beyond
+from app.verify.verdict import SlantedMoves, reach_beyond
 from tests.part_shapes import circle, random_star, square
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ...model.motion import MotionKind, Plane
-from .block_fault import BlockFault
+from .program import BlockFault
 
 Point = tuple[float, float, float]
 

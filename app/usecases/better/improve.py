@@ -21,8 +21,7 @@ from ...formats.scene.toml import sources_of
 from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.dialect_guess import guess_dialect
 from ...gcode.interpreter.program import NcProgram
-from ...gcode.posts.post import Post
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import Post, load_post
 from ...model.motion import MotionKind
 from ...model.motion_path import lengths
 from ...model.scene import Scene

@@ -19,8 +19,7 @@ from ...core.memory import give_back
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.tolerances import LEVEL
 from ...formats.drawing import Drawing
-from ...gcode.posts.post import Post
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import Post, load_post
 from ...gcode.timing.extent import Extent
 from ...gcode.writer.write import NcFile, NcText
 from ...model.finding import Finding, FindingKind, worst_first
