@@ -7,6 +7,7 @@ from .control import Control
 from .cycles import Cycle, CycleMove, Dwell, Spindle, Stop, cycle_steps, taps_astray, with_sticky
 from .expression import whole
 from .offsets import Place
+from .polar import polar_step
 from .program import EventKind
 
 
@@ -75,6 +76,7 @@ def _cycle(control: Control, block: Block) -> Cycle:
         code=control.motion,
         plane=control.modal.plane,
         hole=(words[u], words[v]),
+        polar=polar_step(block),
         depth=words[w],
         r=_length(control, block, "r"),
         repeats=1 if repeats is None else whole(repeats, "the number of repeats"),
