@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Qt
 
 from ...core.settings import ThemeChoice
 from ...drafting.document import DocumentChange
@@ -327,10 +327,13 @@ class WindowController(QObject):
         self.document.load(new_job(part))
         self.computation.forget()
         self.display_controller.show_view(View.DRAW)
-        if part.outline:
-            self.run(part.line())
         self.window_.lay_out_now()
-        self.window_.canvas.fit()
+        fit = self.window_.canvas.fit
+        if part.outline:
+            self.language.lines.ran.connect(lambda *_: fit(), Qt.ConnectionType.SingleShotConnection)
+            self.run(part.line())
+        else:
+            fit()
 
     def _open_tools(self, path: Path) -> None:
         """Take tools into the library, and show it."""
