@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from app.core.errors import InputError
+from app.core.resources import resource
 from app.fitting.point_surfaces.surface_pieces import NO_PIECE, surface_pieces
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
@@ -61,6 +62,17 @@ def valley_rows() -> list[Floats]:
     return found
 
 
+def sample() -> str:
+    """The sample `valley.ngc`."""
+    head = (
+        "(Passes of a flat cutter over a polyhedron and, where that is higher, a plane: two surfaces with an edge "
+        "between.)",
+        "(The lesson: hitofude better valley.ngc -o valley-better.ngc; the passes are lifted onto both smooth "
+        "surfaces.)",
+    )
+    return made.text(valley_rows(), "\n".join(head), tool="flat,4")
+
+
 @cache
 def bent() -> BetterProgram:
     return result(made.text(bent_rows(), tool="ball,6"))
@@ -68,7 +80,7 @@ def bent() -> BetterProgram:
 
 @cache
 def valley() -> BetterProgram:
-    return result(made.text(valley_rows(), tool="flat,4"))
+    return result(sample())
 
 
 def below(data: bytes, step: float = 0.05) -> Floats:
@@ -76,6 +88,12 @@ def below(data: bytes, step: float = 0.05) -> Floats:
     places = driven(data, step)
     way = np.linalg.norm(np.diff(places[:, :2], axis=0), axis=1) > 1e-9
     return places[1:][way]
+
+
+def test_the_sample_is_what_it_says() -> None:
+    assert resource("samples", "valley.ngc").read_text() == sample()
+    done = valley()
+    assert done.new.blocks < 0.05 * done.old.blocks and done.new.bend < 0.01 * done.old.bend
 
 
 @pytest.mark.exhaustive
