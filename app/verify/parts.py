@@ -27,8 +27,7 @@ from ..simulation.field.solid import SolidStock
 from ..simulation.field.target import MARGIN, TargetHeights
 from ..simulation.field.workpiece import Grid
 from ..toolpath.build import MovesBuilder
-from ..toolpath.coverage.areas import united
-from ..toolpath.coverage.flat import grown, region_shapes
+from ..toolpath.coverage.areas import grown, region_shapes, united
 from ..toolpath.coverage.floor_target import CHORD, dog_bone_shape
 from .verdict import OperationBound, bounds_of, followed_walls
 

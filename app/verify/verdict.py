@@ -15,8 +15,8 @@ from ..core.pool import in_bands
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..geometry.distance import DistanceField
+from ..geometry.near_points import near
 from ..geometry.primitives import TURN, Primitives, contour_rows, pack, points_at, within_half_turn
-from ..geometry.tree_queries import near
 from ..model.curves import Circle
 from ..model.job import Job
 from ..model.moves import Area, DogBone, MoveKind, Moves, Program
@@ -25,7 +25,7 @@ from ..model.part import Contour, Region
 from ..model.stock_box import StockBox
 from ..model.tool import Tool, ToolKind
 from ..simulation.cutter import cutter_of
-from ..toolpath.coverage.flat import lines, move_rows, region_shapes
+from ..toolpath.coverage.areas import lines, move_rows, region_shapes
 from ..toolpath.coverage.floor_target import areas_of_operations
 from ..toolpath.machining_areas import lies_on
 from . import clearance_kernels as kernels

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.curves import Circle, Line
 from app.model.finding import FindingKind

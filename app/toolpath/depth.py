@@ -5,21 +5,30 @@ it.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...core.progress import NO_PROGRESS, Progress
-from ...geometry.distance import DistanceField
-from ...model.entry import EntryKind
-from ...model.moves import Purpose
-from ..build import MovesBuilder, Stroke, StrokeLabel, merged
-from ..entry.entry import Descent, EntryContext, descent
-from ..entry.entry_findings import EntryFallbacks
-from ..entry.hole import DrilledHole, from_hole, in_hole
-from ..entry.links import PassLink, way_back, way_straight
-from ..entry.side_entry import from_cleared
+from ..core.progress import NO_PROGRESS, Progress
+from ..geometry.distance import DistanceField
+from ..geometry.primitives import fraction_on, point_on
+from ..model.curves import Point
+from ..model.entry import EntryKind
+from ..model.moves import Moves, Purpose
+from ..model.tool import Tool
+from .build import MovesBuilder, Stroke, StrokeLabel, merged
+from .entry.entry import (
+    Descent,
+    EntryContext,
+    EntryFallbacks,
+    PassLink,
+    descent,
+    keeps_off_walls,
+    way_back,
+    way_straight,
+)
+from .linking.bridge import fraction_at
 
 _SAME = 1e-9
 """mm; heights and places that differ by less are one."""
@@ -212,3 +221,135 @@ class DepthPasses:
     def _beside_clamp(self, x: float, y: float) -> bool:
         clamps, wide = self.levels.clamps, self.levels.wide
         return clamps is not None and float(clamps.nearest(np.array([[x, y]]))[0][0]) <= wide
+
+
+# Entries through holes that were drilled before.
+
+
+_WIDE = 0.5
+"""Of the cutter's diameter that a hole must be wide at least: its centre, which cuts badly, meets no metal then."""
+
+_FAR = 10.0
+"""Cutter's diameters from a hole to where a path begins at most."""
+
+_TRIED = 8
+"""Holes that are tried for one path."""
+
+_NEAR = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class DrilledHole:
+    """A drilled hole: its centre and radius, and the height of the drill's tip at its bottom, mm."""
+
+    x: float
+    y: float
+    radius: float
+    bottom: float
+
+    @property
+    def place(self) -> Point:
+        """Its centre, mm."""
+        return self.x, self.y
+
+
+def drilled(moves: Moves, tools: Mapping[int, Tool]) -> tuple[DrilledHole, ...]:
+    """Return the holes that moves drill."""
+    deepest: dict[tuple[float, float, int], float] = {}
+    for k in np.flatnonzero(moves.purpose == Purpose.DRILL).tolist():
+        x, y, z = moves.end[k].tolist()
+        place = (x, y, int(moves.tool[k]))
+        deepest[place] = min(deepest.get(place, math.inf), z)
+    return tuple(DrilledHole(x, y, tools[tool].radius, z) for (x, y, tool), z in deepest.items() if z < 0)
+
+
+def usable(holes: Sequence[DrilledHole], ground: EntryContext, floor: float) -> tuple[DrilledHole, ...]:
+    """Return the holes that a cutter can go straight down in to a height, mm."""
+    return tuple(
+        hole for hole in holes if hole.radius >= _WIDE * ground.tool.radius - _NEAR and hole.bottom <= floor + _NEAR
+    )
+
+
+def from_hole(stroke: Stroke, holes: Sequence[DrilledHole], ground: EntryContext) -> Stroke:
+    """Return a stroke that begins in a hole and goes straight to where it began before, or the stroke itself where that
+    cannot be.
+    """
+    if not holes:
+        return stroke
+    places = np.array([hole.place for hole in holes])
+    loop = stroke.closed and stroke.least_z is None and not np.any(stroke.purpose == Purpose.LEAD)
+    if loop:
+        away, row = DistanceField.of(stroke.rows).nearest(places)
+    else:
+        away, row = np.hypot(*(places - np.array(stroke.start)).T), np.zeros(len(places), np.int64)
+    for k in np.argsort(away, kind="stable")[:_TRIED].tolist():
+        if away[k] > _FAR * ground.tool.diameter:
+            break
+        begun = stroke
+        if loop:
+            before, after = stroke.split(int(row[k]), fraction_at(stroke.rows[row[k]], places[k]))
+            begun = after.and_then(before)
+        if away[k] < _NEAR:
+            return begun
+        if ground.beside and keeps_off_walls(holes[k].place, begun.start, ground):
+            slot = replace(
+                begun,
+                rows=np.array([[*holes[k].place, *begun.start, 0.0, 0.0, 0.0, 0.0]]),
+                purpose=np.array([Purpose.LINK], np.uint8),
+                least_z=None,
+            )
+            return slot.and_then(begun)
+    return stroke
+
+
+def in_hole(place: Point, holes: Sequence[DrilledHole]) -> bool:
+    """Tell whether a place is the centre of a hole."""
+    return any(math.dist(place, hole.place) < _NEAR for hole in holes)
+
+
+# Entries from the side: straight down on ground that is cut as deep near a path's beginning, and on to it from there.
+
+
+_AWAY = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0)
+"""Distances from the beginning that are tried, in cutter's radii."""
+
+_DIRECTIONS = 8
+
+_AROUND = [
+    (part, math.cos(angle), math.sin(angle))
+    for part in _AWAY
+    for angle in (math.tau * k / _DIRECTIONS for k in range(_DIRECTIONS))
+]
+"""A distance and a direction (x, y) each: the same round every beginning."""
+
+
+def from_cleared(stroke: Stroke, z: float, ground: EntryContext) -> Stroke:
+    """Return a stroke that begins on ground cut down to z near by and goes straight to where it began before.
+
+    The stroke itself where there is no such ground, or a wall is in the way.
+    """
+    if not ground.beside:
+        return stroke
+    start = stroke.start
+    places = _places(start, z, ground)
+    for k in ground.cleared.clear_places(ground.tool, places, z):
+        place = places[k]
+        if keeps_off_walls(place, start, ground):
+            row = np.array([[*place, *start, 0.0, 0.0, 0.0, 0.0]])
+            way = replace(stroke, rows=row, purpose=np.array([Purpose.LINK], np.uint8), least_z=None)
+            return way.and_then(stroke)
+    return stroke
+
+
+def _places(start: Point, z: float, ground: EntryContext) -> list[Point]:
+    """Return places round a path's beginning, the nearest first, and the nearest one of all that were cut along; none
+    if all are far.
+    """
+    radius = ground.tool.radius
+    gap, row = ground.cleared.nearest(start, z)
+    if row is None or gap > (_AWAY[-1] - 1) * radius:
+        return []
+    x, y = start
+    places = [(x + part * radius * cos, y + part * radius * sin) for part, cos, sin in _AROUND]
+    nearest = row.tolist()
+    return sorted([*places, point_on(nearest, fraction_on(nearest, start))], key=lambda place: math.dist(place, start))
