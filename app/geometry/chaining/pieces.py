@@ -13,6 +13,7 @@ import numpy as np
 
 from ...core import tolerances
 from ...core.errors import GeometryError
+from ...core.pool import in_bands
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Primitive, Spline, reversed_curve
 from ...model.finding import Finding, FindingKind
 from ...model.part import Entity
@@ -30,6 +31,9 @@ FARTHEST = 1e6
 """Coordinates beyond 1 km, mm, are no part of a workpiece; below, a double keeps WELD with room to spare."""
 _FLAT = 1e-4
 """An arc that rises less than this over its chord, mm, is a line: its centre is too far away to be exact."""
+
+_WORTH_TWO_CORES = 64
+"""Ellipses and splines from which a second core is worth its start: half of the time of each is compiled code."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,14 +99,13 @@ def pieces_from(entities: Sequence[Entity]) -> PiecesOfEntities:
     """Return the pieces of entities."""
     pieces: list[ChainPiece] = []
     findings: list[Finding] = []
-    for entity in entities:
-        try:
-            primitives, deviation = _primitives(entity)
-        except GeometryError as error:
+    for entity, made in zip(entities, _all_primitives(entities), strict=True):
+        if isinstance(made, GeometryError):
             findings.append(
-                Finding(FindingKind.TINY_ENTITY, f"Entity {entity.id} is left out: {error}", entity_ids=(entity.id,))
+                Finding(FindingKind.TINY_ENTITY, f"Entity {entity.id} is left out: {made}", entity_ids=(entity.id,))
             )
             continue
+        primitives, deviation = made
         if primitives:
             pieces.append(ChainPiece(tuple(primitives), entity.id, entity.layer, deviation))
         else:
@@ -148,6 +151,21 @@ def straightened(curve: Curve) -> Curve:
         return curve
     rise = curve.radius * (2 * math.sin(curve.sweep / 4) ** 2)
     return Line(curve.start, curve.end) if abs(curve.sweep) < 1.0 and rise < _FLAT else curve
+
+
+def _all_primitives(entities: Sequence[Entity]) -> list[_PrimitivesNear | GeometryError]:
+    """Return what each entity has become, or why it is nothing; many curves on all cores."""
+
+    def become(entity: Entity) -> _PrimitivesNear | GeometryError:
+        try:
+            return _primitives(entity)
+        except GeometryError as error:
+            return error
+
+    if sum(isinstance(each.curve, Ellipse | Spline) for each in entities) < _WORTH_TWO_CORES:
+        return [become(each) for each in entities]
+    bands = in_bands(lambda band: [become(each) for each in entities[band]], len(entities), _WORTH_TWO_CORES)
+    return [each for band in bands for each in band]
 
 
 def _primitives(entity: Entity) -> _PrimitivesNear:
