@@ -59,11 +59,6 @@ def _still_on_arcs(places: Floats, reference: ReferencePath, move: Rows) -> Floa
     return np.asarray(np.hypot(flat, heights))
 
 
-<<<<<<< HEAD
-def _along_arcs(motions: Motions, reference: ReferencePath, owned: MotionOwners, mine: Mask) -> Floats:
-    """Return a bound for each motion that stands for a stretch of an arc."""
-    from .check_kernels import in_step
-=======
 def _portions(move: Rows, mine: Rows) -> Iterator[Rows]:
     """Yield some motions in portions; those of one move stay together."""
     begins = np.flatnonzero(np.diff(move[mine], prepend=-1))
@@ -81,8 +76,7 @@ def _along_arcs(motions: Motions, reference: ReferencePath, at: tuple[Rows, Rows
     Args:
         at: row and move of each, in their order.
     """
-    from .arc_distance_kernels import in_step
->>>>>>> h-speed
+    from .check_kernels import in_step
 
     rows, move = at
     written = _written_arcs(motions, rows)

@@ -20,12 +20,15 @@ from ...core.pool import in_bands
 from ...geometry.buffer import buffered
 from ...geometry.distance import DistanceField
 from ...geometry.outlines import Outlines, polygons
-from ...geometry.primitives import TURN, R, Rows, pack, points_at, sweeps
+from ...geometry.primitives import TURN, R, Rows, pack, points_of, sweeps
 from ...model.moves import MoveKind, Moves
 from ...model.part import Region
 from ..coverage import reachable_kernels as kernels
 
 Shapes = NDArray[np.object_]
+
+_AT_A_TIME = 1024
+"""Regions that are made polygons of together: chords and rings of all at once would be several times the polygons."""
 
 _WORTH_TWO_CORES = 32
 """Overlays from which a second core is worth its start."""
