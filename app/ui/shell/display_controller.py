@@ -63,6 +63,7 @@ class DisplayController(QObject):
         view: the one at the front. stages_missing, film_missing: what the stages lack.
         pages: of every view.
         writing: the drawing is being written as a text, so that nothing need be said of an empty one.
+        opening: name of the file that is being read, "" = none is.
     """
 
     view_changed = Signal(View)
@@ -72,7 +73,7 @@ class DisplayController(QObject):
         self._window = window
         self._document, self._computation = window.document, window.computation
         self.view = View.DRAW
-        self.stages_missing, self.film_missing, self.writing = NOTHING, NOTHING, False
+        self.stages_missing, self.film_missing, self.writing, self.opening = NOTHING, NOTHING, False, ""
         self.pages = pages_of(window, self)
         window.take_pages(self.pages)
         self._layers = PathLayers.ALL
@@ -188,8 +189,15 @@ class DisplayController(QObject):
         drawn = bool(document.part.entities)
         actions["select_all"].setEnabled(drawn)
         surfaces, open_now = self._window.views.surfaces, not self._window.views.starting
-        actions["export"].setEnabled(open_now and (surfaces.shown is not None if on_scene else drawn))
-        actions["compute"].setEnabled(open_now and (on_scene or drawn))
+        waits = bool(self.opening)  # both wait for the file that is being read
+        actions["export"].setEnabled(waits or (open_now and (surfaces.shown is not None if on_scene else drawn)))
+        actions["compute"].setEnabled(waits or (open_now and (on_scene or drawn)))
+
+    def show_opening(self, name: str) -> None:
+        """Say that a file is being read, or no longer, "": what is to be done with it can be asked for already."""
+        if name != self.opening:
+            self.opening = name
+            self.show_missing()
 
     def show_state(self) -> None:
         """Show where the view at the front stands."""
