@@ -13,7 +13,7 @@ from ...geometry.sample import bounds, union
 from ...model.finding import Finding
 from ...model.part import Part
 from ..framework.computation import ComputationState
-from ..framework.controller import Controller, ShownDocument
+from ..framework.controller import Controller, DocumentMend, ShownDocument
 from ..framework.missing import NOTHING
 from ..framework.samples import PathLineKind
 from ..framework.verdict import VerdictLevel, VerdictSummary, verdict_summary
@@ -303,7 +303,7 @@ class DisplayController(QObject):
         other = self.shown_document
         if other is not None:
             said = "It is being computed." if other.verdict is None else other.verdict.tip or other.verdict.text
-            self._window.findings_list.show_findings(other.findings, self._window.status.badge, said)
+            self._window.findings_list.show_findings(other.findings, self._window.status.badge, said, mends=other.mends)
             return
         shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
         mends = self._mends if self._computation.state is ComputationState.CURRENT else None
@@ -322,8 +322,13 @@ class DisplayController(QObject):
         library = [tool for each in load_libraries().libraries.values() for tool in each.tools]
         return mends(made.job, Fault.of(finding, index), library)
 
-    def mend(self, mend: Mend) -> None:
-        """Change the job so that a finding is mended, and compute it again; one undoable step."""
+    def mend(self, mend: Mend | DocumentMend) -> None:
+        """Change the job, or what is at the front in its place, so that a finding is mended; one undoable step, and
+        computed again.
+        """
+        if isinstance(mend, DocumentMend):
+            mend.act()
+            return
         self._document.change_job(mend.words, mend.job)
         self._computation.start()
 
