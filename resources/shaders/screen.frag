@@ -6,7 +6,7 @@ uniform sampler2D depths;
 uniform sampler2D finer;      // with more lines of sight, where `uneven` says so
 uniform sampler2D uneven;
 uniform sampler2D finer_depths;
-uniform float fold;           // a step of depth within a pixel that only an edge makes
+uniform float fold;           // depth of half a pixel: metal bent by as much within one has an edge there
 uniform vec3 edge;            // of fine lines along edges, and their share of the colour
 uniform float line_share;
 #endif
@@ -18,12 +18,12 @@ float depth_at(ivec2 at) {
     return texelFetch(finer_depths, clamp(at, ivec2(0), textureSize(finer_depths, 0) - 1), 0).r;
 }
 
-// How far the metal at a line of sight stands out of what is seen a pixel beside it, in folds: depths of a plane are
-// those of its neighbours in the mean. Where a neighbour met nothing there is no telling.
+// How far the metal at a line of sight stands out of what those next to it meet, in folds: depths of a plane are those
+// of its neighbours in the mean. Where a neighbour met nothing there is no telling.
 float stands_out(ivec2 at) {
     float own = depth_at(at), most = 0.0;
     for (int k = 0; k < 2; ++k) {
-        ivec2 aside = k == 0 ? ivec2(2, 0) : ivec2(0, 2);
+        ivec2 aside = k == 0 ? ivec2(1, 0) : ivec2(0, 1);
         float one = depth_at(at - aside), other = depth_at(at + aside);
         if (max(max(own, one), other) < 1.0) most = max(most, one + other - 2.0 * own);
     }
@@ -40,7 +40,7 @@ void main() {
     float lines = 0.0;
     for (int k = 0; k < more; ++k) {
         colour.rgb = texture(finer, at).rgb;
-        lines += smoothstep(0.6, 1.2, stands_out(2 * ivec2(gl_FragCoord.xy) + k));
+        lines += smoothstep(0.3, 0.9, stands_out(2 * ivec2(gl_FragCoord.xy) + k));
     }
     colour.rgb = mix(colour.rgb, edge, 0.5 * line_share * lines);
 #endif

@@ -146,6 +146,12 @@ vec3 metal(vec3 place, ivec2 square, bool at_wall) {
 
 const int MISSED = 0, TOP = 1, WALL = 2, SIDE = 3, CUT = 4, UNDERSIDE = 5;
 
+// What tells faces apart where they are equally bright: their kind, of tops their height over the floor, cells.
+float face_of(int kind, int face, float height) {
+    if (kind != TOP) return 0.08 * float(kind == SIDE ? face : kind);
+    return 0.5 + 0.5 * clamp(height / max(highest / corner.z - floor_z / corner.z, 1e-3), 0.0, 1.0);
+}
+
 void main() {
     bool asked = finer == 0 || texelFetch(uneven, ivec2(gl_FragCoord.xy) / 2, 0).r > 0.0;
     vec3 start = eye + gl_FragCoord.x * right + gl_FragCoord.y * up, way = away;
@@ -241,7 +247,7 @@ void main() {
         vec3 base = kind == CUT && striped(10.0, 1.5) ? mix(stock, hatch, 0.55) : stock;
         vec3 seen = mix(lit(base, side_normal, 1.0), edge, below < 0.0 ? 0.0 : line_at(below));
         if (kind == TOP || kind == WALL) seen = metal(start + at * way, square, kind == WALL);
-        colour = vec4(seen, 1.0);
+        colour = vec4(seen, face_of(kind, face, start.z + at * way.z - lowest));
         gl_FragDepth = 0.5 + depth_gain * at;
     }
     if (kind == MISSED) discard;

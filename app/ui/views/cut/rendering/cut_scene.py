@@ -20,13 +20,16 @@ from .facets import Facets
 from .ground import Foot, GroundShadow, shadow_reach
 from .path_ribbons import PathRibbons, RibbonProjection
 from .render_target import MetalTarget, RenderTarget
-from .stock_textures import LINE_SHARE, Rectangle, StockExtent, StockTextures
+from .stock_textures import Rectangle, StockExtent, StockTextures
 from .tool_body import Place, ToolBody
 
 if TYPE_CHECKING:
     import moderngl
 
 SAMPLES = 4
+
+_LINE_SHARE = 0.7
+"""Of an edge's colour in the fine line along it, which is about half a pixel wide."""
 
 _SPILL_PX = 8
 """So far beyond its outline metal may show: pixels share lines of sight while things move, and colours are mixed."""
@@ -226,8 +229,8 @@ class CutScene:
         program, textures = self._over[part], {"picture": metal.colours, "depths": metal.depths}
         if finer is not None:
             textures |= {"finer": finer.colours, "finer_depths": finer.depths, "uneven": metal.uneven}
-            program["fold"] = 0.5 / (frame.camera.scale * reach)
-            program["edge"], program["line_share"] = frame.look.edge, LINE_SHARE
+            program["fold"] = 0.25 / (frame.camera.scale * reach)
+            program["edge"], program["line_share"] = frame.look.edge, _LINE_SHARE
         for place, (name, texture) in enumerate(textures.items()):
             texture.use(place)
             program[name] = place

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 TILE = 16
 """Pixels across, and down, of the parts of a picture that more lines of sight are followed in."""
 
-_HAIR_MASK = 0xF8F8F8
-"""Of each colour the steps of a byte from the fourth on."""
+_HAIR_MASK = 0xF8F8F8F8
+"""Of each colour, and of what tells faces apart, the steps of a byte from the eighth on."""
 
 Rgb = tuple[float, float, float]
 Rgba = tuple[float, float, float, float]

@@ -30,8 +30,8 @@ BLOCK = 8
 """Squares between cells, across and down, whose highest is known: what passes over it meets none of them."""
 
 _HEIGHTS, _VALUES, _PALETTE, _RELIEF, _BLOCKS, _WALLS, _UNEVEN = range(7)
-LINE_SHARE = 0.45
-"""Of an edge's colour in the fine line along it."""
+_LINE = 0.45
+"""Of an edge's colour in the line along it while things move."""
 
 _LEAST_METAL = 1e-3
 """Metal that is less high is none, mm."""
@@ -235,7 +235,7 @@ class StockTextures:
             "away": tuple(-camera.axes[2]),
             "depth_gain": 0.5 * pitch / reach,
             "scale": pitch * camera.scale * share,
-            "line_share": LINE_SHARE * share,
+            "line_share": _LINE * share,
             "section": (*normal, (frame.clip[2] - float(normal @ picture.low[:2])) / pitch + 0.5 * float(normal.sum())),
             "light": tuple(light),
             "halfway": tuple(_unit(light + camera.axes[2])),
