@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 SAMPLES = 4
 
-_LINE_SHARE = 0.7
+_LINE_SHARE = 0.6
 """Of an edge's colour in the fine line along it, which is about half a pixel wide."""
 
 _SPILL_PX = 8
