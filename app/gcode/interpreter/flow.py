@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from ...core.wording import either
 from .block_fault import BlockFault
 from .control import Control
 from .endless_loops import never_ends
@@ -253,9 +254,7 @@ class Flow:
         """Return the statement further down that belongs to one."""
         found = self.places.next_of(statement.label, keywords, statement.at.offset)
         if found is None:
-            raise BlockFault(
-                f"O{statement.label} {statement.keyword} has no {' or '.join(keywords)} with the same number."
-            )
+            raise BlockFault(f"O{statement.label} {statement.keyword} has no {either(keywords)} with the same number.")
         return found
 
     def _sub(self, statement: Statement, values: ValueReader) -> None:
