@@ -14,6 +14,9 @@ _NAMED = r"(?:hitofude for|post|control|machine)[^)\n]{0,60}\b"
 too.
 """
 
+_OLD_UNITS = r"^\s*(?:n\d+\s*)?(?:g[\d.]+\s*)*g7[01](?![\d.])\s*(?:g[\d.]+\s*)*(?:[(;]|\r?$)"
+"""G70 and G71 among codes that set modes: units to Mach3 alone; the cycles that others have by these codes want words."""
+
 _OWN = re.compile(
     r"\(hitofude for (" + "|".join(rules.title.lower() for rules in DIALECT_RULES.values()) + r")\b", re.IGNORECASE
 )
@@ -23,7 +26,7 @@ _TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
     (dialect, re.compile(words, re.IGNORECASE | re.MULTILINE))
     for dialect, words in (
         (Dialect.GRBL, r"\bgrbl|^\s*\$[a-z0-9]"),
-        (Dialect.MACH3, r"\bmach\s?(?:2\s?/\s?)?3"),
+        (Dialect.MACH3, r"\bmach\s?(?:2\s?/\s?)?3|" + _OLD_UNITS),
         (
             Dialect.LINUXCNC,
             r"linuxcnc|^\s*(n\d+\s*)?o\s*<|#\s*<|^\s*(n\d+\s*)?o\s*\d+\s*(sub|if|while|do|repeat|call)\b|g5\.[23]|g5\.1\s*[xyij]|g64\s*p",

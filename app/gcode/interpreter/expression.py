@@ -16,7 +16,7 @@ from .parameters import Key, Parameters
 Value = float | Callable[[Parameters], float]
 
 NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)")
-NAME = re.compile(r"<([^<>\[\]()#]{1,200})>")
+NAME = re.compile(r"<((?:_(?:hal|ini)\[[\w.\-:]{1,150}\])?[^<>\[\]()#]{0,200})(?<!<)>")
 FUNCTION = re.compile(r"(atan|abs|acos|asin|cos|exp|fix|fup|round|ln|sin|sqrt|tan|exists)\[")
 _DASHES = "\u2010\u2011\u2012\u2013\u2014\u2212"
 """Signs that programs for writing put in the place of minus."""

@@ -72,6 +72,8 @@ class Parameters:
         value = self._place(key).get(key)
         if value is not None:
             return value
+        if isinstance(key, str) and key.startswith(("_hal[", "_ini[")):
+            raise BlockFault(f"the value of #<{key}> is known to the machine alone; write a number in its place.")
         if isinstance(key, str):
             raise BlockFault(f"the parameter #<{key}> has no value here; set it before.")
         if not 0 <= key <= LARGEST:
