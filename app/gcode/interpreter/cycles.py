@@ -82,7 +82,6 @@ class Cycle:
     code: str
     plane: Plane
     hole: tuple[float | None, float | None] = (None, None)
-    polar: PolarStep | None = None
     depth: float | None = None
     r: float | None = None
     repeats: int = 1
@@ -94,6 +93,7 @@ class Cycle:
     spindle: int = 0
     unit_mm: float = 1.0
     fanuc: bool = False
+    polar: PolarStep | None = None
 
 
 class CycleMove(NamedTuple):

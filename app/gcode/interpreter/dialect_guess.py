@@ -15,7 +15,14 @@ too.
 """
 
 _OLD_UNITS = r"^\s*(?:n\d+\s*)?(?:g[\d.]+\s*)*g7[01](?![\d.])\s*(?:g[\d.]+\s*)*(?:[(;]|\r?$)"
-"""G70 and G71 among codes that set modes: units to Mach3 alone; the cycles that others have by these codes want words."""
+"""G70 and G71 among codes that set modes: units to Mach3 alone; the cycles that others have by them want words."""
+
+_CODE = r"^\s*(?:/\s*)?(?:n\s*\d+\s*)?[gmtsxyz]\s*-?[\d.]"
+_NUMBERED = r"^\s*[o:]\s*\d{1,5}\s*(?:\(|\r?$)"
+_FIRST = rf"\A(?:(?!{_CODE})[^\n]*\n)*?(?:{_NUMBERED})"
+"""A program's number before any code. To Fanuc and Haas every program begins so; where O numbers nothing but a subroutine
+behind the program, as in Mach3, a length without a point is no count of microns.
+"""
 
 _OWN = re.compile(
     r"\(hitofude for (" + "|".join(rules.title.lower() for rules in DIALECT_RULES.values()) + r")\b", re.IGNORECASE
@@ -34,7 +41,7 @@ _TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
         (Dialect.HAAS, _NAMED + r"haas|^[^(\n]*g\s*(187|154\s*p|103\s*p)"),
         (
             Dialect.FANUC,
-            _NAMED + r"fanuc|^\s*[o:]\s*\d{1,5}\s*(\(|$)|\bif\s*\[.*goto|while\s*\[.*\]\s*do\s*\d"
+            _NAMED + r"fanuc|" + _FIRST + r"|\bif\s*\[.*goto|while\s*\[.*\]\s*do\s*\d"
             r"|g54\.1|g6\.2|g0?5\s*p1\d{4}|g0?5\.1\s*q|g10\.6",
         ),
     )

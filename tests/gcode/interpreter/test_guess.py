@@ -29,6 +29,8 @@ GOLDEN = sorted((ROOT / "tests" / "gcode" / "golden").iterdir())
         ("N10 o100 if [#1 GT 2]\n", Dialect.LINUXCNC),
         ("G64 P0.01\n", Dialect.LINUXCNC),
         ("%\nO1234 (PLATE)\nG21\n", Dialect.FANUC),
+        ("tape 7\n%\n\n:7\nG21\nM30\nO8\nM99\n", Dialect.FANUC),
+        ("G21 G0 Z5\nM98 P7\nM30\nO7\nG91 G1 Z-1 F100\nM99\n", Dialect.LINUXCNC),
         ("WHILE [#1 LT 5] DO1\n", Dialect.FANUC),
         ("O1000\nG54.1 P3\n", Dialect.FANUC),
         ("O1000\nG187 P3\n", Dialect.HAAS),
