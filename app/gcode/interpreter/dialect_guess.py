@@ -20,7 +20,7 @@ _OLD_UNITS = r"^\s*(?:n\d+\s*)?(?:g[\d.]+\s*)*g7[01](?![\d.])\s*(?:g[\d.]+\s*)*(
 _CODE = r"^\s*(?:/\s*)?(?:n\s*\d+\s*)?[gmtsxyz]\s*-?[\d.]"
 _NUMBERED = r"^\s*[o:]\s*\d{1,5}\s*(?:\(|\r?$)"
 _FIRST = rf"\A(?:(?!{_CODE})[^\n]*\n)*?(?:{_NUMBERED})"
-"""A program's number before any code. To Fanuc and Haas every program begins so; where O numbers nothing but a subroutine
+"""A program's number before any code. To Fanuc and Haas every program begins so; where O numbers but a subroutine
 behind the program, as in Mach3, a length without a point is no count of microns.
 """
 
