@@ -4,7 +4,7 @@ missing.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, QWidget
 
@@ -164,7 +164,7 @@ class ViewStack(QStackedWidget):
     def place(self) -> None:
         """Put the overlays where they belong."""
         self.legend.adjustSize()
-        self.legend.fit_into(self.height() - _RULER_PX - _MARGIN_PX)
+        self.legend.fit_into(QSize(self.width(), self.height() - _RULER_PX - _MARGIN_PX))
         self.legend.move(self.width() - self.legend.width() - _MARGIN_PX, _RULER_PX + 12)
         self.fade.resize(self.size())
         self.empty.adjustSize()

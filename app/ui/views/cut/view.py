@@ -361,6 +361,7 @@ class CutView(QWidget):
         self._place_legend()
 
     def _place_legend(self) -> None:
+        self.legend.fit_into(self.size())
         self.legend.move(self.width() - self.legend.width() - _EDGE_PX, _EDGE_PX)
 
     def _on_layer(self, sample: PathLineKind, on: bool) -> None:
