@@ -105,7 +105,10 @@ class Transport(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Let what can be missed go where there is no room."""
-        give_way(self._row, (self.rate, self.place, self.pace), event.size().width())
+        self._give_way()
+
+    def _give_way(self) -> None:
+        give_way(self._row, (self.rate, self.place, self.pace), self.width())
 
     def _step_button(self, stepped: Stepped) -> IconButton:
         name, tip, what, way = stepped
@@ -159,7 +162,10 @@ class Transport(QWidget):
     def show_place(self) -> None:
         """Show the moment that the cut is at."""
         player, timeline = self._player, self._player.timeline
-        self.clock.setVisible(timeline is not None and player.at is not None)
+        told = timeline is not None and player.at is not None
+        if told is self.clock.isHidden():
+            self.clock.setVisible(told)
+            self._give_way()
         if timeline is None or player.at is None:
             self.clock.setText("")
             self.place.setText(player.failure or ("Preparing playback…" if player.preparing else ""))
