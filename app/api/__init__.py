@@ -22,7 +22,10 @@ from ..model.slot_operation import SlotOperation
 from ..model.tool import Tool
 from ..model.tool_kind import ToolKind
 from ..model.vcarve_operation import VcarveOperation
+from ..toolpath.feeds.proposal import CutEngagement, FeedProposal
+from ..usecases.advice import AdviceOptions, ToolAdvice
 from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
+from ..usecases.better.result import BetterOptions
 from ..usecases.cutting.cut import CutOptions
 from ..usecases.cutting.ready_setup import SetupRequest
 from ..usecases.cutting.setup_stock import box_stock
@@ -32,21 +35,25 @@ from ..usecases.job.machining import MachiningOptions
 from ..usecases.job.options import MakeOptions, Stepover
 from ..usecases.proposal.propose import ProposalOptions
 from ..usecases.smoothing.result import OutputForm, SmoothOptions
-from .calls import BatchPart, batch, check, cut, inlay, make, read, smooth, surface
-from .results import CheckedProgram, CutMetal, MadeInlay, MadeProgram, MadeSurface, SmoothedText
+from .calls import BatchPart, batch, better, check, cut, feeds, inlay, make, read, smooth, surface, tools
+from .results import BetterText, CheckedProgram, CutMetal, MadeInlay, MadeProgram, MadeSurface, SmoothedText
 
 __all__ = [
     "AdaptiveOperation",
+    "AdviceOptions",
     "BatchPart",
     "BatchResult",
     "BatchRow",
     "BatchVerdict",
+    "BetterOptions",
+    "BetterText",
     "BoreOperation",
     "Cancelled",
     "ChamferOperation",
     "CheckedProgram",
     "ContourOperation",
     "CountersinkOperation",
+    "CutEngagement",
     "CutMetal",
     "CutOptions",
     "CutParameters",
@@ -54,6 +61,7 @@ __all__ = [
     "DrillOperation",
     "ExamineOptions",
     "FaceOperation",
+    "FeedProposal",
     "Finding",
     "FindingKind",
     "HitofudeError",
@@ -81,17 +89,21 @@ __all__ = [
     "TapOperation",
     "ThreadOperation",
     "Tool",
+    "ToolAdvice",
     "ToolKind",
     "Units",
     "VcarveOperation",
     "batch",
+    "better",
     "box_stock",
     "check",
     "cut",
+    "feeds",
     "inlay",
     "make",
     "read",
     "read_selectors",
     "smooth",
     "surface",
+    "tools",
 ]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..core.errors import InputError
 from ..core.input_file import read_input
+from ..core.wording import either
 from ..drafting.expressions.numbers import length
 from ..formats.job.toml import ORIGIN_HELP, StatedOrigin, parse_origin, read_out_units, read_units
 from ..formats.readers import offered_suffixes
@@ -348,6 +349,6 @@ def make_files(arguments: argparse.Namespace) -> dict[str, Path]:
     if "image" in outputs and outputs["image"].suffix.lower() not in (".svg", ".png"):
         raise InputError(f"--image {outputs['image']}: a picture is .svg or .png; change the name")
     if "sheet" in outputs and outputs["sheet"].suffix.lower() not in SUFFIXES:
-        raise InputError(f"--sheet {outputs['sheet']}: a sheet is {' or '.join(SUFFIXES)}; change the name")
+        raise InputError(f"--sheet {outputs['sheet']}: a sheet is {either(SUFFIXES)}; change the name")
     check_outputs(outputs, [*named_files(arguments, "drawing", "job", "template", "tools").values()])
     return outputs

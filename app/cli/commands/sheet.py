@@ -8,6 +8,7 @@ from pathlib import Path
 from ...core.errors import HitofudeError, InputError
 from ...core.input_file import read_input
 from ...core.progress import Progress
+from ...core.wording import either
 from ...formats.sheet import SUFFIXES
 from ...formats.sheet.write import sheet_bytes
 from ...usecases.cutting.cut import cut
@@ -47,7 +48,7 @@ def sheet_suffix(option: str, path: Path) -> str:
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        raise InputError(f"--{option} {path}: a sheet is {' or '.join(SUFFIXES)}; change the name")
+        raise InputError(f"--{option} {path}: a sheet is {either(SUFFIXES)}; change the name")
     return suffix
 
 

@@ -43,6 +43,7 @@ class HelpWindow(QWidget):
         self.search.textEdited.connect(lambda _: self._on_typed())
         self.list.setAccessibleName("Pages")
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.currentRowChanged.connect(self._show_row)
         self.browser.setFrameShape(QTextBrowser.Shape.NoFrame)
         self.browser.setOpenLinks(False)
