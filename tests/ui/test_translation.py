@@ -16,7 +16,7 @@ from app.ui.framework.catalogue import Catalogue, catalogue, catalogue_files, se
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
 from app.ui.framework.theme import TEXT_PX
 from app.ui.shell.bars.actions import menus, plain
-from app.ui.shell.translation import code_of, translate_all
+from app.ui.shell.translation import code_of, translate, translate_all
 from app.ui.views.canvas.prompt_tool import PromptTool
 from app.ui.views.canvas.tool_table import TOOLS
 from app.ui.views.nc.places_panel import ListedPlace, PlacesPanel, PlaceWeight
@@ -295,3 +295,12 @@ def test_sentences_are_looked_up_before_an_entry_swallows_them_and_lists_name_by
     assert words.look_up("Found: 'mm' or 'in'.") == "発見: 'mm' または 'in'。"
     assert words.look_up("Found: front and back.dxf.") == "発見: front and back.dxf。", "the name of a file is none"
     assert words.look_up("Found: drill or saw.") == "発見: drill or saw。"
+    assert words.look_up("Found: .dxf, .svg or .draw.") == "発見: .dxf, .svg または .draw。"
+
+
+def test_the_badge_speaks_the_language_while_it_turns(qtbot, japanese):
+    badge = japanese.window_.status.badge
+    for _ in range(4):
+        badge._advance()
+        translate(badge)
+        assert badge.text().endswith("計算中") and not re.search("[A-Za-z]", badge.text())
