@@ -262,8 +262,9 @@ def _copies_meet(contours: Sequence[Contour], job: Job) -> list[Finding]:
     """Return the finding that lines of copies meet, if some do; copies that reach into one another without touching are
     none.
     """
-    box, copies = extent(contours), job.copies
-    if box is None or len(copies.shifts) == 1:
+    copies = job.copies
+    box = extent(contours) if len(copies.shifts) > 1 else None
+    if box is None:
         return []
     lines = shapely.union_all([shapely.boundary(shape) for shape in filled(contours)])
     shapely.prepare(lines)

@@ -82,8 +82,8 @@ def _not_taken(operation: Operation) -> tuple[Enum, ...]:
 
 def _usable(operation: Operation, found: SelectedCurves) -> bool:
     """Tell whether an operation can machine something of what was found."""
-    if operation.wall_side is Side.ON:
-        return bool(found.closed or found.open)
+    if operation.takes_open:
+        return bool(found.open or (found.closed and operation.wall_side is Side.ON))
     if operation.HOLES:
         return any(as_circle(each) is not None for each in found.closed)
     return bool(found.closed)
