@@ -9,8 +9,8 @@ import shapely
 
 from ..core.effort import announce
 from ..core.progress import NO_PROGRESS, Progress
+from ..geometry.outlines import nested
 from ..geometry.overlay.overlay import OverlayResult, without_crossings
-from ..geometry.region import nested
 from ..model.finding import Finding, FindingKind, worst_first
 from ..model.job import Job
 from ..model.moves import Program
@@ -18,14 +18,12 @@ from ..model.operation import Order, Side
 from ..model.part import Contour, Region
 from ..model.stock_box import stock_box, work_origin
 from ..raster.fill import Observer
-from ..toolpath.bitmap_check import BitmapCheck
-from ..toolpath.coverage.flat import region_shapes
+from ..toolpath.coverage.areas import region_shapes
 from ..toolpath.coverage.floor_target import CHORD
-from ..toolpath.drawn_contours import DrawnContours, drawn_contours
+from ..toolpath.drawn_contours import DrawnContours, drawn_contours, selected, selection_findings
 from ..toolpath.drill_holes import across_holes
 from ..toolpath.machining_areas import MachiningAreas
-from ..toolpath.operation_context import OperationContext, ProgramDigits
-from ..toolpath.selected import selected, selection_findings
+from ..toolpath.operation_context import BitmapCheck, OperationContext, ProgramDigits
 from ..toolpath.witness import region_findings
 from .preparing import carry_out
 from .reckoning import job_effort

@@ -10,8 +10,7 @@ import pytest
 from app.core.errors import InputError
 from app.core.resources import resource
 from app.gcode.interpreter.dialect import DIALECT_RULES, Dialect
-from app.gcode.posts.post import ArcCentre, Coolant
-from app.gcode.posts.posts import load_post, post_names, post_titles, read_post
+from app.gcode.posts import ArcCentre, Coolant, load_post, post_names, post_titles, read_post
 from app.model.part import Units
 
 TEXT = resource("posts", "linuxcnc.toml").read_text("utf-8")

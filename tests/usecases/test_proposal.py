@@ -23,7 +23,7 @@ from app.model.operation import DrillOperation, PocketOperation, RestOperation, 
 from app.model.stock_box import stock_box
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute
-from app.toolpath.coverage.flat import region_shapes
+from app.toolpath.coverage.areas import region_shapes
 from app.usecases.job.machining import MachiningOptions
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import MakeResult, make

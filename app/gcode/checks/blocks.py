@@ -16,11 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.job import Job
-from ..interpreter.block_fault import BlockFault
 from ..interpreter.dialect import Dialect
-from ..interpreter.program import ProgramProblem
+from ..interpreter.program import BlockFault, ProgramProblem
 from ..interpreter.text import code_of
-from ..posts.post import Post
+from ..posts import Post
 from ..writer.template_fields import Fields, program_fields, tool_fields
 from ..writer.write import blend_mm
 

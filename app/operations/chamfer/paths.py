@@ -28,10 +28,10 @@ from ...model.job import Job
 from ...model.operation import Direction, Side
 from ...model.tool import Tool
 from ...toolpath.build import StrokeLabel
+from ...toolpath.drawn_contours import selected
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ...toolpath.narrow_regions import too_small
 from ...toolpath.operation_context import OperationContext, levels_of
-from ...toolpath.selected import selected
 from ..engrave.open_line import clear_parts, runs_of_parts
 from ..vcarve.branches import AxisBranch
 from ..vcarve.paths import CarvedPass, PassWriter, VCutter, carved

@@ -22,7 +22,7 @@ from ...model.moves import Purpose
 from ...model.operation import Operation
 from ...model.tool import Tool
 from ...toolpath.build import MovesBuilder, Stroke, StrokeLabel
-from ...toolpath.depth.depth import DepthLevels
+from ...toolpath.depth import DepthLevels
 from ...toolpath.operation_context import OperationContext, check_depth, levels_of
 from ..engrave.open_line import clear_parts, runs_of_parts
 from .branches import AxisBranch, Floats, branches

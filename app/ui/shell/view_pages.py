@@ -65,6 +65,7 @@ class WindowState(Protocol):
     stages_missing: MissingHint
     film_missing: MissingHint
     writing: bool
+    opening: str
 
 
 def pages_of(window: MainWindow, told: WindowState) -> dict[View, ViewPage]:
@@ -77,6 +78,8 @@ def _drawing_pages(window: MainWindow, told: WindowState) -> dict[View, ViewPage
     canvas, document, computation = window.canvas, window.document, window.computation
 
     def none_drawn() -> MissingHint:
+        if told.opening:
+            return MissingHint(f"{told.opening} is being read.", "Cancel  Shift+F5", "cancel")
         return NOTHING if told.writing or canvas.tool is not CanvasTool.SELECT else NO_DRAWING
 
     def drawing_missing() -> MissingHint:

@@ -16,9 +16,9 @@ from ...core.errors import GeometryError
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.resources import resource
 from ...formats.tools.library import read_library
+from ...geometry.outlines import nest, polygon_contour
 from ...geometry.overlay.overlay import without_crossings
 from ...geometry.primitives import contour_rows, lengths, signed_area
-from ...geometry.region import nest, polygon_contour
 from ...model.contour_operation import ContourOperation
 from ...model.curve_selectors import Selector
 from ...model.entry import Entry, EntryKind, Lead, Tabs
@@ -29,8 +29,7 @@ from ...model.operation import CutParameters, DrillOperation, Operation, PocketO
 from ...model.part import Contour, Region
 from ...model.stock_box import extent
 from ...model.tool import Tool
-from ...toolpath.advice.advise import advise
-from ...toolpath.advice.time import CuttingPlan
+from ...toolpath.advice.advise import CuttingPlan, advise
 from ...toolpath.drawn_contours import DrawnContours, drawn_contours
 from ...toolpath.drill_holes import tip_length
 from .contour_sorts import SortedContours, selectors_for, sorted_contours

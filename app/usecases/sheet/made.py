@@ -20,7 +20,7 @@ from ...formats.sheet.content import (
     SheetProof,
     SheetTable,
 )
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import load_post
 from ...geometry.primitives import contour_rows
 from ...model.finding import FindingKind
 from ...model.job import Job, OriginXY, OriginZ

@@ -21,7 +21,7 @@ from ...fitting.point_curves.space_curve import SpaceCurve
 from ...fitting.point_curves.tube import TubeJudgement
 from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.program import NcProgram
-from ...gcode.posts.post import Post
+from ...gcode.posts import Post
 from ...gcode.rework.stretches import FeedStretch, FoundStretches
 from ...model.motion import Floats
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from app.gcode.interpreter.foreign_languages import foreign_language
 from app.gcode.interpreter.program import Severity
 from app.gcode.interpreter.reader import read_program
+from app.gcode.interpreter.run import foreign_language
 from tests.conftest import ROOT
 
 

@@ -69,7 +69,7 @@ class StartController(QObject):
 
     def open(self, theme: Theme) -> None:
         """Bring the page to the front, with the files as they are now."""
-        from ....gcode.posts.posts import post_titles
+        from ....gcode.posts import post_titles
 
         self._theme = theme
         names = [Path(name) for name in self._preferences.settings.recent_files]
