@@ -16,7 +16,7 @@ from app.ui.framework.catalogue import Catalogue, catalogue, catalogue_files, se
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
 from app.ui.framework.theme import TEXT_PX
 from app.ui.shell.bars.actions import menus, plain
-from app.ui.shell.translation import code_of, translate_all
+from app.ui.shell.translation import code_of, translate, translate_all
 from app.ui.views.canvas.prompt_tool import PromptTool
 from app.ui.views.canvas.tool_table import TOOLS
 from app.ui.views.nc.places_panel import ListedPlace, PlacesPanel, PlaceWeight
@@ -289,3 +289,15 @@ def test_sentences_are_looked_up_before_an_entry_swallows_them_and_lists_name_by
     assert words.look_up("Found: no gouge. Zoom in.") == "発見: 食込みなし。拡大。"
     assert words.look_up("Found: drill, pocket.") == "発見: 穴あけ、ポケット。"
     assert words.look_up("Found: drill, saw.") == "発見: drill, saw。", "half a list is none"
+    assert words.look_up("Found: drill or pocket.") == "発見: 穴あけ または ポケット。"
+    assert words.look_up("Found: drill, pocket and drill.") == "発見: 穴あけ、ポケット と 穴あけ。"
+    assert words.look_up("Found: .dxf, .svg or .draw.") == "発見: .dxf、.svg または .draw。"
+    assert words.look_up("Found: a big saw or drill.") == "発見: a big saw or drill。"
+
+
+def test_the_badge_speaks_the_language_while_it_turns(qtbot, japanese):
+    badge = japanese.window_.status.badge
+    for _ in range(4):
+        badge._advance()
+        translate(badge)
+        assert badge.text().endswith("計算中") and not re.search("[A-Za-z]", badge.text())

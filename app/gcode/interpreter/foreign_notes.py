@@ -18,8 +18,8 @@ _KINDS = tuple(
     (re.compile(pattern, _ANY), kind)
     for pattern, kind in (
         (
-            r"\btap\b|thread|form "
-            r"?(?:mill|tool)|lollipop|dovetail|probe|reamer|boring|lathe|turning|torch|laser|taper(?:ed)? mill",
+            r"\btap\b|thread|form ?(?:mill|tool)|lollipop|dovetail|probe|reamer|boring|lathe|turning|torch|laser"
+            r"|taper(?:ed)? mill",
             "",
         ),
         (r"\bball|\bspher", "ball"),
@@ -52,8 +52,8 @@ _DIAMETERS = tuple(
     for pattern, factor in (
         (rf"(?<![a-z_])d\s?=\s?{LENGTH}", 1.0),
         (
-            r"(?<!shank)(?<!shank[ _])(?<!shaft)(?<!shaft[ "
-            rf"_])(?<!handle)(?<![a-z])dia(?:m(?:eter)?)?\b\.?{_SEP}{LENGTH}",
+            r"(?<!shank)(?<!shank[ _])(?<!shaft)(?<!shaft[ _])(?<!handle)(?<![a-z])"
+            rf"dia(?:m(?:eter)?)?\b\.?{_SEP}{LENGTH}",
             1.0,
         ),
         (rf"[Øø⌀]\s?{LENGTH}", 1.0),

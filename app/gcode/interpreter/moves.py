@@ -22,6 +22,7 @@ from .dialect import Dialect
 from .expression import whole
 from .foreign_codes import warn_of_rotary
 from .offsets import Place, replaced, taken
+from .polar import polar_step
 from .program import BlockFault, EventKind, FeedMode
 from .splines import OpenFanucNurbs, OpenNurbs, check_plane, cubic, first_offset, quadratic, second_offset
 
@@ -522,6 +523,7 @@ def _canned_cycle(control: Control, block: Block) -> Cycle:
         code=control.motion,
         plane=control.modal.plane,
         hole=(words[u], words[v]),
+        polar=polar_step(block),
         depth=words[w],
         r=_length(control, block, "r"),
         repeats=1 if repeats is None else whole(repeats, "the number of repeats"),

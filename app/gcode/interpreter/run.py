@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import codecs
-import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ...core.errors import MOST_QUOTED, shortened
 from ...core.progress import Progress
-from .block import POLAR, SLASH, Block, BlockStep, ParsedLine, Watch, block_of, parse
+from .block import SLASH, Block, BlockStep, ParsedLine, Watch, block_of, parse
 from .codes import CYCLES, TAKES, ModalGroup
 from .control import Control
 from .dialect import Dialect
@@ -22,6 +21,7 @@ from .notes import notes
 from .options import ReadOptions
 from .own_header import register_diameters, registers_hold_wear
 from .places import Cursor, JumpTargets
+from .polar import check_polar, turn_polar_into_axes
 from .program import BlockFault, EventKind, NcProgram, ProgramProblem, Severity
 from .settings import before_motion, set_once
 from .text import ProgramBuffer, code_of, column_of
@@ -442,64 +442,6 @@ def _odd(file: bytes, dialect: Dialect) -> Iterator[tuple[int, str]]:
     if dialect is Dialect.LINUXCNC:
         found = ((pattern.search(file), what) for pattern, what in _OF_LINUXCNC)
         yield from ((match.start(), what) for match, what in found if match)
-
-
-# Polar coordinates in LinuxCNC's words: @ is the distance from the program's zero, ^ the angle, degrees, from X
-# towards Y.
-
-
-RADIUS, ANGLE = "@", "^"
-
-AT_ORIGIN_MM = 1e-9
-
-
-def check_polar(control: Control, block: Block) -> None:
-    """Refuse polar words where no motion takes them.
-
-    Raises:
-        Fault: they stand beside X or Y, or without a motion.
-    """
-    if not block.has(POLAR):
-        return
-    letter = RADIUS if block.has(RADIUS) else ANGLE
-    if block.has("xy"):
-        raise BlockFault("polar coordinates and X or Y in one block contradict one another.", letter=letter)
-    once = block.codes.get(ModalGroup.ONCE)
-    if once not in (None, "G4") or block.codes.get(ModalGroup.MOTION, control.motion) == "G80":
-        raise BlockFault("polar coordinates go with a motion only.", letter=letter)
-
-
-def turn_polar_into_axes(control: Control, block: Block) -> None:
-    """Put X and Y in the place of the polar words of a block, after its units, offsets and distance mode are in force.
-
-    Under G91 both count from where the tool is; a word that is missing stays as it is there.
-
-    Raises:
-        Fault: the angle is not known.
-    """
-    if not block.has(POLAR):
-        return
-    x, y = _place(control, block)
-    here = control.program_place
-    unit = control.unit
-    block.values["x"] = (x if control.modal.absolute else x - here[0]) / unit
-    block.values["y"] = (y if control.modal.absolute else y - here[1]) / unit
-    for letter in POLAR:
-        block.values.pop(letter, None)
-    block.whole -= {RADIUS, ANGLE, "x", "y"}
-
-
-def _place(control: Control, block: Block) -> tuple[float, float]:
-    """Return where the polar words lead, program coordinates, mm."""
-    x, y, _ = control.program_place
-    radius, angle = math.hypot(x, y), math.atan2(y, x)
-    said, turned = block.get(RADIUS), block.get(ANGLE)
-    if turned is None and radius < AT_ORIGIN_MM:
-        raise BlockFault("at the zero the angle (^) must be said.", letter=RADIUS)
-    rest = 0.0 if control.modal.absolute else 1.0
-    radius = radius if said is None else rest * radius + said * control.unit
-    angle = angle if turned is None else rest * angle + math.radians(turned)
-    return radius * math.cos(angle), radius * math.sin(angle)
 
 
 # Languages of other controls and machines, which are not read: named where a program turns out to be in one of them.

@@ -18,7 +18,8 @@ from ...core.errors import GeometryError
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Primitive, Spline, reversed_curve
 from ...model.finding import Finding, FindingKind
 from ...model.part import Contour, Entity
-from ..arcs.arcs import equally_far, lines_and_arcs
+from ..arcs.alike import ArcsByShape
+from ..arcs.arcs import equally_far
 from ..near_points import pairs_meeting, pairs_within
 from ..primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, curve_rows, distances, points_at, sweeps
 from ..primitives import lengths as row_lengths
@@ -100,9 +101,10 @@ def pieces_from(entities: Sequence[Entity]) -> PiecesOfEntities:
     """Return the pieces of entities."""
     pieces: list[ChainPiece] = []
     findings: list[Finding] = []
+    bent = ArcsByShape()
     for entity in entities:
         try:
-            primitives, deviation = _primitives(entity)
+            primitives, deviation = _primitives(entity, bent)
         except GeometryError as error:
             findings.append(
                 Finding(FindingKind.TINY_ENTITY, f"Entity {entity.id} is left out: {error}", entity_ids=(entity.id,))
@@ -155,14 +157,14 @@ def straightened(curve: Curve) -> Curve:
     return Line(curve.start, curve.end) if abs(curve.sweep) < 1.0 and rise < _FLAT else curve
 
 
-def _primitives(entity: Entity) -> _PrimitivesNear:
+def _primitives(entity: Entity, bent: ArcsByShape) -> _PrimitivesNear:
     curve = straightened(entity.curve)
     if isinstance(curve, Arc) and curve.start == curve.end and not curve.ccw:  # its sweep is a full turn
         curve = Circle(curve.centre, curve.radius, curve.ccw)
     if not within_reach(curve):
         raise GeometryError("it has a coordinate that is not a number or beyond 1 km; delete it or draw it again.")
     if isinstance(curve, Ellipse | Spline):
-        made = lines_and_arcs(curve)
+        made = bent.of(curve)
         return _PrimitivesNear(made.primitives, made.deviation)
     if length_of(curve) < tolerances.WELD:
         return _PrimitivesNear((), 0.0)

@@ -13,7 +13,7 @@ from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...geometry.buffer import buffered
 from ...geometry.distance import DistanceField
-from ...geometry.medial_axis.axis import medial_axes
+from ...geometry.medial_axis.axis import MedialAxis, medial_axes
 from ...geometry.offset.offset import Ring, offset_levels
 from ...geometry.primitives import CX, TURN, Primitives, R, Rows, sample, within_half_turn
 from ...model.finding import Finding, FindingKind
@@ -129,12 +129,7 @@ def carved(primitives: Primitives, cone: VCutter, heights: Sequence[float], prog
         GeometryError: the medial axis is not proven right.
         Cancelled: by progress.
     """
-    whole: list[AxisBranch] = []
-    lone: list[Floats] = []
-    for axis in medial_axes(primitives, progress.part(0.0, 0.6)):
-        graph = graph_of(branches(axis))
-        lone += prune(graph)
-        whole += [graph.branches[k] for k in sorted({k for own in graph.at for k in own})]
+    whole, lone = _followed(medial_axes(primitives, progress.part(0.0, 0.6)))
     lone += _round_ones(primitives)
     radii = [cone.radius(-z) for z in heights]
     rings = offset_levels(primitives, radii, progress.part(0.6, 1.0))
@@ -144,6 +139,27 @@ def carved(primitives: Primitives, cone: VCutter, heights: Sequence[float], prog
         points = [AxisBranch(disc[None]) for disc in lone if low - _SLACK <= disc[2] <= high]
         yield CarvedPass(z, (*trails(graph_of(parts)), *points), level.rings)
         low = high
+
+
+def _followed(axes: Sequence[MedialAxis]) -> tuple[list[AxisBranch], list[Floats]]:
+    """Return the branches of axes that are worth going, and the discs (3,) of nodes that nothing else leads to: once
+    for all regions that are alike, and moved to each.
+    """
+    whole: list[AxisBranch] = []
+    lone: list[Floats] = []
+    known: dict[int, tuple[list[AxisBranch], list[Floats]]] = {}
+    for axis in axes:
+        # the axes keep their pieces alive, so that no other ones get the same id
+        if id(axis.pieces) not in known:
+            graph = graph_of(branches(replace(axis, middle=np.zeros(2))))
+            single = prune(graph)
+            kept = sorted({k for own in graph.at for k in own})
+            known[id(axis.pieces)] = [graph.branches[k] for k in kept], single
+        ways, single = known[id(axis.pieces)]
+        there = np.append(axis.middle, 0.0)
+        whole += [AxisBranch(way.discs + there) for way in ways]
+        lone += [disc + there for disc in single]
+    return whole, lone
 
 
 def flat_tool_of(job: Job, operation: Operation) -> Tool | None:

@@ -20,9 +20,12 @@ _REMEMBERED = 4096
 _MNEMONIC = re.compile(r"&(\w)")
 _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
 _BETWEEN_SENTENCES = re.compile(r"(?<=[.?!]) (?=[A-Z])")
-_COMMA = "、"
+_LISTED = re.compile(r",? (or|and) |, ")
+_JOINTS = {"or": " または ", "and": " と ", None: "、"}
+"""What stands between the names of a list, by the word for it in English."""
+
 _LETTER = re.compile(r"[A-Za-z]")
-_COLON = re.compile(": ")
+_COLON, _BLANK = re.compile(": "), re.compile(r"\s")
 _TYPED = re.compile(r"(?:one of|expected|expected are) $")
 """What stands before words to choose one of, which have to be typed as they are."""
 
@@ -125,9 +128,16 @@ class Catalogue:
             return part
         if (whole := self.look_up(part)) is not None:
             return whole
-        names = [self.look_up(name) or self.look_up(name.capitalize()) for name in part.split(", ")]
-        told = [name for name in names if name is not None]
-        return _COMMA.join(told) if 1 < len(told) == len(names) else part
+        pieces = _LISTED.split(part)
+        names, joints = pieces[::2], pieces[1::2]
+        told = [self.look_up(name) or self.look_up(name.capitalize()) for name in names]
+        words_alone = any(joints) and not any(map(_BLANK.search, names))  # a file's suffix, say, is no entry
+        if len(names) == 1 or (None in told and not words_alone):
+            return part
+        listed = (
+            f"{_JOINTS[joint]}{other or name}" for joint, other, name in zip([None, *joints], told, names, strict=True)
+        )
+        return "".join(listed).removeprefix(_JOINTS[None])
 
     def _sentences(self, words: str) -> str | None:
         """Return several lines, or sentences one behind the other, if each of them is known."""

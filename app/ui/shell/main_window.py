@@ -73,7 +73,7 @@ class MainWindow(QMainWindow):
     """Menu, bars, views, panel, log, command line, status; `set_theme_choice` gives it its looks when all is there.
 
     Signals:
-        dropped(path): a file of a kind that can be opened was dropped on the window.
+        dropped(path): a file was dropped on the window.
         closing(): about to close; `may_close` tells whether it may.
     """
 
@@ -218,9 +218,9 @@ class MainWindow(QMainWindow):
         self.cut_panel.fit_beside(event.size().width())
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
-        """Welcome one file of a kind that can be opened."""
+        """Welcome one file; of a kind that cannot be opened it is said which can."""
         urls = event.mimeData().urls()
-        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(opened_suffixes()):
+        if len(urls) == 1 and urls[0].isLocalFile():
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 (Qt's name)

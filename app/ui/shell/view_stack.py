@@ -85,7 +85,6 @@ class ViewStack(QStackedWidget):
             self.addWidget(widget)
         self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
         self.legend.hide()
-        canvas.covered_right = self.legend.width() + _MARGIN_PX
         self.installEventFilter(self)
 
     def take_pages(self, pages: dict[View, ViewPage]) -> None:
@@ -156,8 +155,11 @@ class ViewStack(QStackedWidget):
         if sentence and not self.covered:
             self.empty.say(sentence, button)
             self.empty.raise_()
-        self.legend.setVisible(self.view is View.PATHS and shows_paths and not self.covered)
+        has_legend = self.view is View.PATHS and shows_paths and not self.covered
+        self.legend.setVisible(has_legend)
         self.legend.raise_()
+        if self.currentWidget() is self.canvas:
+            self.canvas.cover_right(self.legend.width() + _MARGIN_PX if has_legend else 0.0)
         self.fade.raise_()
         self.place()
 

@@ -276,8 +276,8 @@ def _lifted(context: _BetterContext, smoothed: SmoothedPieces, progress: Progres
         "chords",
         context.shares.chords,
         lifted.chord_mm,
-        Evidence.MEASURED,
-        "middles of chords of the lifted passes beside the surfaces",
+        Evidence.PROVEN,
+        "each chord of lifted passes beside its surface, by the greatest second derivative between both ends",
     )
     figures = replace(
         smoothed.figures, boundaries=len(lifted.boundaries), apart_mm=float(lifted.apart.max(initial=0.0))

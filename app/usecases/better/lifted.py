@@ -28,7 +28,7 @@ class LiftedText:
     Attributes:
         data: its bytes. boundaries: (b, 3) places where passes go from one surface to the next, mm. apart: (b,) by how
             much the two differ in height there, mm.
-        chord_mm: how far chords of the lifted passes are from the surfaces at most.
+        chord_mm: how far chords of the lifted passes are from the surfaces at most, proven.
     """
 
     data: bytes

@@ -88,6 +88,17 @@ class Hand(QObject):
         """Click a place of the drawing, mm."""
         self._click_at(self.ask(lambda: self._on_screen(place)))
 
+    def drag(self, start: QPoint, end: QPoint) -> None:
+        """Drag something from one place of the display to another; one click more."""
+        self.clicks += 1
+        _xdotool("mousemove", str(start.x()), str(start.y()), "mousedown", "1")
+        time.sleep(SETTLE_S)
+        for share in (0.1, 0.5, 0.9, 1.0):
+            at = start + (end - start) * share
+            _xdotool("mousemove", str(at.x()), str(at.y()))
+            time.sleep(SETTLE_S)
+        _xdotool("mouseup", "1")
+
     def type_line(self, text: str) -> None:
         """Type something and Enter."""
         self._type(text)

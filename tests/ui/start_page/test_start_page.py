@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QImage
 
 from app.core.progress import NO_PROGRESS
 from app.core.resources import resource
+from app.model.curves import Arc
 from app.model.part import Part
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.theme import DARK, LIGHT
@@ -20,6 +21,7 @@ from app.ui.shell.start_page.file_card import FileCard
 from app.ui.shell.start_page.page import StartPage
 from app.ui.shell.start_page.thumbnail import thumbnail
 from app.ui.views.canvas.modes import CanvasTool
+from app.ui.views.language import command_runner
 from tests.ui.conftest import WAIT_MS
 
 
@@ -92,6 +94,33 @@ def test_a_new_part_has_its_size_its_machine_and_its_material(qtbot, started):
     assert not started.window_.views.starting and started.display_controller.view is View.DRAW
     started.document.undo()
     assert not started.document.part.entities, "its outline is a step that can be undone"
+
+
+def test_a_new_part_has_round_corners(qtbot, started, monkeypatch):
+    monkeypatch.setattr(command_runner, "AT_ONCE_S", 0.0)  # as on a busy machine, where the outline comes later
+    card = started.window_.views.start.new
+    card.lengths[0].edit.selectAll()
+    qtbot.keyClicks(card.lengths[0].edit, "x")
+    qtbot.keyClick(card.lengths[0].edit, Qt.Key.Key_Return)
+    assert started.window_.views.starting, "what is marked as wrong begins nothing"
+    card.lengths[0].edit.selectAll()
+    qtbot.keyClicks(card.lengths[0].edit, "80")
+    card.corners.edit.selectAll()
+    qtbot.keyClicks(card.corners.edit, "30")
+    qtbot.keyClick(card.corners.edit, Qt.Key.Key_Return)
+    assert started.window_.views.starting and "25 mm" in card.corners.reason.text(), "50 mm is its shorter side"
+    qtbot.mouseClick(card.begin, Qt.MouseButton.LeftButton)
+    assert started.window_.views.starting, "what is marked as wrong begins nothing"
+    card.corners.edit.selectAll()
+    qtbot.keyClicks(card.corners.edit, "6")
+    qtbot.keyClick(card.corners.edit, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: len(started.document.part.entities) == 8, timeout=WAIT_MS)
+    curves = [entity.curve for entity in started.document.part.entities]
+    assert [each.radius for each in curves if isinstance(each, Arc)] == [6.0] * 4 and len(curves) == 8
+    canvas = started.window_.canvas
+    qtbot.waitUntil(lambda: canvas._glide.state() is not canvas._glide.State.Running, timeout=WAIT_MS)
+    middle = canvas.view.to_screen((40.0, 25.0))
+    assert abs(middle.x() - canvas.area.center().x()) < 1 and abs(middle.y() - canvas.area.center().y()) < 1
 
 
 def test_escape_a_tool_a_view_or_a_typed_line_lead_to_the_drawing(qtbot, started):

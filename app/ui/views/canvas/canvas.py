@@ -258,6 +258,8 @@ class Canvas(InteractiveViewport):
         if self._mode is CanvasMode.DRAW and self.tool is CanvasTool.SELECT:
             overlay.paint_grips(painter, self.view, self.grips.points, self._grip_under, theme)
         if self.runner.tool is not None:
+            for curve in () if self.runner.shows_change else self.runner.tool.picked:
+                overlay.paint_highlight(painter, self.view, curve_path(curve), (theme.accent, theme.accent_text))
             self._paint_tool(painter)
         self._paint_marks(painter)
         if self.banding and self.band_from is not None and self.mouse is not None:

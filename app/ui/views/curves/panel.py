@@ -233,6 +233,7 @@ class CurvesPanel(QScrollArea):
         self.title.setText(_headline(told, {piece.kept for piece in done.pieces}))
         while (item := self._grid.takeAt(0)) is not None:
             if (widget := item.widget()) is not None:
+                widget.hide()
                 widget.deleteLater()
         self.figures = {}
         for row, (name, value, tip) in enumerate(_figures(told) if changed else ()):
