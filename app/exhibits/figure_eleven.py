@@ -19,8 +19,7 @@ from ..core.errors import Cancelled, HitofudeError
 from ..core.progress import NO_PROGRESS, Progress
 from ..simulation.cutter import Cutter
 from ..simulation.engines import Graphics
-from ..simulation.field.differences import HeightDifference, height_difference
-from ..simulation.field.workpiece import Grid, Heights, StockShape, Workpiece
+from ..simulation.field.workpiece import Grid, HeightDifference, Heights, StockShape, Workpiece, height_difference
 from ..simulation.gpu.depth_buffer import DepthBuffer, published
 from ..simulation.gpu.graphics import is_software, renderer_of
 from ..simulation.gpu.polyhedron import facet_error, is_ball
