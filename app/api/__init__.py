@@ -19,8 +19,7 @@ from ..model.job import Job, Stock
 from ..model.operation import CutParameters, DrillOperation, PocketOperation, RestOperation, Side
 from ..model.part import Units
 from ..model.slot_operation import SlotOperation
-from ..model.tool import Tool
-from ..model.tool_kind import ToolKind
+from ..model.tool import Tool, ToolKind
 from ..model.vcarve_operation import VcarveOperation
 from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
 from ..usecases.cutting.cut import CutOptions

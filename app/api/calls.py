@@ -8,8 +8,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ..core.file_bytes import FileBytes
-from ..core.input_file import read_input
+from ..core.input_file import FileBytes, read_input
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.drawing import Drawing
 from ..formats.readers import read_drawing

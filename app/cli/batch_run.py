@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from ..core.durations import minutes_words
 from ..core.memory import budget_limit
+from ..core.wording import minutes_words
 from ..usecases.batch.run import BatchRun
 from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
 from .batch_plan import PlannedBatch

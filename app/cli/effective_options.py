@@ -10,8 +10,7 @@ from ..core.errors import InputError
 from ..fitting.point_curves.correction import CorrectionMove, CorrectionOptions, CorrectionScope
 from ..fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
 from ..fitting.point_curves.effective_points import EffectiveOptions, RangeEnds
-from .command import OptionParser
-from .values import number
+from .command import OptionParser, number
 
 Kind = TypeVar("Kind")
 

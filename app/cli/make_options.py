@@ -16,10 +16,9 @@ from ..formats.sheet import SUFFIXES
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.job.options import LEAST_PER_CENT, MakeOptions, Stepover
-from .command import OptionParser
+from .command import MACHINE_HELP, TOOLS_HELP, OptionParser, join_tolerance, machine_named, number, typed
 from .files import check_outputs, named_files
 from .reading_options import add_reading_options, reading
-from .values import MACHINE_HELP, TOOLS_HELP, join_tolerance, machine_named, number, typed
 
 if TYPE_CHECKING:
     from ..usecases.proposal.propose import ProposalOptions  # loaded where something is to be proposed

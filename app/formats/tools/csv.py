@@ -19,8 +19,7 @@ from typing import Any, NamedTuple
 from ...core.errors import MOST_QUOTED, HitofudeError, InputError, printable
 from ...core.toml_tables import QUOTED, brief
 from ...model.fields import Unit, declared_of
-from ...model.tool import FeedRow, HolderPoint, Tool, ToolMaterial
-from ...model.tool_kind import ToolKind, tool_kinds
+from ...model.tool import FeedRow, HolderPoint, Tool, ToolKind, ToolMaterial, tool_kinds
 from .holders import outline_of
 from .library import ReadTools, ToolLibrary, check_numbers, shortest_degrees
 

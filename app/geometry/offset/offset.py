@@ -27,7 +27,6 @@ from ...core import tolerances
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.part import Contour
-from ..distance import DistanceField
 from ..offset import clearance_kernels as offset_clearance_kernels
 from ..offset import offset_kernels, ring_kernels
 from ..offset import tree_kernels as offset_tree_kernels
@@ -35,6 +34,7 @@ from ..offset import trim_kernels as offset_trim_kernels
 from ..primitives import (
     CX,
     TURN,
+    DistanceField,
     Indices,
     Primitives,
     Rows,

@@ -18,9 +18,8 @@ from shapely import Geometry as Shape
 from ...core import tolerances
 from ...core.pool import in_bands
 from ...geometry.buffer import buffered
-from ...geometry.distance import DistanceField
 from ...geometry.outlines import Outlines, polygons
-from ...geometry.primitives import TURN, R, Rows, pack, points_at, sweeps
+from ...geometry.primitives import TURN, DistanceField, R, Rows, pack, points_at, sweeps
 from ...model.moves import MoveKind, Moves
 from ...model.part import Region
 from ..coverage import reachable_kernels as kernels

@@ -22,12 +22,10 @@ from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.dialect_guess import guess_dialect
 from ...gcode.interpreter.program import NcProgram
 from ...gcode.posts import Post, load_post
-from ...model.motion import MotionKind
-from ...model.motion_path import lengths
+from ...model.motion import MotionKind, lengths
 from ...model.scene import Scene
 from ...model.stock_box import StockBox
-from ...model.tool import Tool
-from ...model.tool_kind import ToolKind
+from ...model.tool import Tool, ToolKind
 from ...simulation.cutter import cutter_of
 from ...simulation.sweeps.probe import PathProbe
 from ...verify.course import course_of
