@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from ..core.errors import GeometryError
 from ..core.pool import in_bands
-from ..geometry import kernels
 from ..model.curves import Arc, Circle, Line, Point, Primitive
 from ..model.part import Contour, Region
+from . import kernels
 
 Rows = NDArray[np.float64]
 
@@ -196,7 +196,7 @@ def within_half_turn(rows: Rows) -> Rows:
 def sweeps(rows: Rows) -> NDArray[np.float64]:
     """Return the signed sweep of each row, radians; 0 for lines; a row that ends where it starts is a full turn."""
     if len(rows) >= _MANY:
-        from ..geometry import kernels  # here, so that the window opens without the compiler
+        from . import kernels  # here, so that the window opens without the compiler
 
         found = np.empty(len(rows))
         kernels.row_sweeps(np.ascontiguousarray(rows, np.float64), found)
@@ -267,7 +267,7 @@ def signed_area(rows: Rows) -> float:
 
 def boxes(rows: Rows) -> NDArray[np.float64]:
     """Return (n, 4) boxes x0, y0, x1, y1 that hold each row exactly, mm."""
-    from ..geometry import kernels  # here, so that the window opens without the compiler
+    from . import kernels  # here, so that the window opens without the compiler
 
     around = np.empty((len(rows), 4))
     kernels.row_boxes(np.ascontiguousarray(rows, np.float64), around)
@@ -290,22 +290,34 @@ def samples(rows: Rows, tolerance: float | NDArray[np.float64]) -> tuple[Indices
     counts = np.where(rows[:, TURN] == 0, 1, np.maximum(1, np.ceil(turn / step))).astype(np.int64)
     index = np.repeat(np.arange(len(rows)), counts)
     part = (np.arange(len(index)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[index]
-    return index, points_at(rows[index], part)
+    return index, points_of(rows, index, part)
 
 
 def points_at(rows: Rows, fraction: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the point (n, 2) at a fraction in [0, 1] of each row's length."""
     if len(rows) >= _MANY:
-        from ..geometry import kernels  # here, so that the window opens without the compiler
-
-        found = np.empty((len(rows), 2))
-        kernels.places_on(np.ascontiguousarray(rows, np.float64), np.ascontiguousarray(fraction, np.float64), found)
-        return found
+        return points_of(rows, np.arange(len(rows)), fraction)
     line = rows[:, :2] + (rows[:, 2:4] - rows[:, :2]) * fraction[:, None]
     angle = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX]) + sweeps(rows) * fraction
     arc = rows[:, CX:R] + rows[:, [R]] * np.stack([np.cos(angle), np.sin(angle)], 1)
     arc = np.where((fraction == 0)[:, None], rows[:, :2], arc)
     return np.where((rows[:, TURN] == 0)[:, None], line, arc)
+
+
+def points_of(rows: Rows, which: Indices, fraction: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the point (m, 2) at a fraction in [0, 1] of the length of the row that each of m numbers names."""
+    if len(which) < _MANY:
+        return points_at(rows[which], fraction)
+    from . import kernels  # here, so that the window opens without the compiler
+
+    found = np.empty((len(which), 2))
+    kernels.places_on(
+        np.ascontiguousarray(rows, np.float64),
+        np.ascontiguousarray(which, np.int64),
+        np.ascontiguousarray(fraction, np.float64),
+        found,
+    )
+    return found
 
 
 def point_on(row: Sequence[float], fraction: float) -> Point:

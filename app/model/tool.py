@@ -12,7 +12,7 @@ from typing import ClassVar
 
 from ..core.errors import ParameterError
 from ..core.toml_tables import Keyword
-from .fields import Parameter, Unit, declared_of, parameter, required
+from .fields import Parameter, Unit, check_kinds, declared_of, parameter, required
 
 # The kinds of cutting tools: what each is called, which numbers give it its shape, and what shape that is.
 #
@@ -426,6 +426,7 @@ class Tool:
     )
 
     def __post_init__(self) -> None:
+        check_kinds(self)
         if not 1 <= self.number <= 9999:
             raise ParameterError(f"Tool number {self.number} is out of range; use 1 to 9999.")
         self._check_above_zero()

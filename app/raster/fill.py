@@ -63,7 +63,7 @@ def _scan(plane: Plane, left: Plane) -> Plane:
     """Return the plane with its inside marked; rows are padded to whole words of eight pixels while they are
     scanned.
     """
-    from ..raster import kernels
+    from . import kernels
 
     rows, cols = plane.shape
     wide = plane if cols % 8 == 0 else np.pad(plane, ((0, 0), (0, -cols % 8)))
@@ -93,7 +93,7 @@ def draw(frame: BitmapFrame, contours: Sequence[Contour] | Rows) -> tuple[Plane,
     Returns:
         (rows, cols) uint8 codes 0, 2, R; (rows,) uint8: 1 where an odd number of crossings lies left of the frame.
     """
-    from ..raster import kernels
+    from . import kernels
 
     plane, left = np.zeros((frame.rows, frame.cols), np.uint8), np.zeros(frame.rows, np.uint8)
     kernels.draw(image_rows(frame, rows_of(contours)), plane, left)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
+from ..core.wording import together
 from ..model.finding import Finding, FindingKind
 from ..model.motion import MotionKind, Motions, reach
 from ..model.tool import Tool
@@ -202,7 +203,7 @@ def _at_unknown_places(stage: ProgramStage) -> Iterator[Finding]:
         return
     row = int(rows[0])
     unknown = known.nowhere[row] | known.nowhere[max(row - 1, 0)]
-    axes = " and ".join(name for name, one in zip("XYZ", unknown.tolist(), strict=True) if one)
+    axes = together(name for name, one in zip("XYZ", unknown.tolist(), strict=True) if one)
     others = "" if len(rows) == 1 else f", the first of {len(rows)} such motions"
     text = (
         f"{stage.where(row)} cuts at a place that the program has not told{others}: {axes} "

@@ -171,6 +171,9 @@ Mask = NDArray[np.bool_]
 
 Floats = NDArray[np.float64]
 
+_AT_A_TIME = 4096
+"""Parts of a shape whose outlines are looked at together."""
+
 NO_MOVES = MovesBuilder().moves()
 
 
@@ -336,9 +339,11 @@ class _Cells:
         parts = shapely.get_parts(shape)
         if abs(by) > self.grid.pitch:  # cells near edges would be too many
             parts, by = shapely.get_parts(grown(parts, by, CHORD)), 0.0
-        rings = [shapely.get_coordinates(ring)[:-1] - self.part.origin[:2] for ring in shapely.get_rings(parts)]
-        held = inside(self.grid, rings)
-        if not by:
-            return held
-        near = beside(self.grid, rings, abs(by))
+        held, near = np.zeros((2, self.grid.rows, self.grid.cols), bool)
+        for first in range(0, len(parts), _AT_A_TIME):
+            some = shapely.get_rings(parts[first : first + _AT_A_TIME])
+            rings = [shapely.get_coordinates(ring)[:-1] - self.part.origin[:2] for ring in some]
+            held ^= inside(self.grid, rings)
+            if by:
+                near |= beside(self.grid, rings, abs(by))
         return held | near if by > 0 else held & ~near

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Protocol, runtime_checkable
 import numpy as np
 
 from ..errors import HitofudeError
-from ..jit import numba_loader
+from . import numba_loader
 from .store import Store, store
 
 Compiled = Callable[..., Any]

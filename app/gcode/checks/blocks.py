@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.wording import together
 from ...model.job import Job
 from ..interpreter.dialect import Dialect
 from ..interpreter.program import BlockFault, ProgramProblem
@@ -202,7 +203,7 @@ def approach_problems(text: str, first: list[int]) -> Iterator[ProgramProblem]:
     for number in first:
         missing = [letter for letter in "XY" if letter not in lines[number - 1].upper()]
         if missing:
-            axes = " and ".join(missing)
+            axes = together(missing)
             yield ProgramProblem(
                 number,
                 0,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,9 @@ from ...model.moves import MoveKind, Moves
 
 NOTHING = 1e-9
 """mm; a rise or radius below which it tells nothing of how far along an arc a point is."""
+
+_AT_A_TIME = 100_000
+"""Motions that are compared with arcs together: what is reckoned of each takes several times what it is."""
 
 
 def distances(motions: Motions, reference: ReferencePath, owned: MotionOwners) -> Floats:
@@ -26,8 +30,8 @@ def distances(motions: Motions, reference: ReferencePath, owned: MotionOwners) -
     found = np.where(last >= 0, _sizes(reached - reference.end), np.inf)
     arc = reference.kind >= MoveKind.ARC_CW
     mine = arc[owned.move]
-    if mine.any():
-        np.maximum.at(found, owned.move[mine], _along_arcs(motions, reference, owned, mine))
+    for some in _portions(owned.move, np.flatnonzero(mine)):
+        np.maximum.at(found, owned.move[some], _along_arcs(motions, reference, (owned.rows[some], owned.move[some])))
     still = np.flatnonzero(arc & (owned.count == 0) & (last >= 0))
     if len(still):
         found[still] = np.maximum(found[still], _still_on_arcs(reached[still], reference, still))
@@ -54,13 +58,28 @@ def _still_on_arcs(places: Floats, reference: ReferencePath, move: Rows) -> Floa
     return np.asarray(np.hypot(flat, heights))
 
 
-def _along_arcs(motions: Motions, reference: ReferencePath, owned: MotionOwners, mine: Mask) -> Floats:
-    """Return a bound for each motion that stands for a stretch of an arc."""
+def _portions(move: Rows, mine: Rows) -> Iterator[Rows]:
+    """Yield some motions in portions; those of one move stay together."""
+    begins = np.flatnonzero(np.diff(move[mine], prepend=-1))
+    first = 0
+    while first < len(mine):
+        at = np.searchsorted(begins, first + _AT_A_TIME)
+        stop = int(begins[at]) if at < len(begins) else len(mine)
+        yield mine[first:stop]
+        first = stop
+
+
+def _along_arcs(motions: Motions, reference: ReferencePath, at: tuple[Rows, Rows]) -> Floats:
+    """Return a bound for each motion that stands for a stretch of an arc.
+
+    Args:
+        at: row and move of each, in their order.
+    """
     from .check_kernels import in_step
 
-    rows, move = owned.rows[mine], owned.move[mine]
+    rows, move = at
     written = _written_arcs(motions, rows)
-    stops, begins = _fractions(motions, reference, (rows, move), written[:, 5])
+    stops, begins = _fractions(motions, reference, at, written[:, 5])
     flat, ends = np.empty(len(rows)), np.column_stack([motions.start[rows, :2], motions.end[rows, :2]])
     in_step(written, ends, _meant_arcs(reference, move), np.column_stack([begins, stops]), flat)
     rise = reference.end[move, 2] - reference.start[move, 2]
@@ -80,10 +99,11 @@ def _meant_arcs(reference: ReferencePath, move: Rows) -> Floats:
 
 def _written_arcs(motions: Motions, rows: Rows) -> Floats:
     """Return (m, 6) the circle of each motion; sweep 0 where it is straight."""
-    arcs: ArcPaths = arc_paths(motions)
-    place = np.full(len(motions), -1)
-    place[arcs.rows] = np.arange(len(arcs))
-    chosen = place[rows]
+    first, stop = int(rows.min()), int(rows.max()) + 1
+    arcs: ArcPaths = arc_paths(motions, first, stop)
+    place = np.full(stop - first, -1)
+    place[arcs.rows - first] = np.arange(len(arcs))
+    chosen = place[rows - first]
     written = np.zeros((len(rows), 6))
     round_ = chosen >= 0
     k = chosen[round_]

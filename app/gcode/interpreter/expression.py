@@ -84,6 +84,8 @@ class Parameters:
         value = self._place(key).get(key)
         if value is not None:
             return value
+        if isinstance(key, str) and key.startswith(("_hal[", "_ini[")):
+            raise BlockFault(f"the value of #<{key}> is known to the machine alone; write a number in its place.")
         if isinstance(key, str):
             raise BlockFault(f"the parameter #<{key}> has no value here; set it before.")
         if not 0 <= key <= LARGEST:
@@ -152,9 +154,7 @@ class Parameters:
 Value = float | Callable[[Parameters], float]
 
 NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)")
-
-NAME = re.compile(r"<([^<>\[\]()#]{1,200})>")
-
+NAME = re.compile(r"<((?:_(?:hal|ini)\[[\w.\-:]{1,150}\])?[^<>\[\]()#]{0,200})(?<!<)>")
 FUNCTION = re.compile(r"(atan|abs|acos|asin|cos|exp|fix|fup|round|ln|sin|sqrt|tan|exists)\[")
 
 _DASHES = "\u2010\u2011\u2012\u2013\u2014\u2212"

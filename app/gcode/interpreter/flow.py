@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from ...core.wording import either
 from .control import Control
 from .expression import PLAIN, Key, Value, ValueReader, evaluated, whole
 from .places import KEYWORDS, Cursor, JumpTargets, Statement, label_of
@@ -254,9 +255,7 @@ class Flow:
         """Return the statement further down that belongs to one."""
         found = self.places.next_of(statement.label, keywords, statement.at.offset)
         if found is None:
-            raise BlockFault(
-                f"O{statement.label} {statement.keyword} has no {' or '.join(keywords)} with the same number."
-            )
+            raise BlockFault(f"O{statement.label} {statement.keyword} has no {either(keywords)} with the same number.")
         return found
 
     def _sub(self, statement: Statement, values: ValueReader) -> None:

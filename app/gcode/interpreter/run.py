@@ -5,7 +5,6 @@ from __future__ import annotations
 import codecs
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from ...core.errors import MOST_QUOTED, shortened
 from ...core.progress import Progress
@@ -16,6 +15,7 @@ from .dialect import Dialect
 from .fast_lane import FastLane
 from .flow import MOST_KEPT, Flow
 from .foreign_codes import adapt, call_macro, call_or_return, is_leader, is_macro, obey_macro, warn_of_numbers
+from .foreign_languages import foreign_language
 from .moves import move
 from .notes import notes
 from .options import ReadOptions
@@ -442,79 +442,3 @@ def _odd(file: bytes, dialect: Dialect) -> Iterator[tuple[int, str]]:
     if dialect is Dialect.LINUXCNC:
         found = ((pattern.search(file), what) for pattern, what in _OF_LINUXCNC)
         yield from ((match.start(), what) for match, what in found if match)
-
-
-# Languages of other controls and machines, which are not read: named where a program turns out to be in one of them.
-#
-# A name says more than the first word that is not understood. Nothing is decided by it: it is looked for only where
-# the reading has ended with an error.
-
-
-_LOOKED_AT = 50_000
-"""Bytes from the beginning."""
-
-_POST_IT = "let your CAM program post it for LinuxCNC, grbl, Mach3, Haas or Fanuc"
-
-
-@dataclass(frozen=True, slots=True)
-class _Language:
-    """Attributes: title: how its users call it. telling: what no program of a control that is read holds. remedy: what
-    to do instead.
-    """
-
-    title: str
-    telling: re.Pattern[str]
-    remedy: str = _POST_IT
-
-
-def _telling(words: str) -> re.Pattern[str]:
-    return re.compile(words, re.IGNORECASE | re.MULTILINE)
-
-
-_LANGUAGES = (
-    _Language(
-        "a program in Heidenhain's plain language", _telling(r"^\s*\d+\s+(?:BEGIN\s+PGM|TOOL\s+CALL|BLK\s+FORM)\b")
-    ),
-    _Language(
-        "a Siemens Sinumerik program",
-        _telling(
-            r"^\s*%_N_|\bG(?:710|700|641|642)\b|\bCYCLE\d+\s*\(|\bPOCKET\d\s*\(|\bWORKPIECE\s*\(|\bCR\s*=|[XYZ]\s*=\s*(?:AC|IC)\s*\("
-            r"|^\s*R\d+\s*=|^\s*(?:N\d+\s*)?(?:A?TRANS|A?ROT|MSG|SUPA)\b"
-        ),
-    ),
-    _Language(
-        "an Okuma OSP program", _telling(r"^\s*\$[^\n$]{1,40}%|^\s*(?:N\d+\s*)?CALL\s+O\w+|\bVC\d+\s*=|\bG15\s*H\d")
-    ),
-    _Language(
-        "cutter location data (APT)",
-        _telling(r"^\s*(?:GOTO|FEDRAT|LOADTL|TLDATA)\s*/"),
-    ),
-    _Language(
-        "a plot file (HP-GL)",
-        _telling(r"^\s*(?:IN|SP\d+|PU|PD)\s*;|;\s*P[UD]-?\d"),
-        "save it with the ending .plt and open it as a drawing",
-    ),
-    _Language(
-        "a program for a 3D printer",
-        _telling(r"^\s*M(?:82|83|104|109|140|190)\b|^\s*(?:N\d+\s*)?G[01]\b[^;(\n]*\bE-?[\d.]"),
-        "a mill has no extruder: open the solid itself, as STL, and make its paths here",
-    ),
-)
-"""In the order in which they are asked: the surest words first."""
-
-
-def foreign_language(data: bytes) -> ProgramProblem | None:
-    """Return the language that a program is in, with the line that tells; None where it is in none that is known.
-
-    Args:
-        data: the file's bytes.
-    """
-    text = data[:_LOOKED_AT].decode("latin-1")
-    for language in _LANGUAGES:
-        found = language.telling.search(text)
-        if found is not None:
-            word = " ".join(found[0].split())
-            line = text.count("\n", 0, found.end() - 1) + 1
-            says = f"this looks like {language.title}, which is not read; {language.remedy}."
-            return ProgramProblem(line, 0, word, says, Severity.WARNING)
-    return None

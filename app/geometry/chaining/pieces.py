@@ -18,7 +18,7 @@ from ...core.errors import GeometryError
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Primitive, Spline, reversed_curve
 from ...model.finding import Finding, FindingKind
 from ...model.part import Contour, Entity
-from ..arcs.alike import ArcsByShape
+from ..arcs.alike import arcs_of_all
 from ..arcs.arcs import equally_far
 from ..near_points import pairs_meeting, pairs_within
 from ..primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, curve_rows, distances, points_at, sweeps
@@ -101,15 +101,13 @@ def pieces_from(entities: Sequence[Entity]) -> PiecesOfEntities:
     """Return the pieces of entities."""
     pieces: list[ChainPiece] = []
     findings: list[Finding] = []
-    bent = ArcsByShape()
-    for entity in entities:
-        try:
-            primitives, deviation = _primitives(entity, bent)
-        except GeometryError as error:
+    for entity, made in zip(entities, _all_primitives(entities), strict=True):
+        if isinstance(made, GeometryError):
             findings.append(
-                Finding(FindingKind.TINY_ENTITY, f"Entity {entity.id} is left out: {error}", entity_ids=(entity.id,))
+                Finding(FindingKind.TINY_ENTITY, f"Entity {entity.id} is left out: {made}", entity_ids=(entity.id,))
             )
             continue
+        primitives, deviation = made
         if primitives:
             pieces.append(ChainPiece(tuple(primitives), entity.id, entity.layer, deviation))
         else:
@@ -157,18 +155,33 @@ def straightened(curve: Curve) -> Curve:
     return Line(curve.start, curve.end) if abs(curve.sweep) < 1.0 and rise < _FLAT else curve
 
 
-def _primitives(entity: Entity, bent: ArcsByShape) -> _PrimitivesNear:
-    curve = straightened(entity.curve)
+def _all_primitives(entities: Sequence[Entity]) -> list[_PrimitivesNear | GeometryError]:
+    """Return what each entity has become, or why it is nothing."""
+    curves = [_straight_or_far(entity.curve) for entity in entities]
+    bent = iter(arcs_of_all([curve for curve in curves if isinstance(curve, Ellipse | Spline)]))
+    made: list[_PrimitivesNear | GeometryError] = []
+    for entity, curve in zip(entities, curves, strict=True):
+        if isinstance(curve, GeometryError):
+            made.append(curve)
+        elif isinstance(curve, Ellipse | Spline):
+            near = next(bent)
+            made.append(near if isinstance(near, GeometryError) else _PrimitivesNear(near.primitives, near.deviation))
+        elif length_of(curve) < tolerances.WELD:
+            made.append(_PrimitivesNear((), 0.0))
+        else:
+            off = _FLAT if isinstance(curve, Line) and curve is not entity.curve else 0.0
+            made.append(_PrimitivesNear((curve,), off))
+    return made
+
+
+def _straight_or_far(curve: Curve) -> Curve | GeometryError:
+    """Return a curve, an arc that is none as what it is; or why it is left out."""
+    curve = straightened(curve)
     if isinstance(curve, Arc) and curve.start == curve.end and not curve.ccw:  # its sweep is a full turn
         curve = Circle(curve.centre, curve.radius, curve.ccw)
     if not within_reach(curve):
-        raise GeometryError("it has a coordinate that is not a number or beyond 1 km; delete it or draw it again.")
-    if isinstance(curve, Ellipse | Spline):
-        made = bent.of(curve)
-        return _PrimitivesNear(made.primitives, made.deviation)
-    if length_of(curve) < tolerances.WELD:
-        return _PrimitivesNear((), 0.0)
-    return _PrimitivesNear((curve,), _FLAT if isinstance(curve, Line) and curve is not entity.curve else 0.0)
+        return GeometryError("it has a coordinate that is not a number or beyond 1 km; delete it or draw it again.")
+    return curve
 
 
 def with_ends(piece: ChainPiece, start: Point, end: Point) -> ChainPiece:

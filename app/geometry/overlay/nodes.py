@@ -18,7 +18,6 @@ from ...core import tolerances
 from ..chaining.chain import contacts
 from ..chaining.pieces import near_pairs
 from ..near_points import groups, nearest, pairs_within
-from ..overlay import overlay_kernels
 from ..primitives import (
     CX,
     CY,
@@ -34,6 +33,7 @@ from ..primitives import (
     reversed_rows,
     sweeps,
 )
+from . import overlay_kernels
 
 Floats = NDArray[np.float64]
 

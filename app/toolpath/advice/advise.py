@@ -247,8 +247,8 @@ def _why(tools: tuple[Tool, Tool], regions: Sequence[RegionAdvice], choices: Seq
             "a larger one before it saves no time."
         )
     return (
-        f"{_bounds(contour, regions)} {_named(pocket.tool)} reaches {pocket.share:.0%} of the area; with it first the "
-        f"job takes about {minutes_words(pocket.times.total)} min, with {_named(contour.tool)} alone "
+        f"{_bounds(contour, regions)} {_named(pocket.tool)} reaches {100 * pocket.share:.0f} % of the area; with it "
+        f"first the job takes about {minutes_words(pocket.times.total)} min, with {_named(contour.tool)} alone "
         f"{minutes_words(contour.times.total)} min."
     )
 

@@ -19,12 +19,15 @@ from ...core import tolerances
 from ...core.pool import in_bands
 from ...geometry.buffer import buffered
 from ...geometry.outlines import Outlines, polygons
-from ...geometry.primitives import TURN, DistanceField, R, Rows, pack, points_at, sweeps
+from ...geometry.primitives import TURN, DistanceField, R, Rows, pack, points_of, sweeps
 from ...model.moves import MoveKind, Moves
 from ...model.part import Region
-from ..coverage import reachable_kernels as kernels
+from . import reachable_kernels as kernels
 
 Shapes = NDArray[np.object_]
+
+_AT_A_TIME = 1024
+"""Regions that are made polygons of together: chords and rings of all at once would be several times the polygons."""
 
 _WORTH_TWO_CORES = 32
 """Overlays from which a second core is worth its start."""
@@ -160,7 +163,7 @@ def flattened(rows: Rows, chord: float) -> tuple[NDArray[np.int64], NDArray[np.f
     counts = np.maximum(1, np.ceil(turn / step)).astype(np.int64)
     owner = np.repeat(np.arange(len(rows)), counts + 1)
     place = np.arange(len(owner)) - np.repeat(np.cumsum(counts + 1) - counts - 1, counts + 1)
-    points = points_at(rows[owner], place / counts[owner])
+    points = points_of(rows, owner, place / counts[owner])
     last = place == counts[owner]
     points[last] = rows[owner[last], 2:4]
     return owner, points
@@ -183,6 +186,12 @@ def region_shapes(regions: Sequence[Region], chord: float) -> NDArray[np.object_
 
     They stay apart, since regions that touch have a wall of no thickness between them.
     """
+    some = [_some_shapes(regions[k : k + _AT_A_TIME], chord) for k in range(0, len(regions), _AT_A_TIME)]
+    return np.concatenate(some) if some else np.zeros(0, dtype=object)
+
+
+def _some_shapes(regions: Sequence[Region], chord: float) -> NDArray[np.object_]:
+    """Return `region_shapes` of a few regions."""
     outlines = Outlines.of([contour for region in regions for contour in region.contours])
     group = np.repeat(np.arange(len(regions)), [1 + len(region.islands) for region in regions])
     parts = shapely.get_parts(shapely.get_parts(polygons(outlines, group, chord)[1]))

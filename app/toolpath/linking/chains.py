@@ -21,8 +21,8 @@ from ...geometry.primitives import DistanceField, Indices, Rows, sweeps
 from ...geometry.triangulation import neighbours
 from ...model.moves import Purpose
 from ..build import Stroke
-from ..linking import chain_kernels
 from ..rest_material import CutGround
+from . import chain_kernels
 from .rest_runs import RingChunks, RingRun
 
 _MOST = 6

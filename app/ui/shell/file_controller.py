@@ -116,6 +116,7 @@ class FileController(QObject):
         window.actions_.recent.aboutToShow.connect(self._list_recent)
         self.open_controller.read.connect(lambda opened: showing.know_size(opened.job.part, opened.size))
         self.open_controller.opened.connect(self._on_opened)
+        self.open_controller.opening_changed.connect(showing.show_opening)
         self.open_controller.asked.connect(self._ask_how)
         self.export_controller.written.connect(self._on_written)
         self.export_controller.post_chosen.connect(self._choose_post)

@@ -54,6 +54,7 @@ from .drawing.proposal_controller import ProposalController
 from .drawing.shape_language_controller import ShapeLanguageController
 from .drawing.tab_controller import TabController
 from .drawing.template_controller import TemplateController
+from .drawing.unseen_controller import UnseenController
 from .file_controller import FileController, Openers
 from .files.drawing_export_controller import DrawingExportController
 from .files.open_controller import SAMPLE_PROGRAMS
@@ -174,6 +175,7 @@ class WindowController(QObject):
         self.underlay_controller = UnderlayController(canvas, workspace, commands)
         self.language = ShapeLanguageController(window.command_line.edit, HelpWindow(window), workspace, commands)
         self.files.save_controller.beside.watch(self.underlay_controller, self.language.control)
+        self.unseen_controller = UnseenController(canvas, self.language.lines, workspace)
         self.advice_controller = AdviceController(window.panel, workspace)
         self.proposal_controller = ProposalController(window.panel, workspace, commands)
         self.template_controller = TemplateController(window.panel, workspace, commands)

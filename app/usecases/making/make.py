@@ -366,6 +366,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
 def _measured(program: Program, job: Job, progress: Progress) -> MeasuredMoves:
     """Return what closed forms say of computed moves; nothing of it needs their text."""
     progress.step(0.0, "Checking clearance")
+    give_back()
     depths = gouge_depths(program, job, progress=progress.part(0.0, 0.2))
     clear = clear_moves(program.moves, depths, CHORD)
     measured = MeasuredMoves(depths, measure_beside_clear(program, job, clear, progress.part(0.2, 1.0)))

@@ -15,6 +15,7 @@ from typing import Any
 from ...core.errors import GeometryError
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.resources import resource
+from ...core.wording import together
 from ...formats.tools.library import read_library
 from ...geometry.outlines import nest, polygon_contour
 from ...geometry.overlay.overlay import without_crossings
@@ -348,7 +349,7 @@ class ProposalWork:
             if some
         ]
         cut = self.cut(tool, depth, self._curves(lines))
-        why = f"{' and '.join(parts)}: engraved {depth:g} mm deep with {self._named(tool)}"
+        why = f"{together(parts)}: engraved {depth:g} mm deep with {self._named(tool)}"
         return [ProposedOperation(ContourOperation(cut, Side.ON), why)]
 
     def outlines(self) -> list[ProposedOperation]:

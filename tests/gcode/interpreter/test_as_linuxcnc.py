@@ -55,6 +55,8 @@ REFUSED = {
     "by 0.0284 mm": ("G21 F100\nG0 X0 Y0\nG2 X10 I5.01425\nM2\n", "does not end on its circle"),
     "return outside": ("F100\nG1 X1\no2 return\nM2\n", "ends a subroutine that is not running"),
     "exists without a parameter": ("#2=exists[5]\nM2\n", "expected a parameter"),
+    "a value of a pin": ("G1 X5 F#<_hal[plasmac.cut-feed-rate]>\nM2\n", "known to the machine alone"),
+    "a value of the machine's file": ("#<a>=#<_ini[AXIS_X]MAX>\nM2\n", "known to the machine alone"),
     "polar without an angle at the zero": ("F100\nG1 @10\nM2\n", "the angle"),
     "polar in another plane": ("G18 F100\nG0 X5\nG1 ^30\nM2\n", "with G17 only"),
     "polar holes that meet the zero": ("F100\nG0 X10 Z5\nG91 G81 @-5 R1 Z-1 L4\nM2\n", "the angle"),

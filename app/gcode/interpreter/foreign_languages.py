@@ -1,0 +1,85 @@
+"""Languages of other controls and machines, which are not read: named where a program turns out to be in one of them.
+
+A name says more than the first word that is not understood. Nothing is decided by it: it is looked for only where the
+reading has ended with an error.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from .program import ProgramProblem, Severity
+
+_LOOKED_AT = 50_000
+"""Bytes from the beginning."""
+
+_POST_IT = "let your CAM program post it for LinuxCNC, grbl, Mach3, Haas or Fanuc"
+
+
+@dataclass(frozen=True, slots=True)
+class _Language:
+    """Attributes: title: how its users call it. telling: what no program of a control that is read holds outside its
+    comments. remedy: what to do instead.
+    """
+
+    title: str
+    telling: re.Pattern[str]
+    remedy: str = _POST_IT
+
+
+_REMARK = re.compile(r"(?<=\()[^()\n]*(?=\))")
+"""What CAM programs write in brackets speaks of tools (CR=0.), times and other controls."""
+
+
+def _telling(words: str) -> re.Pattern[str]:
+    return re.compile(words, re.IGNORECASE | re.MULTILINE)
+
+
+_LANGUAGES = (
+    _Language(
+        "a program in Heidenhain's plain language", _telling(r"^\s*\d+\s+(?:BEGIN\s+PGM|TOOL\s+CALL|BLK\s+FORM)\b")
+    ),
+    _Language(
+        "a Siemens Sinumerik program",
+        _telling(
+            r"^\s*%_N_|\bG(?:710|700|641|642)\b|\bCYCLE\d+\s*\(|\bPOCKET\d\s*\(|\bWORKPIECE\s*\(|\bCR\s*=|[XYZ]\s*=\s*(?:AC|IC)\s*\("
+            r"|^\s*R\d+\s*=|^\s*(?:N\d+\s*)?(?:A?TRANS|A?ROT|MSG|SUPA)\b"
+        ),
+    ),
+    _Language(
+        "an Okuma OSP program", _telling(r"^\s*\$[^\n$]{1,40}%|^\s*(?:N\d+\s*)?CALL\s+O\w+|\bVC\d+\s*=|\bG15\s*H\d")
+    ),
+    _Language(
+        "cutter location data (APT)",
+        _telling(r"^\s*(?:GOTO|FEDRAT|LOADTL|TLDATA)\s*/"),
+    ),
+    _Language(
+        "a plot file (HP-GL)",
+        _telling(r"^\s*(?:IN|SP\d+|PU|PD)\s*;|;\s*P[UD]-?\d"),
+        "save it with the ending .plt and open it as a drawing",
+    ),
+    _Language(
+        "a program for a 3D printer",
+        _telling(r"^\s*M(?:8[23]\b|(?:104|109|140|190)\s*[SR]\d)|^\s*(?:N\d+\s*)?G[01]\b[^;(\n]*\bE-?[\d.]"),
+        "a mill has no extruder: open the solid itself, as STL, and make its paths here",
+    ),
+)
+"""In the order in which they are asked: the surest words first."""
+
+
+def foreign_language(data: bytes) -> ProgramProblem | None:
+    """Return the language that a program is in, with the line that tells; None where it is in none that is known.
+
+    Args:
+        data: the file's bytes.
+    """
+    text = _REMARK.sub("", data[:_LOOKED_AT].decode("latin-1"))
+    for language in _LANGUAGES:
+        found = language.telling.search(text)
+        if found is not None:
+            word = " ".join(found[0].split())
+            line = text.count("\n", 0, found.end() - 1) + 1
+            says = f"this looks like {language.title}, which is not read; {language.remedy}."
+            return ProgramProblem(line, 0, word, says, Severity.WARNING)
+    return None
