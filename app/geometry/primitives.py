@@ -19,7 +19,6 @@ from ..core.errors import GeometryError
 from ..core.pool import in_bands
 from ..model.curves import Arc, Circle, Line, Point, Primitive
 from ..model.part import Contour, Region
-from . import kernels
 
 Rows = NDArray[np.float64]
 
@@ -399,6 +398,8 @@ class DistanceField:
     @staticmethod
     def of(rows: Rows) -> DistanceField:
         """Build the tree over rows (n, 8), n > 0."""
+        from . import kernels  # here, so that the window opens without the compiler
+
         rows = np.ascontiguousarray(rows)
         around = np.ascontiguousarray(boxes(rows))
         order, nodes = kernels.build_tree(around)
@@ -413,6 +414,8 @@ class DistanceField:
             limit: rows farther than this give (limit, -1), mm.
             enough: the first row found that is no farther is given, whether it is the nearest or not, mm.
         """
+        from . import kernels  # here, so that the window opens without the compiler
+
         points = np.ascontiguousarray(points, dtype=np.float64)
         distances, found = np.empty(len(points)), np.empty(len(points), np.int64)
 
@@ -426,6 +429,8 @@ class DistanceField:
 
     def farthest(self, points: NDArray[np.float64]) -> float:
         """Return the distance of that of points (m, 2) which is farthest from all rows, mm; 0 of none."""
+        from . import kernels  # here, so that the window opens without the compiler
+
         points = np.ascontiguousarray(points, dtype=np.float64)
         return max(
             in_bands(lambda part: float(kernels.farthest(self.rows, self.order, self.nodes, points[part])), len(points))
@@ -433,6 +438,8 @@ class DistanceField:
 
     def inside(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return for points (m, 2) whether the closed rows enclose them by the even-odd rule."""
+        from . import kernels  # here, so that the window opens without the compiler
+
         points = np.ascontiguousarray(points, dtype=np.float64)
         result = np.empty(len(points), np.bool_)
         heights, line = np.unique(points[:, 1], return_inverse=True)
