@@ -31,8 +31,7 @@ from ..model.part import Units
 from ..model.read_options import DrawingOptions
 from ..model.slot_operation import SlotOperation
 from ..model.thread_sizes import ThreadSize
-from ..model.tool import Tool, ToolMaterial
-from ..model.tool_kind import ToolKind
+from ..model.tool import Tool, ToolKind, ToolMaterial
 from ..model.vcarve_operation import VcarveOperation
 from ..simulation.engines import Engine
 from ..toolpath.feeds.proposal import CutEngagement, FeedProposal

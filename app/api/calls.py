@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from ..core.errors import InputError
-from ..core.file_bytes import FileBytes
-from ..core.input_file import read_input
+from ..core.input_file import FileBytes, read_input
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.drawing import Drawing
 from ..formats.readers import read_drawing

@@ -10,10 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from ..core.atomic import write_together
-from ..core.durations import minutes_words
 from ..core.errors import InputError
 from ..core.input_file import read_input
-from ..core.wording import counted
+from ..core.wording import counted, minutes_words
 from ..formats.sheet import SUFFIXES
 from ..gcode.interpreter.program import ProgramProblem
 from ..model.finding import Finding

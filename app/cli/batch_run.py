@@ -6,8 +6,8 @@ import argparse
 from contextlib import closing
 from dataclasses import replace
 
-from ..core.durations import minutes_words
 from ..core.memory import budget_limit
+from ..core.wording import minutes_words
 from ..usecases.batch.run import BatchRun
 from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
 from .batch_plan import PlannedBatch

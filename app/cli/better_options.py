@@ -12,10 +12,9 @@ from ..usecases.cutting.ready_setup import SetupRequest
 from ..usecases.cutting.setup_tools import ToolSource
 from ..usecases.examine import CONTROLS
 from ..usecases.smoothing.result import OutputForm
-from .command import OptionParser
+from .command import OptionParser, number, typed
 from .cut_options import stock_given, tool_given
 from .cut_request import with_stock
-from .values import number, typed
 
 EPILOG = """\
 For programs of one tool that go over surfaces in passes beside one another, as CAM systems write them from a

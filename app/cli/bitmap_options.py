@@ -9,7 +9,7 @@ from ..core.errors import InputError
 from ..raster.frame import POINTS
 from ..raster.picture_options import InkMeaning, PictureOptions
 from ..usecases.pixels.options import BitmapOptions, BitmapSize, is_picture
-from .values import number
+from .command import number
 
 
 def add_bitmap_options(group: argparse._ArgumentGroup, bitmap_help: str) -> None:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..core.durations import minutes_words
-from ..core.wording import counted
+from ..core.wording import counted, minutes_words
 from ..gcode.interpreter.program import ProgramProblem, Severity
 from ..gcode.rework.compare import ProgramDifferences
 from ..usecases.examine import CONTROLS, ExaminedProgram

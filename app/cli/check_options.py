@@ -12,9 +12,8 @@ from ..gcode.interpreter.dialect import Dialect
 from ..gcode.interpreter.options import ToolOffset
 from ..model.part import Units
 from ..usecases.examine import CONTROLS, ExamineOptions
-from .command import OptionParser
+from .command import MACHINE_HELP, OptionParser, machine_named, typed
 from .files import check_outputs, named_files
-from .values import MACHINE_HELP, machine_named, typed
 
 EPILOG = """\
 Prints each problem with its place, then extent, length and time. Exit status 0: nothing is wrong; 1: there are

@@ -8,8 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..core.errors import InputError
-from ..core.file_bytes import FileBytes
-from ..core.input_file import read_input
+from ..core.input_file import FileBytes, read_input
 from ..core.progress import Progress
 from ..formats.job.toml import read_job
 from ..formats.tools.at_path import tools_at

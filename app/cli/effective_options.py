@@ -11,8 +11,7 @@ from ..core.wording import either
 from ..fitting.point_curves.correction import CorrectionMove, CorrectionOptions, CorrectionScope
 from ..fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
 from ..fitting.point_curves.effective_points import EffectiveOptions, RangeEnds
-from .command import OptionParser
-from .values import number
+from .command import OptionParser, number
 
 Kind = TypeVar("Kind")
 

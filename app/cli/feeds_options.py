@@ -16,9 +16,8 @@ from ..model.operation import LEAST_LENGTH
 from ..model.tool import Tool, ToolMaterial
 from ..toolpath.feeds.proposal import CutEngagement
 from ..usecases.job.feeds import FeedsOptions, engagement_at
-from .command import OptionParser
+from .command import MACHINE_HELP, TOOLS_HELP, OptionParser, machine_named, number, typed
 from .cut_options import shape_given
-from .values import MACHINE_HELP, TOOLS_HELP, machine_named, number, typed
 
 EPILOG = """\
 Prints speed and feeds of each tool, and below them a line for each number: where it comes from, and which limit of

@@ -9,8 +9,7 @@ from pathlib import Path
 from ..core.errors import InputError
 from ..exhibits.die_programs import PROGRAMS
 from ..exhibits.figure_eleven import FigureOptions
-from .command import OptionParser
-from .values import number, typed
+from .command import OptionParser, number, typed
 
 LEAST_CELLS, MOST_CELLS, MOST_RUNS = 16, 4096, 100
 _USUAL = FigureOptions()

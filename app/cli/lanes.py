@@ -11,8 +11,7 @@ from pathlib import Path
 from ..core.errors import InputError
 from ..usecases.batch.lanes import ExecutorLane, Lane, ProcessLane, Work
 from ..usecases.batch.work import work as do_part
-from .command import OptionParser
-from .values import number
+from .command import OptionParser, number
 
 
 def jobs_given(text: str) -> int:

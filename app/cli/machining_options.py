@@ -1,18 +1,164 @@
-"""The options of `make` that say how operations are done: sides, entries, leads, tabs, drilling, copies, clamps."""
+"""Options for the parameters of operations, made from their declarations: name, help, how a value is read, range."""
 
 from __future__ import annotations
 
 import argparse
+import math
 import re
+from collections.abc import Callable
+from typing import Any
 
 from ..core.errors import HitofudeError, InputError
 from ..drafting.expressions.errors import CommandError
-from ..drafting.expressions.numbers import length
+from ..drafting.expressions.numbers import angle, length
+from ..model.curve_selectors import HELP, Selector, read_selector
+from ..model.fields import Parameter, ParameterPlace, Unit
 from ..model.job import Copies
 from ..model.operation_kinds import parameters
 from ..usecases.job.machining import MachiningOptions, option_of
-from .parameter_options import add_parameter_options, requested_values
-from .values import number
+from .command import number
+
+_METAVARS = {Unit.LENGTH: "MM", Unit.ANGLE: "DEG", Unit.SHARE: "SHARE|%", Unit.COUNT: "N", Unit.TIME: "S"}
+
+_MANY = 12
+"""Choices; more are not listed in the line of usage."""
+
+
+def add_parameter_options(group: argparse._ArgumentGroup, groups: tuple[str, ...]) -> None:
+    """Add an option for every parameter that has one and stands in one of the groups of forms."""
+    for key, (placed, _) in parameters().items():
+        if placed.parameter.option and placed.parameter.group in groups:
+            _add(group, key, placed)
+
+
+def _add(group: argparse._ArgumentGroup, key: str, placed: ParameterPlace) -> None:
+    declared, option = placed.parameter, f"--{placed.parameter.option}"
+    if declared.unit is Unit.FLAG:
+        group.add_argument(option, dest=key, action="store_true", default=None, help=declared.help.replace("%", "%%"))
+    elif declared.unit is Unit.CURVES:
+        group.add_argument(
+            option,
+            dest=key,
+            metavar="WHICH",
+            type=_selector,
+            action="append",
+            help=f"{declared.help}: {HELP.replace('%', '%%')}; may be repeated",
+        )
+    elif placed.enum is not None:
+        group.add_argument(
+            option,
+            dest=key,
+            choices=[each.value for each in placed.enum],
+            metavar=key.upper() if len(placed.enum) > _MANY else None,
+            help=f"{declared.help} (default {placed.default.value})",
+        )
+    else:
+        group.add_argument(
+            option, dest=key, metavar=_METAVARS[declared.unit], type=reader_of(declared), help=_help(placed)
+        )
+
+
+def _help(placed: ParameterPlace) -> str:
+    declared = placed.parameter
+    usual = (
+        declared.auto
+        if placed.default is None
+        else f"{declared.shown(placed.default):g}{'%' * (declared.unit is Unit.SHARE)}"
+    )
+    bounds = declared.range_words() if declared.high < 1000 else f"{declared.low:g} mm or more" if declared.low else ""
+    return ", ".join(filter(None, (declared.help, bounds))).replace("%", "%%") + f" (default {usual})".replace(
+        "%", "%%"
+    )
+
+
+def requested_values(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Return the values of parameters that were asked for, by key."""
+    given = {
+        key: (placed, getattr(arguments, key, None))
+        for key, (placed, _) in parameters().items()
+        if placed.parameter.option
+    }
+    return {
+        key: placed.enum(value) if placed.enum is not None else tuple(value) if isinstance(value, list) else value
+        for key, (placed, value) in given.items()
+        if value is not None
+    }
+
+
+def reader_of(declared: Parameter) -> Callable[[str], Any]:
+    """Return what reads a parameter's value from a text, for argparse."""
+
+    def read(text: str) -> Any:
+        value = _READERS[declared.unit](text, declared)
+        try:
+            declared.check(value)
+        except HitofudeError as error:
+            raise argparse.ArgumentTypeError(
+                f"is {declared.shown(value):g}{declared.sign}; the {declared.label.lower()} must be "
+                f"{declared.range_words()}"
+            ) from error
+        return value
+
+    return read
+
+
+def _selector(text: str) -> Selector:
+    try:
+        return read_selector(text)
+    except HitofudeError as error:
+        raise argparse.ArgumentTypeError(f"is wrong: {error}") from error
+
+
+def _length(text: str, declared: Parameter) -> float:
+    try:
+        return length(text)
+    except CommandError as error:
+        raise argparse.ArgumentTypeError(f"is wrong: {error.reason}") from error
+
+
+def _angle(text: str, declared: Parameter) -> float:
+    try:
+        return math.radians(angle(text))
+    except CommandError as error:
+        raise argparse.ArgumentTypeError(f"is wrong: {error.reason}") from error
+
+
+def _share(text: str, declared: Parameter) -> float:
+    match = re.fullmatch(r"\s*(\d{1,3}(?:\.\d{0,9})?|\.\d{1,9})\s*(%?)\s*", text)
+    value = float(match[1]) / (100 if match[2] else 1) if match else math.nan
+    if not declared.low <= value <= declared.high:
+        raise argparse.ArgumentTypeError(
+            f"is '{text}'; write a share of the diameter from {100 * declared.low:g}% to "
+            f"{100 * declared.high:g}%, such as 40% or 0.4"
+        )
+    return value
+
+
+def _count(text: str, declared: Parameter) -> int:
+    if not re.fullmatch(r"\s*\d{1,9}\s*", text) or not declared.low <= int(text) <= declared.high:
+        raise argparse.ArgumentTypeError(
+            f"is '{text}'; the {declared.label.lower()} must be a whole number from {declared.low:g} to "
+            f"{declared.high:g}"
+        )
+    return int(text)
+
+
+def _seconds(text: str, declared: Parameter) -> float:
+    if not re.fullmatch(r"\s*\d{1,9}(\.\d{0,9})?\s*", text):
+        raise argparse.ArgumentTypeError(f"is '{text}'; write seconds, such as 0.5")
+    return float(text)
+
+
+_READERS: dict[Unit, Callable[[str, Parameter], Any]] = {
+    Unit.LENGTH: _length,
+    Unit.ANGLE: _angle,
+    Unit.SHARE: _share,
+    Unit.COUNT: _count,
+    Unit.TIME: _seconds,
+}
+
+
+# The options of `make` that say how operations are done: sides, entries, leads, tabs, drilling, copies, clamps.
 
 
 def add_machining_options(group: argparse._ArgumentGroup, holding: argparse._ArgumentGroup) -> None:

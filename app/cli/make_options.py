@@ -15,10 +15,9 @@ from ..formats.readers import offered_suffixes
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.job.options import LEAST_PER_CENT, MakeOptions, Stepover
-from .command import OptionParser
+from .command import MACHINE_HELP, TOOLS_HELP, OptionParser, join_tolerance, machine_named, number, typed
 from .files import check_outputs, named_files, sheet_suffix
 from .reading_options import add_reading_options, reading
-from .values import MACHINE_HELP, TOOLS_HELP, join_tolerance, machine_named, number, typed
 
 if TYPE_CHECKING:
     from ..usecases.proposal.propose import ProposalOptions  # loaded where something is to be proposed

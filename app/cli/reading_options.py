@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from ..model.read_options import DrawingOptions
-from .values import number
+from .command import number
 
 NAMES = ("skip_layer", "skip_type", "layout", "to_zero", "px_per_inch")
 """Where argparse keeps them."""

@@ -12,9 +12,8 @@ from ..fitting.point_curves.region_profile import RegionProfile, profile_of_form
 from ..gcode.interpreter.dialect import Dialect
 from ..gcode.posts import Post, load_post
 from ..usecases.smoothing.result import OutputForm, SmoothOptions
-from .command import OptionParser
+from .command import OptionParser, number, typed
 from .effective_options import add_effective_options, effective_method
-from .values import number, typed
 
 _PROFILES = {"f": profile_of_formula, "table": profile_of_table}
 """Readers of a region's outline, by the word before the colon."""

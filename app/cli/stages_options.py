@@ -22,11 +22,10 @@ from ..formats.readers import offered_suffixes
 from ..usecases.job.machining import MachiningOptions
 from ..usecases.job.options import MakeOptions
 from .bitmap_options import add_bitmap_options, bitmap_options
-from .command import OptionParser
+from .command import OptionParser, join_tolerance, number, typed
 from .files import check_outputs
 from .make_options import stepover
 from .reading_options import add_reading_options, reading
-from .values import join_tolerance, number, typed
 
 _OWN = re.compile(rf"(?:{TURNS}/)?\d\d_\d{{3}}(?:_r\d+_t\d+)?\.(?:png|npy|txt)", re.IGNORECASE)
 """Names of the files that the stages are written to, seen from their folder."""

@@ -17,9 +17,8 @@ from ..usecases.batch.study import MOST_CHOICES, StudyAxis, StudyChoice, choices
 from ..usecases.batch.task import BatchKind
 from .batch_list import PROGRAMS, ListedPart
 from .batch_options import actions_of, add_passed
-from .command import OptionParser
+from .command import TOOLS_HELP, OptionParser
 from .lanes import add_lane_options
-from .values import TOOLS_HELP
 
 EPILOG = """\
 Makes the program of one drawing, or smooths one NC program, once for every combination of values, by processes or on a

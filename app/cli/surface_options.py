@@ -11,9 +11,8 @@ from ..usecases.better.result import BetterOptions
 from ..usecases.scene.plot import FORMATS, PlotScene, PlottedPart
 from ..usecases.scene_program.smooth import CurvesOverSurfaces
 from ..usecases.smoothing.result import OutputForm
-from .command import OptionParser
+from .command import OptionParser, number
 from .files import check_outputs, named_files
-from .values import number
 
 EPILOG = """\
 The scene tells surfaces, stock, tools and families of passes; resources/docs/scene.md explains every key. On each

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..core.durations import minutes_words
+from ..core.wording import minutes_words
 from ..toolpath.advice.advise import RegionAdvice
 from ..usecases.advice import ToolAdvice
 from .output import finding_lines

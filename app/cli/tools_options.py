@@ -11,9 +11,8 @@ from ..formats.tools.at_path import tools_at
 from ..model.operation import LEAST_LENGTH
 from ..toolpath.advice.advise import CuttingPlan
 from ..usecases.advice import AdviceOptions
-from .command import OptionParser
+from .command import TOOLS_HELP, OptionParser, join_tolerance, number, typed
 from .reading_options import add_reading_options, reading
-from .values import TOOLS_HELP, join_tolerance, number, typed
 
 EPILOG = """\
 Prints for each area the narrowest passage, the largest disc, the smallest inner radius and the largest tool that

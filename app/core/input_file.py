@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import NamedTuple
 
 from .atomic import read_whole
 from .errors import InputError
@@ -27,3 +28,18 @@ def read_input(path: Path) -> bytes:
     if not data:
         raise InputError(f"{path} is empty; export it again")
     return data
+
+
+# A file as it was read.
+
+
+class FileBytes(NamedTuple):
+    """A file.
+
+    Attributes:
+        name: for errors; its suffix tells the format.
+        data: its bytes.
+    """
+
+    name: str
+    data: bytes

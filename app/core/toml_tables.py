@@ -16,7 +16,7 @@ from functools import cache
 from typing import Any, TypeVar
 
 from .errors import HitofudeError, InputError
-from .file_bytes import FileBytes
+from .input_file import FileBytes
 from .wording import either
 
 Kind = TypeVar("Kind")

@@ -36,3 +36,12 @@ def _listed(words: Iterable[str], last: str) -> str:
 def place_mm(value: float) -> str:
     """Return a coordinate, mm: in micrometres, and in six digits where it is so far away that these say nothing."""
     return f"{value:.3f}" if abs(value) < 1e12 else f"{value:.6g}"
+
+
+# How durations are written in reports and on the command line.
+
+
+def minutes_words(seconds: float) -> str:
+    """Return a duration as minutes and seconds, such as 75:04."""
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes}:{rest:02d}"

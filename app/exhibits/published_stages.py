@@ -12,7 +12,7 @@ from ..fitting.corner_smoothing.smoothed_path import PieceKind
 from ..geometry.primitives import Rows
 from ..model.job import Job
 from ..model.motion import Floats
-from ..raster.codes import PixelCode, Plane
+from ..raster.frame import PixelCode, Plane
 from ..raster.steps import StepState
 from ..raster.trace import PixelChain
 from ..usecases.pixels.part import BitmapPart

@@ -14,8 +14,7 @@ import numpy as np
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.finding import Finding, worst_first
-from ..raster.codes import PixelCode, Plane
-from ..raster.frame import STAGES_BYTES
+from ..raster.frame import STAGES_BYTES, PixelCode, Plane
 from ..raster.steps import STEPS, StageObserver, StepState
 from ..usecases.job.options import MakeOptions
 from ..usecases.making.bitmap_job import BitmapJob, bitmap_job

@@ -16,8 +16,8 @@ from ..fitting.corner_smoothing.smoothed_path import PieceKind
 from ..geometry.primitives import Rows
 from ..model.job import Job
 from ..raster.border import borders_of, mark
-from ..raster.codes import PixelCode, Plane
 from ..raster.fill import fill
+from ..raster.frame import PixelCode, Plane
 from ..raster.peel import correct_by_circles, peels
 from ..raster.published import published_marks, published_scan, wrong_pixels
 from ..raster.steps import StepState

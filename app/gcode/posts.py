@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputError
-from ..core.file_bytes import FileBytes
+from ..core.input_file import FileBytes
 from ..core.resources import resource
 from ..core.settings import config_folder
 from ..core.toml_tables import read_tree, tables_of

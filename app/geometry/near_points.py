@@ -78,7 +78,7 @@ def nearest(points: Floats, places: Floats, count: int) -> tuple[Floats, Indices
         distance = _distances(places, points)
         order = np.argsort(distance, axis=1, kind="stable")[:, :count]
         return np.take_along_axis(distance, order, 1), order.astype(np.int64)
-    from ..geometry import kernels, near_kernels
+    from . import kernels, near_kernels
 
     points, places = np.ascontiguousarray(points), np.ascontiguousarray(places)
     away, which = np.empty((len(places), count)), np.empty((len(places), count), np.int64)
@@ -98,7 +98,7 @@ def pairs_meeting(boxes: Floats, owner: Indices) -> Indices:
         pairs = owner[np.argwhere(~(apart | apart.T))]
         pairs = pairs[pairs[:, 0] < pairs[:, 1]]
     else:
-        from ..geometry import kernels, near_kernels
+        from . import kernels, near_kernels
 
         boxes, owner = np.ascontiguousarray(boxes), np.ascontiguousarray(owner)
         found, count = near_kernels.meeting_boxes(*kernels.build_tree(boxes), boxes, owner)
@@ -117,7 +117,7 @@ def groups(count: int, pairs: Indices) -> Indices:
     """
     if len(pairs) <= FEW // 20:
         return _by_first(_merged(count, pairs))
-    from ..geometry import kernels
+    from . import kernels
 
     number = np.empty(count, np.int64)
     kernels.merge(np.ascontiguousarray(pairs, np.int64), number)
@@ -132,7 +132,7 @@ def groups_within(points: Floats, owner: Indices, count: int, reach: float) -> I
         points: (n, 2) of all things. owner: (n,) whose each one is.
         reach: mm, > 0.
     """
-    from ..geometry import kernels
+    from . import kernels
 
     number = np.arange(count, dtype=np.int64)
     if len(points):

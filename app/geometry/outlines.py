@@ -14,12 +14,11 @@ import shapely
 from numpy.typing import NDArray
 
 from ..core import tolerances
-from ..geometry import kernels
 from ..model.curves import Line, Primitive, reversed_curve
 from ..model.part import Contour, Region
-from .distance import DistanceField
+from . import kernels
 from .near_points import near
-from .primitives import Indices, R, Rows, boxes, contour_rows, lengths, points_at, samples, sweeps
+from .primitives import DistanceField, Indices, R, Rows, boxes, contour_rows, lengths, points_at, samples, sweeps
 from .primitives import lengths as row_lengths
 
 Floats = NDArray[np.float64]

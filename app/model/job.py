@@ -11,8 +11,7 @@ from .fields import Unit, parameter
 from .fields import part as whole
 from .operation import LEAST_LENGTH, CutParameters, Operation, Order, PocketOperation, RestOperation
 from .part import Part, Units
-from .tool import Tool
-from .tool_kind import ToolKind
+from .tool import Tool, ToolKind
 
 LARGEST_JOIN = 10.0
 """mm; a wider gap is no loose end any more."""

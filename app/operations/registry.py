@@ -8,15 +8,18 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
+from typing import Any, ClassVar, Protocol
 
 from ..core.progress import Progress
 from ..model.finding import Finding
+from ..model.job import Job
+from ..model.moves import Program
 from ..model.operation import Operation
+from ..model.operation_motions import OperationMotions
 from ..model.tool import Tool
 from ..toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..toolpath.operation_context import OperationContext, PreparedStrokes
 from .effort import Workload, along_walls
-from .proof import OperationProof, ProofInput
 
 
 @dataclass(frozen=True)
@@ -67,3 +70,45 @@ def method_of(operation: Operation) -> OperationMethod:
     if kind not in _WAYS and find_spec(f".{kind.WORD}", __package__):
         import_module(f".{kind.WORD}", __package__)
     return _WAYS[kind]
+
+
+# What the folder of an operation proves of it, on the written text as it was read back.
+#
+# A proof shares nothing with the paths but the job: it sees the motions that the control will make, and what was
+# asked.
+
+
+class OperationProof(Protocol):
+    """What is proven of one operation.
+
+    Attributes:
+        KEY: under which a report lists it.
+    """
+
+    KEY: ClassVar[str]
+
+    def values(self) -> dict[str, Any]:
+        """Return it as a report lists it."""
+
+    def findings(self) -> Iterable[Finding]:
+        """Return what counts."""
+
+
+@dataclass(frozen=True, eq=False)
+class ProofInput:
+    """What an operation is proven on.
+
+    Attributes:
+        program: that was written; of it only what was drawn counts. job: what was asked.
+        index: of the operation in the job. motions: that the control makes for it, part coordinates.
+    """
+
+    program: Program
+    job: Job
+    index: int
+    motions: OperationMotions
+
+    @property
+    def operation(self) -> Operation:
+        """What is proven."""
+        return self.job.operations[self.index]

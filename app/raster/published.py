@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .codes import PixelCode, Plane
+from .frame import PixelCode, Plane
 from .trace import PixelChain, trace
 from .walls import Mask
 

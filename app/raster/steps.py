@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..geometry.primitives import Rows
-from .codes import Plane
+from .frame import Plane
 from .trace import PixelChain
 from .walls import Mask
 

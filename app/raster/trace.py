@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.primitives import Rows
-from .codes import PixelCode, Plane
-from .frame import BitmapFrame
+from .frame import BitmapFrame, PixelCode, Plane
 
 STEPS = np.array([(0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0), (1, 1)])
 """(row, column) step of directions 0 ... 7: 0 to the right, then counter-clockwise by 45 degrees."""

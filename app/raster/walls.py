@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..geometry.outlines import polygon_contour
 from ..geometry.primitives import TURN, Rows
 from ..model.part import Contour
-from .draw import image_rows, rows_of
+from .fill import image_rows, rows_of
 from .frame import BitmapFrame
 
 Mask = NDArray[np.bool_]

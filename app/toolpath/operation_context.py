@@ -9,9 +9,8 @@ import numpy as np
 
 from ..core.errors import ParameterError
 from ..core.progress import Progress
-from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import OffsetLevel
-from ..geometry.primitives import contour_rows
+from ..geometry.primitives import DistanceField, contour_rows
 from ..model.curves import Point
 from ..model.entry import EntryKind
 from ..model.finding import Finding, FindingKind
@@ -19,9 +18,8 @@ from ..model.job import Job
 from ..model.moves import DogBone, Tab
 from ..model.operation import CutParameters, Side
 from ..model.part import Region
-from ..raster.codes import PixelCode, area_mm2
 from ..raster.fill import Observer, fill
-from ..raster.frame import BitmapFrame
+from ..raster.frame import BitmapFrame, PixelCode, area_mm2
 from .build import MovesBuilder, Stroke, StrokeLabel
 from .depth import DepthLevels, DepthPasses, drilled, pass_heights, usable
 from .entry.entry import EntryContext

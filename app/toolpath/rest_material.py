@@ -20,13 +20,12 @@ from ..core import tolerances
 from ..core.memory import ask, fitting, portion
 from ..core.pool import in_bands
 from ..core.progress import Progress
-from ..geometry.distance import DistanceField
 from ..geometry.kernels import build_tree
-from ..geometry.primitives import Indices, Rows, boxes, pack, points_at, within_half_turn
+from ..geometry.primitives import DistanceField, Indices, Rows, boxes, pack, points_at, within_half_turn
 from ..model.curves import Point
 from ..model.tool import Tool
-from ..toolpath import cleared_kernels as kernels
-from ..toolpath import rest_kernels
+from . import cleared_kernels as kernels
+from . import rest_kernels
 from .machining_areas import MachiningArea
 
 LEAST = 4e-3

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
 from ..core.progress import NO_PROGRESS, Progress
-from ..geometry.distance import DistanceField
-from ..geometry.primitives import pack
+from ..geometry.primitives import DistanceField, pack
 from ..model.curves import Circle
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from ..core.pool import in_bands
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
-from ..geometry.distance import DistanceField
 from ..geometry.near_points import near
-from ..geometry.primitives import TURN, Primitives, contour_rows, pack, points_at, within_half_turn
+from ..geometry.primitives import TURN, DistanceField, Primitives, contour_rows, pack, points_at, within_half_turn
 from ..model.curves import Circle
 from ..model.job import Job
 from ..model.moves import Area, DogBone, MoveKind, Moves, Program

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from app.exhibits.stage_files import PALETTE
-from app.raster.codes import PixelCode
+from app.raster.frame import PixelCode
 from tests.conftest import ROOT
 from tests.said import without_how_far
 

@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.core.jit.compiled import REGISTERED, Kernel
-from app.core.jit.fingerprint import digest
+from app.core.jit.compiled import REGISTERED, Kernel, digest
 from app.core.jit.warm import kernel_modules
 from tests.conftest import ROOT
 

@@ -12,7 +12,7 @@ from tests.conftest import ROOT
 _ASK = """
 import sys
 import numpy as np
-from app.core.jit.light_numpy import put_masked_arrays_off
+from app.core.jit.numba_loader import put_masked_arrays_off
 put_masked_arrays_off()
 assert np.unique([3, 1, 3]).tolist() == [1, 3] and "numpy.ma.core" not in sys.modules
 {way}

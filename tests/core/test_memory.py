@@ -15,8 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.cli.main import main
-from app.cli.memory import memory_given
+from app.cli.main import main, memory_given
 from app.core.errors import InputError
 from app.core.memory import (
     MemoryShortError,

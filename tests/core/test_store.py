@@ -12,7 +12,7 @@ from pathlib import Path
 import llvmlite.binding as llvm
 import pytest
 
-from app.core.jit.processors import LEVELS, plainer_processors
+from app.core.jit.numba_loader import LEVELS, plainer_processors
 from app.core.jit.store import UNUSED_DAYS, Store, open_store
 from tests.core.test_compiling import SHORT, entries, program, run
 

@@ -14,9 +14,8 @@ from app.exhibits.stages import Variant, stages
 from app.geometry.outlines import polygon_contour
 from app.model.job import Job
 from app.raster.border import borders_of
-from app.raster.codes import PixelCode
 from app.raster.fill import fill
-from app.raster.frame import BitmapFrame
+from app.raster.frame import BitmapFrame, PixelCode
 from app.raster.peel import frame_pixels
 from app.raster.steps import STEPS, StepState
 from app.usecases.making.bitmap_job import BitmapJob, drawn_job

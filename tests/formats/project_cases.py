@@ -20,8 +20,7 @@ from app.model.operation import CutParameters, Direction, DrillOperation, Order,
 from app.model.part import Entity, Layer, Part, Units
 from app.model.read_options import DrawingOptions
 from app.model.reading import DrawingSource, ReadingOptions
-from app.model.tool import FeedRow, Tool, shape_keys
-from app.model.tool_kind import tool_kinds
+from app.model.tool import FeedRow, Tool, shape_keys, tool_kinds
 from app.model.underlay import Underlay
 
 

@@ -12,8 +12,7 @@ from app.geometry.offset.offset import offset_levels
 from app.geometry.outlines import polygon_contour
 from app.model.job import Job
 from app.model.part import Contour
-from app.operations.contour.gaps import WallGap, gaps
-from app.operations.contour.narrow_places import NarrowPlace, narrow_places
+from app.operations.contour.gaps import NarrowPlace, WallGap, gaps, narrow_places
 from tests.operations.contour_jobs import contour_job, outside, sheet_of
 from tests.part_shapes import bulged, circle, fig2, square
 

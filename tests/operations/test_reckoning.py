@@ -12,9 +12,8 @@ from app.core.progress import Progress
 from app.model.curves import Circle, Curve, Line
 from app.model.job import Job
 from app.model.part import Entity, Part
-from app.operations.compute import compute, regions_of
+from app.operations.compute import compute, job_effort, regions_of
 from app.operations.effort import Workload, over_area, workload_of
-from app.operations.reckoning import job_effort
 from app.usecases.job.options import MakeOptions, job_with_options
 from app.usecases.making.make import export
 

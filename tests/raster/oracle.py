@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from app.model.curves import Arc, Circle, Line, Primitive
 from app.model.part import Contour
-from app.raster.codes import Codes, PixelCode
-from app.raster.frame import BitmapFrame
+from app.raster.frame import BitmapFrame, Codes, PixelCode
 
 Mask = NDArray[np.bool_]
 

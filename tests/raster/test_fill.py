@@ -7,9 +7,8 @@ import pytest
 from app.geometry.primitives import contour_rows
 from app.model.curves import Arc, Circle, Line
 from app.model.part import Contour
-from app.raster.codes import Codes, PixelCode, area_mm2
 from app.raster.fill import fill
-from app.raster.frame import BitmapFrame
+from app.raster.frame import BitmapFrame, Codes, PixelCode, area_mm2
 from tests.raster.oracle import strangers, wrong_pixels
 from tests.raster.shapes import KINDS, polygon
 

@@ -4,10 +4,8 @@ nowhere.
 
 import numpy as np
 
-from app.raster.codes import PixelCode
-from app.raster.draw import draw
-from app.raster.fill import fill
-from app.raster.frame import BitmapFrame
+from app.raster.fill import draw, fill
+from app.raster.frame import BitmapFrame, PixelCode
 from app.raster.published import published_marks, published_scan, wrong_pixels
 from tests.raster.oracle import wrong_pixels as wrongly_settled
 from tests.raster.shapes import KINDS, polygon

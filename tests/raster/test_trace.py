@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from app.raster.codes import PixelCode
-from app.raster.draw import draw
-from app.raster.frame import BitmapFrame
+from app.raster.fill import draw
+from app.raster.frame import BitmapFrame, PixelCode
 from app.raster.trace import trace
 from tests.raster.shapes import KINDS
 

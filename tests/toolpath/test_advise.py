@@ -18,10 +18,9 @@ from app.core.errors import Cancelled, ParameterError
 from app.core.progress import Progress
 from app.formats.readers import read_drawing
 from app.gcode.posts import load_post
-from app.geometry.distance import DistanceField
 from app.geometry.outlines import nest, polygon_contour
 from app.geometry.overlay.overlay import without_crossings
-from app.geometry.primitives import pack
+from app.geometry.primitives import DistanceField, pack
 from app.model.contour_operation import ContourOperation
 from app.model.job import Job
 from app.model.operation import CutParameters, PocketOperation

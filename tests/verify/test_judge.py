@@ -10,7 +10,7 @@ from app.core.resources import resource
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.model.finding import FindingKind
-from app.model.motion_path import anchored
+from app.model.motion import anchored
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.solid import SolidStock

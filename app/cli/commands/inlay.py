@@ -9,12 +9,11 @@ from ...core.input_file import read_input
 from ...formats.job.toml import read_job
 from ...usecases.inlay import InlayOptions, inlay
 from ...usecases.job.options import MakeOptions
-from ..command import CliCommand, OptionParser
+from ..command import CliCommand, OptionParser, number
 from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome
 from ..output import finding_lines
 from ..signals import StopFlag
-from ..values import number
 
 EPILOG = """\
 The job has one operation, a vcarve with its flat_tool: the pocket. OUT_pocket.ngc and OUT_plug.ngc have their zero at

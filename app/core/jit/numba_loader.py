@@ -7,17 +7,15 @@ import io
 import pickle
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
+from importlib import import_module
 from importlib.machinery import ModuleSpec
 from types import FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
-
-from .light_numpy import put_masked_arrays_off
-from .processors import plainer_processors
 
 
 class _ImportBlocker:
@@ -237,3 +235,59 @@ def load(made: Any, code: bytes) -> None:
         )
     )
     made.disable_compile()
+
+
+# Has numpy do without its masked arrays until somebody wants one: `np.unique` asks whether it was given one, for which
+# 0.03 s of every start would go by.
+
+
+_MASKED = "numpy.ma"
+
+
+class _LateMaskedArrays(ModuleType):
+    """Stands for the module until somebody asks it for more than whether an array is masked: none is, unmade."""
+
+    def is_masked(self, values: object) -> bool:
+        """Return whether any value of an array is masked."""
+        return hasattr(values, "_mask") and bool(self.__getattr__("is_masked")(values))
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        if sys.modules.get(_MASKED) is self:
+            sys.modules.pop(_MASKED, None)
+        vars(np)["ma"] = made = import_module(_MASKED)  # which another thread may be importing: this waits for it
+        return getattr(made, name)
+
+
+def put_masked_arrays_off() -> None:
+    """Let the module be imported when somebody wants one; it stays where it already was."""
+    if _MASKED not in sys.modules:
+        late = _LateMaskedArrays(_MASKED)
+        late.__path__ = [f"{folder}/ma" for folder in np.__path__]  # its parts can be imported by their names
+        sys.modules[_MASKED] = vars(np)["ma"] = late
+
+
+# Plainer processors than the one of this machine, whose machine code runs here as well.
+#
+# The levels of x86-64 are those of the psABI of System V: what every processor of a level has, named as LLVM names it.
+
+
+_LEVEL_2 = ("cmov", "cx8", "cx16", "fxsr", "popcnt", "sahf", "sse", "sse2", "sse3", "sse4.1", "sse4.2", "ssse3")
+
+_LEVEL_3 = (*_LEVEL_2, "avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe", "xsave")
+
+LEVELS = {"x86-64-v3": _LEVEL_3, "x86-64-v2": _LEVEL_2}
+"""What a processor has to have, by LLVM's name of the level; the best first."""
+
+
+def plainer_processors(triple: str, features: Mapping[str, bool]) -> tuple[str, ...]:
+    """Return the names of levels whose machine code runs on a processor, the best first.
+
+    Args:
+        triple: of LLVM, such as x86_64-unknown-linux-gnu. features: of the processor, by LLVM's names; those that are
+            not there it has not.
+    """
+    if not triple.startswith("x86_64"):
+        return ()
+    return tuple(name for name, needed in LEVELS.items() if all(features.get(each, False) for each in needed))

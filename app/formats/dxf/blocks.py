@@ -5,14 +5,15 @@ columns.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from itertools import compress
 from math import cos, isfinite, radians, sin, sqrt
 from typing import Any, NamedTuple
 
 from ...core.errors import HitofudeError, InputError
 from ...geometry.affine import Affine, transformed
-from ...model.curves import Point
+from ...model.curves import Curve, Point
 from ..drawing_account import LEVEL_ZERO, MOST_CURVES, LayeredCurve
 from .curves import (
     DamagedCurveError,
@@ -25,10 +26,11 @@ from .curves import (
     widths_of,
 )
 from .fonts import Fonts
-from .hatch import Hatch, hatch_of
+from .hatch import Hatch, bounding_alone, hatch_of
 from .letters import LeftOutError, TextCurves
 
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
+
 DEEPEST = 64
 """Blocks nested deeper than this are refused."""
 
@@ -422,3 +424,53 @@ def _places(insert: Any) -> list[Affine]:
                 Affine(x.x - origin.x, y.x - origin.x, x.y - origin.y, y.y - origin.y, origin.x + dx, origin.y + dy)
             )
     return places
+
+
+# All curves that a DXF's space draws: its own, boundaries of hatches that are not drawn anyway, and letters, strokes
+# last.
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnCurves:
+    """Curves in the order in which they are numbered, so that a drawing without texts and hatches is numbered as it
+    ever was.
+
+    Attributes:
+        curves: drawing units.
+        strokes: so many of the last ones are strokes of letters.
+        boundaries: of hatches on layers that are machined; `repeated` of them lie on drawn curves and are none of
+            these.
+    """
+
+    curves: tuple[LayeredCurve, ...]
+    strokes: int
+    boundaries: int
+    repeated: int
+
+
+def all_drawn(content: DxfContent, machined: Callable[[str], bool], size: float) -> DrawnCurves:
+    """Return all curves of a sheet.
+
+    Args:
+        content: of the space. machined: tells whether a layer is. size: of the drawing's unit, mm.
+    """
+    shown = [each for each in content.hatches if machined(each.layer)]
+    rings = [(ring, each.layer) for each in shown for ring in each.boundaries]
+    new = _new([ring for ring, _ in rings], content, machined, size) if rings else []
+    kept = [LayeredCurve(curve, layer) for ring, layer in compress(rings, new) for curve in ring]
+    kept += [
+        LayeredCurve(curve, each.layer) for each in content.hatches if not machined(each.layer) for curve in _all(each)
+    ]
+    outlines = [LayeredCurve(curve, each.layer) for each in content.letterings for curve in each.outlines]
+    strokes = [LayeredCurve(curve, each.layer) for each in content.letterings for curve in each.strokes]
+    return DrawnCurves((*content.curves, *kept, *outlines, *strokes), len(strokes), len(rings), len(rings) - sum(new))
+
+
+def _all(hatch: Hatch) -> list[Curve]:
+    return [curve for ring in hatch.boundaries for curve in ring]
+
+
+def _new(
+    rings: list[tuple[Curve, ...]], content: DxfContent, machined: Callable[[str], bool], size: float
+) -> list[bool]:
+    return bounding_alone(rings, [each.curve for each in content.curves if machined(each.layer)], size)

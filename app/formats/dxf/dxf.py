@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterable
+import math
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import starmap
 from pathlib import PurePath
@@ -12,14 +13,16 @@ from typing import Any
 from ...core import tolerances
 from ...geometry.affine import scaled
 from ...geometry.chaining.pieces import FARTHEST
+from ...model.drawn_depths import DepthSource, DrawnDepth, depth_words
 from ...model.finding import Finding, FindingKind
 from ...model.notes import Mark, Note
-from ...model.part import Layer, Part, Units
+from ...model.part import Entity, Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
 from ..drawing import Drawing, LeftOutKind
 from ..drawing_account import (
     MOVE,
+    CurveHeights,
     LayeredCurve,
     UsableCurves,
     all_left_out,
@@ -43,9 +46,7 @@ from ..reading_question import (
     layouts_question,
     units_question,
 )
-from .blocks import DxfContent, DxfWalker
-from .depths import DepthReading, depths_of
-from .drawn_curves import all_drawn
+from .blocks import DrawnCurves, DxfContent, DxfWalker, all_drawn
 from .findings import (
     about_unread,
     band_findings,
@@ -55,8 +56,8 @@ from .findings import (
     negative_radius_findings,
     text_findings,
 )
-from .layouts import PAPER, layout_named, paper
-from .load import load
+from .letters import TextCurves
+from .load import PAPER, layout_named, load, paper
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     1: (25.4, Units.INCH),
@@ -312,3 +313,87 @@ def _heights(content: DxfContent, factor: float) -> Iterable[Finding]:
             f"The drawing is not flat, its Z runs from {low:g} to {high:g} mm; it is read as seen from above.",
             high - low,
         )
+
+
+# Depths that a DXF tells: by where along Z its curves lie, by how far these are drawn out, and by its texts.
+
+
+@dataclass(frozen=True, slots=True)
+class DepthReading:
+    """What depths are read from.
+
+    Attributes:
+        letterings: texts of the sheet. drawn: its curves, in the order in which they were numbered.
+        found: what of them can be machined. unit: size of the drawing's unit, mm.
+    """
+
+    letterings: Sequence[TextCurves]
+    drawn: DrawnCurves
+    found: UsableCurves
+    unit: float
+
+
+def depths_of(reading: DepthReading) -> tuple[DrawnDepth, ...]:
+    """Return every depth that a drawing tells.
+
+    Depths by elevation count from the highest curve, or from Z 0 where that is higher. What is drawn out from Z 0 is as
+    deep as it is thick, up or down; else it reaches from the top to its lower end.
+    """
+    return (*_of_curves(reading), *_of_texts(reading))
+
+
+def _of_curves(reading: DepthReading) -> Iterator[DrawnDepth]:
+    """Yield a depth for all curves that lie alike."""
+    curves = reading.drawn.curves
+    alike: defaultdict[CurveHeights, list[Entity]] = defaultdict(list)
+    for entity, index in zip(reading.found.entities, reading.found.sources, strict=True):
+        alike[_rounded(curves[index].heights, reading.unit)].append(entity)
+    top = max([0.0, *(heights.high for heights in alike)])
+    for heights, entities in alike.items():
+        depth, source = _depth(heights, top), DepthSource.THICKNESS if heights.thickness else DepthSource.ELEVATION
+        if depth is None or depth > tolerances.CURVE:
+            numbers = tuple(each.id for each in entities)
+            yield DrawnDepth(source, depth, _words(heights), entities[0].curve.start, numbers)
+
+
+def _rounded(heights: CurveHeights, unit: float) -> CurveHeights:
+    return CurveHeights(*(round(z * unit, 6) + 0.0 if math.isfinite(z) else 0.0 for z in heights))
+
+
+def _depth(heights: CurveHeights, top: float) -> float | None:
+    """Return how deep curves are drawn, mm; None where they lean."""
+    if heights.high - heights.low > tolerances.CURVE:
+        return None
+    if heights.thickness and heights.low == 0:
+        return abs(heights.thickness)
+    return top - heights.low - min(heights.thickness, 0.0)
+
+
+def _words(heights: CurveHeights) -> str:
+    if heights.high - heights.low > tolerances.CURVE:
+        return f"Z {heights.low:g} to {heights.high:g} mm"
+    return f"Z {heights.low:g} mm" + (f", thickness {heights.thickness:g} mm" if heights.thickness else "")
+
+
+def _of_texts(reading: DepthReading) -> Iterator[DrawnDepth]:
+    """Yield the depths that texts tell; the curves of letters come behind all others, outlines before strokes."""
+    unit, number = reading.unit, {source: k + 1 for k, source in enumerate(reading.found.sources)}
+    shift = reading.found.moved or (0.0, 0.0)
+    outline = len(reading.drawn.curves) - sum(each.size for each in reading.letterings)
+    stroke = len(reading.drawn.curves) - reading.drawn.strokes
+    for each in reading.letterings:
+        rows = (
+            *range(outline, outline + len(each.outlines)),
+            *range(stroke, stroke + len(each.strokes)),
+        )
+        outline, stroke = outline + len(each.outlines), stroke + len(each.strokes)
+        told = depth_words(each.words, unit)
+        if told is not None:
+            at = each.at[0] * unit + shift[0], each.at[1] * unit + shift[1]
+            yield DrawnDepth(
+                DepthSource.TEXT, told.depth, each.words.strip(), at, _numbers(rows, number), each.height * unit
+            )
+
+
+def _numbers(rows: Sequence[int], number: Mapping[int, int]) -> tuple[int, ...]:
+    return tuple(number[row] for row in rows if row in number)

@@ -10,8 +10,7 @@ from collections.abc import Iterator, Sequence
 from ...core.wording import place_mm
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
-from .blocks import DxfContent, HiddenInsert, WidePolyline
-from .drawn_curves import DrawnCurves
+from .blocks import DrawnCurves, DxfContent, HiddenInsert, WidePolyline
 from .letters import TextCurves
 from .numbers import DecimalCommas
 

@@ -5,28 +5,38 @@ from __future__ import annotations
 import io
 import logging
 import re
+import sys
 from collections import Counter
 from dataclasses import dataclass, replace
+from importlib import import_module
+from types import ModuleType
 from typing import Any
 
 from ...core.errors import InputError
 from ..drawing_account import MOST_CURVES
-from .light_ezdxf import load_ezdxf
 from .numbers import NO_COMMAS, DecimalCommas, with_points
 from .splines import MOST_POINTS, too_many
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
+
 _SECTION = re.compile(rb"^\s*0[ \t]*\r?[\n\r][ \t]*SECTION", re.MULTILINE)
+
 _CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*3[ \t]*\r?\n[ \t]*(\S+)")
+
 _VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*1[ \t]*\r?\n[ \t]*(AC\d+)")
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to say is in our own findings
+
 _HEAD, _TAIL = 1 << 16, 1 << 12
+
 MOST_BYTES = 200 << 20
 """A larger file would take gigabytes before anything of it is known."""
+
 _ENDLESS = re.compile(
     rb"^[ \t]*0[ \t]*\r?\n(SPLINE|LWPOLYLINE)[ \t]*\r?\n(?:[ \t]*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", re.MULTILINE
 )
+
 _POINT = re.compile(rb"^[ \t]*1([01])[ \t]*\r?\n[^\n]*\n[ \t]*2[01][ \t]*\r?\n", re.MULTILINE)
+
 _SUSPECT = 1 << 20
 """Bytes of an entity; a shorter one has not too many points."""
 
@@ -163,3 +173,99 @@ def _short(error: Exception) -> str:
     """Return the first line of an error's text, for a message of one line."""
     lines = str(error).splitlines()
     return (lines[0] if lines else type(error).__name__)[:120]
+
+
+# Has ezdxf imported without the grammar of its query language, which nothing here asks in, and without what reads
+# typefaces and its table of hatch patterns, until one is asked for: 0.08 s of every start.
+
+
+_PARSER, _GRAMMAR = "ezdxf.queryparser", "pyparsing"
+
+_TYPEFACES = "fontTools.ttLib"
+
+_PATTERNS = "ezdxf.tools.pattern"
+
+
+class _LateParser:
+    """Stands for the parser of queries until somebody asks it something."""
+
+    def __getattr__(self, name: str) -> Any:
+        if isinstance(getattr(sys.modules.get(_PARSER), "EntityQueryParser", None), _LateParser):
+            del sys.modules[_PARSER]
+        return getattr(import_module(_PARSER).EntityQueryParser, name)
+
+
+class _LatePatterns(ModuleType):
+    """Stands for the module of hatch patterns, which parses a table of them, until somebody asks it something."""
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        if sys.modules.get(_PATTERNS) is self:
+            del sys.modules[_PATTERNS]
+        return getattr(import_module(_PATTERNS), name)
+
+
+class _NeverRaisedError(Exception):
+    """Stands for the error that the grammar raises, where the library catches it without asking a query."""
+
+
+def load_ezdxf() -> None:
+    """Import the library, the whole before its parts: else, while another thread imports it too, parts are found half
+    made.
+    """
+    if "ezdxf" in sys.modules or _GRAMMAR in sys.modules:
+        import_module("ezdxf")
+        return
+    parser, grammar = ModuleType(_PARSER), ModuleType(_GRAMMAR)
+    vars(parser)["EntityQueryParser"], vars(grammar)["ParseException"] = _LateParser(), _NeverRaisedError
+    stand_ins = {_PARSER: parser, _GRAMMAR: grammar, _PATTERNS: _LatePatterns(_PATTERNS)}
+    if _TYPEFACES not in sys.modules:
+        stand_ins[_TYPEFACES] = ModuleType(_TYPEFACES)
+        vars(stand_ins[_TYPEFACES]).update(TTFont=_typeface, TTLibError=_NeverRaisedError)
+    sys.modules.update(stand_ins)
+    try:
+        import_module("ezdxf")
+    finally:
+        for name in (_GRAMMAR, _TYPEFACES):
+            if name in stand_ins and sys.modules.get(name) is stand_ins[name]:
+                del sys.modules[name]
+
+
+def _typeface(*arguments: Any, **options: Any) -> Any:
+    """Stand for the class of typefaces where the library keeps it, until it is called the first time."""
+    reader, manager = import_module(_TYPEFACES), import_module("ezdxf.fonts.font_manager")
+    vars(manager).update(TTFont=reader.TTFont, TTLibError=reader.TTLibError)
+    return reader.TTFont(*arguments, **options)
+
+
+# Model space and the layouts of a DXF: which one is read, and what lies in the others.
+
+
+PAPER = "paper space entity"
+
+
+def layout_named(document: Any, layout: str, name: str) -> Any:
+    """Return a layout of paper space by its name in any case, or model space for "".
+
+    Raises:
+        InputError: there is no such layout.
+    """
+    if not layout:
+        return document.modelspace()
+    known = {each.name.casefold(): each for each in document.layouts}
+    if layout.casefold() not in known:
+        raise InputError(
+            f"{name}: there is no layout {layout[:60]}; the drawing has "
+            f"{', '.join(each.name for each in known.values())}."
+        )
+    return known[layout.casefold()]
+
+
+def paper(document: Any) -> Counter[str]:
+    """Count what lies in each layout of paper space, without its viewports, which only look at the model."""
+    counts: Counter[str] = Counter()
+    for layout in document.layouts:
+        if not layout.is_modelspace:
+            counts[layout.name] += sum(entity.dxftype() != "VIEWPORT" for entity in layout)
+    return +counts

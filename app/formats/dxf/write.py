@@ -16,7 +16,7 @@ from ...model.part import Layer, Part, Units
 from ..drawing import WrittenDrawing
 from ..drawing_conversions import Conversions, box_round
 from .curves import polar
-from .light_ezdxf import load_ezdxf
+from .load import load_ezdxf
 
 
 class DxfVersion(Enum):

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ...core.errors import HitofudeError, InputError
-from ...core.file_bytes import FileBytes
+from ...core.input_file import FileBytes
 from ...core.toml_tables import tables_of
 from ...core.wording import either
 from ...model.job import Job, OriginZ

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
 from ...core.errors import HitofudeError, InputError
-from ...core.file_bytes import FileBytes
+from ...core.input_file import FileBytes
 from ...core.resources import resource
 from ...core.settings import config_folder
 from ...core.toml_tables import read_tree, tables_of, write_tables

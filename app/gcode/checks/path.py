@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.motion import Floats, MotionKind, Motions
-from ...model.motion_path import ArcPaths, arc_paths
+from ...model.motion import ArcPaths, Floats, MotionKind, Motions, arc_paths
 from ...model.moves import MoveKind, Moves
 
 NOTHING = 1e-9

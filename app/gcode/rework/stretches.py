@@ -166,7 +166,7 @@ class _LineWords:
 
 
 def _spoken(program: NcProgram, text: ProgramBuffer) -> _LineWords:
-    from ..rework import stretch_kernels as kernels
+    from . import stretch_kernels as kernels
 
     motions, states = program.motions, program.states
     data, count = np.frombuffer(text.data, np.uint8), text.line_count + 1

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.machine import LinearAxis, Machine
-from ...model.motion import Floats, MotionKind, Motions
-from ...model.motion_path import reach
+from ...model.motion import Floats, MotionKind, Motions, reach
 from ..interpreter.program import NcProgram, ProgramProblem, Severity
 
 ROUNDING = 1e-6

@@ -27,14 +27,10 @@ from ...core import tolerances
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.part import Contour
-from ..distance import DistanceField
-from ..offset import clearance_kernels as offset_clearance_kernels
-from ..offset import offset_kernels, ring_kernels
-from ..offset import tree_kernels as offset_tree_kernels
-from ..offset import trim_kernels as offset_trim_kernels
 from ..primitives import (
     CX,
     TURN,
+    DistanceField,
     Indices,
     Primitives,
     Rows,
@@ -47,6 +43,10 @@ from ..primitives import (
     signed_area,
     within_half_turn,
 )
+from . import clearance_kernels as offset_clearance_kernels
+from . import offset_kernels, ring_kernels
+from . import tree_kernels as offset_tree_kernels
+from . import trim_kernels as offset_trim_kernels
 
 _WORTH_TWO_CORES = 2000
 """Pieces from which a second core is worth its start."""

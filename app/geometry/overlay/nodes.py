@@ -17,10 +17,23 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ..chaining.chain import contacts
 from ..chaining.pieces import near_pairs
-from ..distance import DistanceField
 from ..near_points import groups, nearest, pairs_within
-from ..overlay import overlay_kernels
-from ..primitives import CX, CY, TURN, X0, Y0, R, Rows, distances, lengths, points_at, reversed_rows, sweeps
+from ..primitives import (
+    CX,
+    CY,
+    TURN,
+    X0,
+    Y0,
+    DistanceField,
+    R,
+    Rows,
+    distances,
+    lengths,
+    points_at,
+    reversed_rows,
+    sweeps,
+)
+from . import overlay_kernels
 
 Floats = NDArray[np.float64]
 

@@ -6,14 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
-from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
-from ...geometry.primitives import TURN, R, lengths, points_at, reversed_rows
+from ...geometry.primitives import TURN, DistanceField, R, Rows, lengths, points_at, reversed_rows
 from ...model.contour_operation import ContourOperation
 from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind
@@ -23,7 +23,7 @@ from ...model.stock_box import stock_box
 from ...model.tool import Tool
 from ...toolpath.build import Stroke, started_at
 from ...toolpath.drawn_contours import selected
-from ...toolpath.leads.contour_path import ContourPath
+from ...toolpath.leads.contour_path import ContourPath, ContourPaths, Floats
 from ...toolpath.leads.lead import LeadContext, PathWithLeads, lead_findings, overlap_findings, runs, straight_way
 from ...toolpath.leads.tab import (
     TabShape,
@@ -33,6 +33,7 @@ from ...toolpath.leads.tab import (
     spread,
     tab_findings,
     tabs_at,
+    under_tabs,
     unheld_findings,
 )
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas, wall_paths
@@ -40,10 +41,8 @@ from ...toolpath.narrow_regions import finest, too_small
 from ...toolpath.operation_context import OperationContext, PreparedStrokes, check_on_bitmap, passes_of
 from ..engrave.open_line import line_paths
 from ..from_outside import emit_prepared, open_stock
-from .dogbone import CornerRelief, corner_reliefs, recorded, refused_relief_findings
-from .gaps import WallGap, gaps
-from .narrow_places import clamp_findings, narrow_place_findings, narrow_places
-from .stroke import StrokeExtras, strokes_of
+from .dogbone import CornerRelief, corner_reliefs, inserted, recorded, refused_relief_findings
+from .gaps import WallGap, clamp_findings, gaps, narrow_place_findings, narrow_places
 
 _FAR = 4.0
 """Finish widths; where a finish path is farther than this from what was roughed, it is cut at all depths."""
@@ -366,3 +365,90 @@ def contour_strokes(rings: Sequence[Ring], direction: Direction) -> tuple[Stroke
         rows = started_at(rows, int(np.argmax(size)), 0.5)
         strokes.append(Stroke(rows, np.full(len(rows), Purpose.CONTOUR, np.uint8), ring.region))
     return tuple(strokes)
+
+
+# A path along a wall becomes a stroke: leads at its ends, its rows cut at tabs, dog-bones in its corners.
+
+
+_NONE = np.zeros(0)
+
+_POINT = 0.01
+"""mm; a shorter path is a plunge, which has neither tabs nor corners."""
+
+
+@dataclass(frozen=True)
+class StrokeExtras:
+    """What a path along a wall goes over and into.
+
+    Attributes:
+        half: how far before and behind its middle a path goes over a tab, mm.
+        top: height of tabs, mm.
+        corner_reliefs: ways into corners.
+    """
+
+    half: float = 0.0
+    top: float = 0.0
+    corner_reliefs: Sequence[CornerRelief] = ()
+
+
+def strokes_of(
+    runs: Sequence[PathWithLeads], tabs: Sequence[Sequence[float]], extras: StrokeExtras
+) -> tuple[Stroke, ...]:
+    """Return the strokes of some paths.
+
+    Args:
+        tabs: their middles on each path, mm along it.
+    """
+    if not runs:
+        return ()
+    joined = ContourPaths.of([run.path for run in runs])
+    spans = [spans_of(run.path, places, extras.half) if places else [] for run, places in zip(runs, tabs, strict=True)]
+    start, stop = np.array([run.start for run in runs]), np.array([run.stop for run in runs])
+    point = joined.lengths < _POINT
+    start, stop = np.where(point, 0.0, start), np.where(point, 1.0, stop)
+    breaks = [_breaks(run.path, own) if own else _NONE for run, own in zip(runs, spans, strict=True)]
+    found, middle = joined.spans(start, stop, breaks)
+    strokes = []
+    for k, run in enumerate(runs):
+        mine = slice(*found.first[k : k + 2].tolist())
+        strokes.append(
+            Stroke(run.path.rows, np.full(len(run.path.rows), Purpose.CONTOUR, np.uint8), run.path.region)
+            if point[k]
+            else _stroke(run, _CutRows(found.rows[mine], middle[mine]), spans[k], extras)
+        )
+    return tuple(strokes)
+
+
+class _CutRows(NamedTuple):
+    """Rows of a path, and how far along it the middle of each is, mm."""
+
+    rows: Rows
+    middle: Floats
+
+
+def _stroke(run: PathWithLeads, cut: _CutRows, spans: Sequence[tuple[float, float]], extras: StrokeExtras) -> Stroke:
+    """Return the stroke of a path.
+
+    Args:
+        cut: from beginning to end.
+        spans: (from, to) of its tabs, mm.
+    """
+    rows, where, relief = inserted(*cut, extras.corner_reliefs)
+    over = under_tabs(run.path, where, spans)
+    purpose = np.where(relief, Purpose.DOG_BONE, np.where(over, Purpose.TAB, Purpose.CONTOUR))
+    ends = [np.full(len(way), Purpose.LEAD) for way in (run.way_in, run.way_out)]
+    least_z = None
+    if over.any():
+        free = [np.full(len(way), -np.inf) for way in (run.way_in, run.way_out)]
+        least_z = np.concatenate([free[0], np.where(over, extras.top, -np.inf), free[1]])
+    return Stroke(
+        np.concatenate([run.way_in, rows, run.way_out]),
+        np.concatenate([ends[0], purpose, ends[1]]).astype(np.uint8),
+        run.path.region,
+        least_z,
+    )
+
+
+def _breaks(path: ContourPath, spans: Sequence[tuple[float, float]]) -> Floats:
+    ends = np.array([end for span in spans for end in span], dtype=np.float64)
+    return ends % path.length if path.closed else ends

@@ -14,7 +14,7 @@ import shapely
 from ...model.finding import Finding, FindingKind
 from ...model.motion import MotionKind
 from ...model.stock_box import stock_box
-from ..proof import ProofInput
+from ..registry import ProofInput
 
 _LEVEL = 1e-3
 """mm above Z 0 at which a pass still clears it."""

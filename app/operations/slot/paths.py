@@ -28,7 +28,7 @@ from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ...toolpath.narrow_regions import too_small
 from ...toolpath.operation_context import OperationContext, emit, passes_of
 from ..adaptive.paths import adaptive, room_needed
-from ..contour.stroke import StrokeExtras, strokes_of
+from ..contour.paths import StrokeExtras, strokes_of
 from ..engrave.open_line import line_paths
 from ..pocket.paths import PocketTarget, clear_in_rings
 

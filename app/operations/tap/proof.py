@@ -8,7 +8,7 @@ import numpy as np
 
 from ...model.hole_operations import TapOperation
 from ...model.motion import MotionKind
-from ..proof import ProofInput
+from ..registry import ProofInput
 from ..thread_proof import ThreadProof
 
 

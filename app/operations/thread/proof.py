@@ -15,7 +15,7 @@ from ...model.curves import Circle
 from ...model.hole_operations import ThreadOperation
 from ...model.motion import Floats, MotionKind
 from ...model.thread_sizes import ThreadSize
-from ..proof import ProofInput
+from ..registry import ProofInput
 from ..thread_proof import ThreadProof
 
 _ABOUT = 5e-3

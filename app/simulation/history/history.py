@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.tolerances import LEVEL
-from ...model.motion import Floats
-from ...model.motion_path import lengths
+from ...model.motion import Floats, lengths
 from ..cutter import Cutter
 from ..field.workpiece import Workpiece, ensure_memory
 from ..sweeps.course import Course, Ints, Rapids, TrimOptions

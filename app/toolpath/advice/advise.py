@@ -11,9 +11,9 @@ import numpy as np
 import shapely
 from shapely import Geometry as Shape
 
-from ...core.durations import minutes_words
 from ...core.errors import ParameterError
 from ...core.progress import NO_PROGRESS, Progress
+from ...core.wording import minutes_words
 from ...geometry.primitives import TURN, R, pack, points_at, signed_area
 from ...model.entry import Entry, EntryKind
 from ...model.part import Region

@@ -17,13 +17,12 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ...core.pool import in_bands
 from ...core.progress import NO_PROGRESS, Progress
-from ...geometry.distance import DistanceField
-from ...geometry.primitives import Indices, Rows, sweeps
+from ...geometry.primitives import DistanceField, Indices, Rows, sweeps
 from ...geometry.triangulation import neighbours
 from ...model.moves import Purpose
 from ..build import Stroke
-from ..linking import chain_kernels
 from ..rest_material import CutGround
+from . import chain_kernels
 from .rest_runs import RingChunks, RingRun
 
 _MOST = 6

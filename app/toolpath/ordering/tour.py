@@ -118,13 +118,13 @@ class _Tour:
     @property
     def travel(self) -> float:
         """The whole of it, mm."""
-        from ..ordering import tour_kernels
+        from . import tour_kernels
 
         return float(tour_kernels.travel(self._ends, self.order))
 
     def begin_greedily(self, progress: Progress) -> None:
         """Always go on to the stroke that begins nearest of those that may be cut."""
-        from ..ordering import tour_kernels
+        from . import tour_kernels
 
         waiting = np.bincount(self._pairs[:, 1], minlength=self._count).astype(np.int64)
         waiting[0] = -1
@@ -138,7 +138,7 @@ class _Tour:
 
     def shorten_few(self) -> None:
         """Find the shortest order."""
-        from ..ordering import tour_kernels
+        from . import tour_kernels
 
         needed = np.zeros(self._count, np.int64)
         np.bitwise_or.at(needed, self._pairs[:, 1], 1 << (self._pairs[:, 0] - 1))
@@ -147,7 +147,7 @@ class _Tour:
 
     def shorten(self, progress: Progress) -> None:
         """Settle, and then kick."""
-        from ..ordering import tour_kernels
+        from . import tour_kernels
 
         place = np.empty(self._count, np.int64)
         place[self.order] = np.arange(self._count)

@@ -8,8 +8,8 @@ from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 from dataclasses import dataclass
 from time import monotonic
 
-from ...core.durations import minutes_words
 from ...core.progress import NO_PROGRESS, Progress
+from ...core.wording import minutes_words
 from .lanes import Lane
 from .task import BatchResult, BatchRow, BatchVerdict, NamedTask
 

@@ -14,8 +14,8 @@ from html import escape
 from itertools import product
 from urllib.parse import quote
 
-from ...core.durations import minutes_words
 from ...core.errors import InputError
+from ...core.wording import minutes_words
 from ...toolpath.advice.advise import Advice
 from .table import Files, PageTable, findings_html, harmless, page_of
 from .task import BatchRow, BatchVerdict

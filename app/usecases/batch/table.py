@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from html import escape
 from urllib.parse import quote
 
-from ...core.durations import minutes_words
+from ...core.wording import minutes_words
 from .task import BatchRow, BatchVerdict
 
 Files = Sequence[Sequence[str]]

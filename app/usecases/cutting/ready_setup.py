@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.errors import HitofudeError, InputError
-from ...core.file_bytes import FileBytes
+from ...core.input_file import FileBytes
 from ...core.progress import NO_PROGRESS, Progress
 from ...formats.job.toml import JobFile, StatedOrigin
 from ...gcode.interpreter.codes import ROTARY

@@ -11,13 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.durations import minutes_words
-from ...core.wording import counted
+from ...core.wording import counted, minutes_words
 from ...gcode.interpreter.program import Severity
 from ...gcode.timing.duration import TIME_METHOD
 from ...model.finding import Finding, FindingKind, worst_first
-from ...model.motion import Floats, MotionKind
-from ...model.motion_path import lengths
+from ...model.motion import Floats, MotionKind, lengths
 from ...model.tool import Tool
 from ...simulation.engines import Engine, EngineReport
 from ...simulation.field.workpiece import TOLERANCE

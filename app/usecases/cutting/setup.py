@@ -24,7 +24,7 @@ class CutSetup:
     """What is cut out of what, with what, to become what.
 
     Attributes:
-        programs: of each file, at least one, in the order of cutting, anchored (`app.model.motion_path.anchored`).
+        programs: of each file, at least one, in the order of cutting, anchored (`app.model.motion.anchored`).
         tools: by T number; 0 stands for the tool of a program that names none.
         stock: the metal, program coordinates.
         part: what is to come out; None = nobody has said.

@@ -13,8 +13,7 @@ from ...model.fields import ParameterPlace, parameters_of, with_values
 from ...model.job import Copies, Job
 from ...model.operation import CutParameters, DrillOperation, Operation, Order
 from ...model.operation_kinds import OPERATION_KINDS, parameters
-from ...model.tool import Tool
-from ...model.tool_kind import ToolKind
+from ...model.tool import Tool, ToolKind
 
 
 @dataclass(frozen=True)

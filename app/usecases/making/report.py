@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core import tolerances
-from ...core.durations import minutes_words
-from ...core.wording import counted
+from ...core.wording import counted, minutes_words
 from ...gcode.timing.duration import TIME_METHOD
 from ...gcode.timing.extent import Extent
 from ...gcode.writer.write import blend_mm, writing_tolerance

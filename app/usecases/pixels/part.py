@@ -9,12 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
-from ...geometry.distance import DistanceField
-from ...geometry.primitives import boxes, contour_rows, pack
+from ...geometry.primitives import DistanceField, boxes, contour_rows, pack
 from ...model.part import Region
-from ...raster.codes import Plane
-from ...raster.draw import draw
-from ...raster.frame import PATH_BYTES, BitmapFrame
+from ...raster.fill import draw
+from ...raster.frame import PATH_BYTES, BitmapFrame, Plane
 from ...raster.peel import frame_pixels
 from ...raster.walls import Mask, free_pixels, wall_rows
 from .options import BitmapSize

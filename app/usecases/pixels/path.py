@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from ...fitting.corner_smoothing.smooth import CornerSmoothingOptions, as_it_is, astray, moved, smooth, without
 from ...fitting.corner_smoothing.smoothed_path import SmoothedPath
-from ...geometry.distance import DistanceField
-from ...geometry.primitives import R, Rows, lengths, points_at
+from ...geometry.primitives import DistanceField, R, Rows, lengths, points_at
 from ...raster.frame import BitmapFrame
 from ...raster.trace import PixelChain
 from ...raster.walls import Mask

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from ...core.file_bytes import FileBytes
+from ...core.input_file import FileBytes
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.scene_curves import SceneFiles
 from ..cutting.cut import CutOptions, cut

@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core.durations import minutes_words
-from ...core.wording import counted
+from ...core.wording import counted, minutes_words
 from ...formats.machine_toml import DEFAULT_MACHINE, load_machine
 from ...gcode.timing.duration import TIME_METHOD
 from ...model.finding import Finding

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from ... import __version__
 from ...core.digest import sha256
-from ...core.durations import minutes_words
-from ...core.wording import together
+from ...core.wording import minutes_words, together
 from ...formats.plot.page import Pen, TracedPolyline
 from ...formats.plot.picture import CONTOUR, LINK, PART, POCKET, RAPID, PicturePathStyle, StyledPath
 from ...formats.sheet.content import SheetColumn, SheetFact, SheetHash, SheetTable

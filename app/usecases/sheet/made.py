@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...core import tolerances
-from ...core.durations import minutes_words
-from ...core.wording import counted
+from ...core.wording import counted, minutes_words
 from ...formats.job.write import job_lines
 from ...formats.plot.picture import CONTOUR, PART, POCKET
 from ...formats.sheet.content import (

@@ -6,7 +6,7 @@ import numpy as np
 
 from app.drafting.document import Document
 from app.gcode.interpreter.reader import read_program
-from app.model.motion_path import anchored
+from app.model.motion import anchored
 from app.model.operation import CutParameters, PocketOperation
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from app.model.tool import Tool, ToolKind
-from app.model.tool_kind import tool_kinds
+from app.model.tool import Tool, ToolKind, tool_kinds
 from app.simulation.cutter import cutter_of
 from app.ui.views.cut.tool_outline import ToolPart, outline_of
 from tests.examples import examples

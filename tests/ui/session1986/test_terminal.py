@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.raster.codes import PixelCode
+from app.raster.frame import PixelCode
 from app.raster.steps import StepState
 from app.raster.trace import PixelChain, trace
 from app.ui.views.session1986.glyphs import CELL, line_bits, spoken, wrapped

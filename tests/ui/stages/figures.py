@@ -23,7 +23,7 @@ from app.formats.readers import read_drawing
 from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import pack
 from app.model.job import Job
-from app.raster.codes import PixelCode
+from app.raster.frame import PixelCode
 from app.raster.levels import SAFE_PX
 from app.ui.framework import style
 from app.ui.framework.theme import LIGHT

@@ -5,7 +5,7 @@ import pytest
 
 from app.drafting.document import Document
 from app.exhibits.stages import Variant, stages
-from app.raster.codes import PixelCode
+from app.raster.frame import PixelCode
 from app.ui.views.stages.film import Projector, chain_at
 from app.ui.views.stages.film_set import FilmRequest, film_set_of
 from app.usecases.making.bitmap_job import drawn_job

@@ -10,7 +10,7 @@ from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 
-from app.raster.codes import PixelCode
+from app.raster.frame import PixelCode
 from app.raster.picture_options import InkMeaning
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.figures import TIMES

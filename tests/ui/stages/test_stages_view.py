@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.core.settings import ThemeChoice
 from app.model.curve_selectors import CurveNumber
-from app.raster.codes import PixelCode
+from app.raster.frame import PixelCode
 from app.raster.steps import STEPS
 from app.ui.framework.theme import LIGHT
 from app.ui.framework.view import View

@@ -30,8 +30,7 @@ from app.model.hole_operations import TapOperation
 from app.model.job import Job, OriginXY, OriginZ, Stock
 from app.model.operation import CutParameters, DrillOperation, PocketOperation, Side
 from app.model.thread_sizes import ThreadSize
-from app.model.tool import Tool
-from app.model.tool_kind import ToolKind
+from app.model.tool import Tool, ToolKind
 from app.usecases.making.make import MakeResult, export
 from app.usecases.sheet.common import offset_fact
 from app.usecases.sheet.made import made_sheet

@@ -13,8 +13,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from ....core.errors import HitofudeError
-from ....model.tool import Tool, ToolKind, shape_keys
-from ....model.tool_kind import tool_kind, tool_kinds
+from ....model.tool import Tool, ToolKind, shape_keys, tool_kind, tool_kinds
 from ...framework.fields import ChoiceField, ListField, NumberField, NumberSpec
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ....raster.codes import PixelCode, Plane
-from ....raster.frame import POINTS
+from ....raster.frame import POINTS, PixelCode, Plane
 from ....raster.steps import StepState
 from ....raster.trace import PixelChain
 from .glyphs import Bits

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtGui import QColor
 
-from ....raster.codes import PixelCode
+from ....raster.frame import PixelCode
 from ...framework.theme import Theme, mixed
 
 WRONG = len(PixelCode)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ....core.progress import NO_PROGRESS, Progress
 from ....geometry.primitives import Rows
-from ....raster.codes import PixelCode, Plane
+from ....raster.frame import PixelCode, Plane
 from ....raster.steps import STEPS, StepState
 from ....raster.trace import PixelChain
 from ....raster.walls import Mask

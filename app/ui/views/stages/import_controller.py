@@ -12,7 +12,7 @@ from ....core.errors import HitofudeError
 from ....core.progress import Progress
 from ....drafting.document import DocumentChange
 from ....model.part import Part
-from ....raster.codes import PixelCode
+from ....raster.frame import PixelCode
 from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import counted
 from ...framework.theme import Theme

@@ -15,9 +15,8 @@ from ....core.errors import InputError
 from ....core.progress import NO_PROGRESS, Progress
 from ....model.job import Job
 from ....raster.ambiguities import Ambiguity, ambiguities
-from ....raster.codes import PixelCode, Plane
 from ....raster.faces import ink_meaning, inner_faces
-from ....raster.frame import BitmapFrame
+from ....raster.frame import BitmapFrame, PixelCode, Plane
 from ....raster.picture import RasterPicture, pitch_of, read_picture, thresholded
 from ....raster.picture_file import MM_PER_INCH
 from ....raster.picture_options import InkMeaning, PictureOptions

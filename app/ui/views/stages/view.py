@@ -9,8 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
 
-from ....raster.codes import Plane
-from ....raster.frame import BitmapFrame
+from ....raster.frame import BitmapFrame, Plane
 from ...framework.fields import ChoiceField
 from ...framework.figures import counted
 from ...framework.theme import LIGHT, Theme

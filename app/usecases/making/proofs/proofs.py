@@ -10,8 +10,7 @@ from ....core.progress import Progress
 from ....model.finding import Finding
 from ....model.job import Job
 from ....model.moves import Program
-from ....operations.proof import OperationProof, ProofInput
-from ....operations.registry import method_of
+from ....operations.registry import OperationProof, ProofInput, method_of
 from ..written import WrittenMotions, WrittenProgram
 from .carving import carving_proofs
 from .engagement import engagement_proofs

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter
 
-from .....raster.codes import Plane
-from .....raster.frame import BitmapFrame
+from .....raster.frame import BitmapFrame, Plane
 from ....framework.theme import text_font
 from ...canvas.painting.pens import screen_pen
 from ...canvas.view_transform import ViewTransform
