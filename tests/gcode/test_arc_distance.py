@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from app.gcode.checks import path
-from app.gcode.checks.arc_distance_kernels import in_step
-from app.gcode.checks.lines import MotionOwners, ReferencePath
+from app.gcode.checks.check_kernels import in_step
+from app.gcode.checks.path import MotionOwners, ReferencePath
 from app.model.motion import MotionKind, Motions, Plane
 from app.model.moves import MoveKind
 

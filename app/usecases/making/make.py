@@ -19,8 +19,7 @@ from ...core.memory import give_back
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.tolerances import LEVEL
 from ...formats.drawing import Drawing
-from ...gcode.posts.post import Post
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import Post, load_post
 from ...gcode.timing.extent import Extent
 from ...gcode.writer.write import NcFile, NcText
 from ...model.finding import Finding, FindingKind, worst_first
@@ -45,14 +44,12 @@ from ..job.drawn_depths import JobToDepths, with_drawn_depths
 from ..job.feeds import JobWithFeeds
 from ..job.layer_operations import with_layer_rules
 from ..job.machining import check_order
-from ..job.options import MakeOptions, job_with_options, with_feeds
-from ..job.own_job import with_own_job
+from ..job.options import MakeOptions, job_with_options, with_feeds, with_own_job
 from ..job.plausible import read_for
 from ..pixels.options import is_picture
-from .cut_job import MeasuredMoves, cut_job, news
 from .proofs.proofs import prove
 from .report import MakeReport, ReportData, make_report, rings_in_words
-from .written import write_and_check
+from .written import MeasuredMoves, cut_job, news, write_and_check
 
 if TYPE_CHECKING:
     from ..proposal.propose import Proposal  # few jobs are proposed
