@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from app.gcode.checks import path
-from app.toolpath.coverage import flat
+from app.toolpath.coverage import areas
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import MakeResult, make
-from app.verify import flat_target
+from app.verify import parts
 
 
 def rings() -> bytes:
@@ -36,7 +36,7 @@ def made() -> MakeResult:
 def test_a_job_in_portions_is_the_job_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = made()
     assert whole.clean and whole.cut is not None
-    for module, portion in ((path, 7), (flat, 2), (flat_target, 2)):
+    for module, portion in ((path, 7), (areas, 2), (parts, 2)):
         monkeypatch.setattr(module, "_AT_A_TIME", portion)
     portions = made()
     assert portions.nc.text == whole.nc.text
