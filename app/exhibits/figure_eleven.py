@@ -17,10 +17,10 @@ import numpy as np
 
 from ..core.errors import Cancelled, HitofudeError
 from ..core.progress import NO_PROGRESS, Progress
+from ..core.wording import together
 from ..simulation.cutter import Cutter
 from ..simulation.engines import Graphics
-from ..simulation.field.differences import HeightDifference, height_difference
-from ..simulation.field.workpiece import Grid, Heights, StockShape, Workpiece
+from ..simulation.field.workpiece import Grid, HeightDifference, Heights, StockShape, Workpiece, height_difference
 from ..simulation.gpu.depth_buffer import DepthBuffer, published
 from ..simulation.gpu.graphics import is_software, renderer_of
 from ..simulation.gpu.polyhedron import facet_error, is_ball
@@ -411,7 +411,7 @@ def why_slower(figure: FigureEleven) -> Iterator[str]:
             continue
         drawn, cells = row.polygons.drawn, row.program.piece(figure.options.cells).grid
         a_move = drawn / max(row.program.moves, 1)
-        than = " and ".join(f"{took / row.seconds[way]:.1f} times the {way.value} way" for way in faster)
+        than = together(f"{took / row.seconds[way]:.1f} times the {way.value} way" for way in faster)
         why = (
             f"they are drawn by the processor, {figure.renderer}, which is what that way was to leave free"
             if is_software(figure.renderer)

@@ -3,10 +3,16 @@
 from dataclasses import replace
 
 import pytest
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from app.model.job import Job
 from app.model.tool import Tool
+from app.ui.framework.give_way import give_way
+from app.ui.framework.legend import LegendSheet
 from app.ui.framework.samples import PathLineKind
+from app.ui.framework.view import View
+from tests.ui.conftest import WAIT_MS
 
 
 @pytest.mark.parametrize("count", [1, 2, 5, 40])
@@ -22,3 +28,62 @@ def test_a_long_list_of_tools_is_read_whole_in_the_legend(wiring, count):
     row = legend.rows[PathLineKind.POCKET]
     assert row.label.fontMetrics().horizontalAdvance(row.label.text()) <= row.label.width(), row.label.text()
     assert all(f"T{tool.number}" in row.toolTip() for tool in tools)
+
+
+def test_a_legend_folds_where_it_would_hide_the_picture_and_may_be_unfolded_there(qtbot):
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    sheet = LegendSheet(parent, QLabel("Legend"), 180)
+    sheet.add(QLabel("Pocket"))
+    sheet.fit_contents()
+    sheet.fit_into(QSize(900, 600))
+    assert not sheet.fold.isChecked()
+    sheet.fit_into(QSize(400, 600))
+    assert sheet.fold.isChecked()
+    sheet.fold.setChecked(False)
+    sheet.fit_into(QSize(410, 600))
+    assert not sheet.fold.isChecked(), "the user wants to see it"
+    sheet.fit_into(QSize(900, 600))
+    sheet.fit_into(QSize(400, 600))
+    sheet.fit_into(QSize(900, 600))
+    assert not sheet.fold.isChecked()
+
+
+def test_a_row_gives_way_until_nothing_lies_over_one_another(qtbot):
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    row = QHBoxLayout(parent)
+    labels = [QLabel("x") for _ in range(3)]
+    for label in labels:
+        label.setFixedWidth(100)
+        row.addWidget(label)
+    row.setSpacing(0)
+    row.setContentsMargins(0, 0, 0, 0)
+    parent.show()
+    for room, shown in ((300, 3), (299, 2), (150, 1), (50, 1), (250, 2), (400, 3)):
+        give_way(row, labels[:2], room)
+        assert sum(not label.isHidden() for label in labels) == shown
+
+
+def test_a_part_is_fitted_into_the_middle_of_what_is_free(qtbot, wiring):
+    window, canvas = wiring.window_, wiring.window_.canvas
+
+    def off_centre(free_right: float) -> float:
+        """Return how far the part's middle is from the middle of the free width, px."""
+        qtbot.waitUntil(lambda: canvas._glide.state() is not canvas._glide.State.Running, timeout=WAIT_MS)
+        middle = canvas.view.to_screen((40.0, 25.0)).x()
+        return middle - (canvas.area.left() + free_right) / 2
+
+    wiring.run("rect 0,0 80,50")
+    canvas.fit()
+    assert off_centre(canvas.area.right()) == pytest.approx(0.0, abs=1.0)
+    wiring.display_controller.show_view(View.PATHS)
+    window.views.show_missing("", "", shows_paths=True)
+    assert off_centre(window.views.legend.geometry().left()) == pytest.approx(0.0, abs=10.0), "beside the legend"
+    wiring.display_controller.show_view(View.DRAW)
+    assert off_centre(canvas.area.right()) == pytest.approx(0.0, abs=1.0)
+    canvas.zoom_by(2.0)
+    looked_at = canvas.view
+    wiring.display_controller.show_view(View.PATHS)
+    window.views.show_missing("", "", shows_paths=True)
+    assert canvas.view == looked_at, "what a person chose to look at stays"

@@ -104,3 +104,10 @@ def test_pictures_of_the_window_are_as_wide_as_the_page(manual) -> None:
         ]
         block = block.next()
     assert widths == [580] * 4
+
+
+def test_the_list_of_pages_is_as_wide_as_its_room(qtbot, manual) -> None:
+    manual.show_page()
+    qtbot.waitExposed(manual)
+    assert not manual.list.horizontalScrollBar().isVisible()
+    assert manual.list.textElideMode() is Qt.TextElideMode.ElideRight

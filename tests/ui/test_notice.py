@@ -45,3 +45,11 @@ def test_what_was_answered_or_followed_by_another_does_not_come_back(views, noti
     for front in (1, 0):
         views.setCurrentIndex(front)
         assert not notice.isHidden() and notice.sentence == "plate.nc is written."
+
+
+def test_buttons_go_at_once_also_where_a_dialog_opens_meanwhile(qtbot, notice):
+    """What is to be deleted later lives as long as a dialog that was opened before."""
+    notice.ask("Proposed: drill.", [("Undo", lambda: None)])
+    (old,) = notice.buttons
+    notice.ask("No gouge.")
+    assert not old.isVisible() and notice.isVisible()

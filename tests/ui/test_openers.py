@@ -49,3 +49,24 @@ def test_of_toml_its_tables_tell(tmp_path):
     empty = tmp_path / "empty.toml"
     empty.write_text("", "utf-8")
     assert opener_of(empty) == "job"
+
+
+@pytest.mark.parametrize("name", ["O1234", "part.pim", "part.H"])
+def test_a_program_of_any_name_is_known_by_its_first_blocks(tmp_path, name):
+    path = tmp_path / name
+    path.write_text("%\nO1234 (LID)\nN10 G21 G90\nN20 G0 X0 Y0\nM30\n%\n")
+    assert opener_of(path) == "program"
+    picture = tmp_path / "photo.xyz"
+    picture.write_bytes(b"\0G1\nG2\nG3\n")
+    assert opener_of(picture) == ""
+
+
+@pytest.mark.parametrize("name", ["letter.docx", "part.ipt", "nothing"])
+def test_what_no_part_of_the_window_opens_is_told_all_that_can_be_opened(wiring, tmp_path, name):
+    path = tmp_path / name
+    path.write_text("Dear reader,\n")
+    wiring.window_.dropped.emit(str(path))
+    notice = wiring.window_.notice
+    assert notice.isVisible() and notice.sentence.startswith(f"{name} is of no kind that can be opened.")
+    assert all(each in notice.sentence for each in (".dxf", ".stl", ".png", ".ngc", ".mpf", ".h", ".tbl", ".toml"))
+    assert not wiring.window_.worker.busy

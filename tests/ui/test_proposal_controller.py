@@ -110,6 +110,17 @@ def test_an_opened_drawing_is_proposed_for_at_its_first_compute_alone(qtbot, wir
     assert computed_at_once(qtbot, wiring) == [type(each) for each in before]
 
 
+def test_the_first_file_that_cannot_be_read_leaves_nothing_to_compute(qtbot, wiring, tmp_path):
+    path = tmp_path / "wrong.dxf"
+    path.write_bytes(b"nothing")
+    wiring.files.open_file(path)
+    assert wiring.window_.actions_["compute"].isEnabled()
+    wiring.window_.actions_["compute"].trigger()
+    qtbot.waitUntil(lambda: wiring.window_.notice.isVisible(), timeout=WAIT_MS)
+    assert not wiring.window_.actions_["compute"].isEnabled() and wiring.computation.made is None
+    assert "Nothing is drawn yet" in wiring.window_.views.empty.sentence.text()
+
+
 @pytest.mark.parametrize("is_sample", [False, True], ids=["a file", "a sample that is proposed for as it opens"])
 def test_compute_waits_for_the_drawing_that_is_being_opened(qtbot, wiring, samples, tmp_path, is_sample):
     """It took the place of the opening, which was lost without a word."""
@@ -117,8 +128,11 @@ def test_compute_waits_for_the_drawing_that_is_being_opened(qtbot, wiring, sampl
     if not is_sample:
         path = tmp_path / "plate.draw"
         path.write_text("\n".join(PLATE))
+    window, compute = wiring.window_, wiring.window_.actions_["compute"]
+    assert not compute.isEnabled(), "nothing is drawn"
     wiring.files.open_file(path)
-    wiring.compute()
+    assert window.views.empty.sentence.text() == f"{path.name} is being read." and window.views.empty.isVisible()
+    compute.trigger()
     qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
     assert wiring.document.path == path and wiring.computation.made.files
     assert type(wiring.document.job.operations[-1]) is ContourOperation

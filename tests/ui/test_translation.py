@@ -16,7 +16,7 @@ from app.ui.framework.catalogue import Catalogue, catalogue, catalogue_files, se
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
 from app.ui.framework.theme import TEXT_PX
 from app.ui.shell.bars.actions import menus, plain
-from app.ui.shell.translation import code_of, translate_all
+from app.ui.shell.translation import code_of, translate, translate_all
 from app.ui.views.canvas.prompt_tool import PromptTool
 from app.ui.views.canvas.tool_table import TOOLS
 from app.ui.views.nc.places_panel import ListedPlace, PlacesPanel, PlaceWeight
@@ -284,8 +284,23 @@ def test_sentences_are_looked_up_before_an_entry_swallows_them_and_lists_name_by
             "Zoom in.": "拡大。",
             "Drill": "穴あけ",
             "Pocket": "ポケット",
-        }
+        },
+        {",": "、", "or": "または", "and": "と"},
     )
     assert words.look_up("Found: no gouge. Zoom in.") == "発見: 食込みなし。拡大。"
     assert words.look_up("Found: drill, pocket.") == "発見: 穴あけ、ポケット。"
     assert words.look_up("Found: drill, saw.") == "発見: drill, saw。", "half a list is none"
+    assert words.look_up("Found: drill or pocket.") == "発見: 穴あけまたはポケット。"
+    assert words.look_up("Found: pocket, drill and pocket.") == "発見: ポケット、穴あけとポケット。"
+    assert words.look_up("Found: 'mm' or 'in'.") == "発見: 'mm' または 'in'。"
+    assert words.look_up("Found: front and back.dxf.") == "発見: front and back.dxf。", "the name of a file is none"
+    assert words.look_up("Found: drill or saw.") == "発見: drill or saw。"
+    assert words.look_up("Found: .dxf, .svg or .draw.") == "発見: .dxf, .svg または .draw。"
+
+
+def test_the_badge_speaks_the_language_while_it_turns(qtbot, japanese):
+    badge = japanese.window_.status.badge
+    for _ in range(4):
+        badge._advance()
+        translate(badge)
+        assert badge.text().endswith("計算中") and not re.search("[A-Za-z]", badge.text())

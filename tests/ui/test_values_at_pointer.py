@@ -500,3 +500,20 @@ def test_every_question_for_a_point_has_boxes() -> None:
     assert tool.boxes is PLACE
     tool.points = [(1.0, 2.0)]
     assert isinstance(tool.boxes, PointBoxes) and tool.boxes is SPAN
+
+
+def test_a_curve_that_was_picked_stays_lit_until_the_tool_has_both(qtbot: QtBot) -> None:
+    hand = Hand(qtbot, CROSS)
+    hand.canvas.set_tool(T.FILLET)
+    middle = hand.at(30.0, 20.0)
+
+    def lit() -> bool:
+        around = [hand.canvas.grab().toImage().pixelColor(middle.x(), middle.y() + off) for off in (-2, 2)]
+        return all(colour.green() > colour.red() + 20 for colour in around)
+
+    assert not lit()
+    hand.click((20.0, 20.0))
+    hand.move(80.0, 55.0)
+    assert lit(), "where nothing is under the mouse"
+    hand.key(ESC)
+    assert not lit()

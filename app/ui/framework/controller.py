@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
 from ...model.finding import Finding
 from .verdict import VerdictSummary
+
+
+@dataclass(frozen=True, eq=False)
+class DocumentMend:
+    """A change of what a view shows that mends a finding; it can be undone there.
+
+    Attributes:
+        words: on the button. change: what becomes of it, in words. act: makes the change.
+    """
+
+    words: str
+    change: str
+    act: Callable[[], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,6 +32,7 @@ class ShownDocument:
         name: in the title. modified: it has changes that are in no file.
         verdict: on the badge; None = it is being computed. findings: everything there is to say about it.
         look_at: shows the place of a finding; None = the findings are only listed.
+        mends: tells what mends a finding; None = nothing does.
     """
 
     name: str
@@ -26,6 +40,7 @@ class ShownDocument:
     verdict: VerdictSummary | None
     findings: tuple[Finding, ...] = ()
     look_at: Callable[[Finding], None] | None = None
+    mends: Callable[[Finding], Sequence[DocumentMend]] | None = None
 
 
 class Controller(QObject):

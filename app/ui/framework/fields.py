@@ -144,7 +144,7 @@ class NumberField(QWidget):
         self.edit.setFixedSize(VALUE_WIDTH, ROW_HEIGHT)
         self.edit.setAccessibleName(spec.name)
         self.edit.textEdited.connect(self._check)
-        self.edit.editingFinished.connect(self._commit)
+        self.edit.editingFinished.connect(self.commit)
         self.edit.installEventFilter(self)
         self.setToolTip(spec.tip)
         if reason is None:
@@ -242,7 +242,8 @@ class NumberField(QWidget):
             return value
         return None
 
-    def _commit(self) -> None:
+    def commit(self) -> None:
+        """Take what was typed, if it is right; nothing where nothing was typed."""
         if not self.edit.isModified():
             return
         text = self.edit.text()

@@ -82,6 +82,7 @@ class Notice(QWidget):
         self._seen_with.follow(None)
         for button in self.buttons:
             self._row.removeWidget(button)
+            button.hide()  # a dialog that opens now would let it live, and lie over the sentence
             button.deleteLater()
         self.buttons = []
         self.text.setText(sentence)

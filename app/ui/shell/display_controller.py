@@ -13,7 +13,7 @@ from ...geometry.sample import bounds, union
 from ...model.finding import Finding
 from ...model.part import Part
 from ..framework.computation import ComputationState
-from ..framework.controller import Controller, ShownDocument
+from ..framework.controller import Controller, DocumentMend, ShownDocument
 from ..framework.missing import NOTHING
 from ..framework.samples import PathLineKind
 from ..framework.verdict import VerdictLevel, VerdictSummary, verdict_summary
@@ -63,6 +63,7 @@ class DisplayController(QObject):
         view: the one at the front. stages_missing, film_missing: what the stages lack.
         pages: of every view.
         writing: the drawing is being written as a text, so that nothing need be said of an empty one.
+        opening: name of the file that is being read, "" = none is.
     """
 
     view_changed = Signal(View)
@@ -72,7 +73,7 @@ class DisplayController(QObject):
         self._window = window
         self._document, self._computation = window.document, window.computation
         self.view = View.DRAW
-        self.stages_missing, self.film_missing, self.writing = NOTHING, NOTHING, False
+        self.stages_missing, self.film_missing, self.writing, self.opening = NOTHING, NOTHING, False, ""
         self.pages = pages_of(window, self)
         window.take_pages(self.pages)
         self._layers = PathLayers.ALL
@@ -188,8 +189,15 @@ class DisplayController(QObject):
         drawn = bool(document.part.entities)
         actions["select_all"].setEnabled(drawn)
         surfaces, open_now = self._window.views.surfaces, not self._window.views.starting
-        actions["export"].setEnabled(open_now and (surfaces.shown is not None if on_scene else drawn))
-        actions["compute"].setEnabled(open_now and (on_scene or drawn))
+        waits = bool(self.opening)  # both wait for the file that is being read
+        actions["export"].setEnabled(waits or (open_now and (surfaces.shown is not None if on_scene else drawn)))
+        actions["compute"].setEnabled(waits or (open_now and (on_scene or drawn)))
+
+    def show_opening(self, name: str) -> None:
+        """Say that a file is being read, or no longer, "": what is to be done with it can be asked for already."""
+        if name != self.opening:
+            self.opening = name
+            self.show_missing()
 
     def show_state(self) -> None:
         """Show where the view at the front stands."""
@@ -215,6 +223,7 @@ class DisplayController(QObject):
         for widget in window.sides:
             if widget is not beside:
                 widget.hide()
+        window.side_line.setVisible(beside is not None)
         if beside is not None:
             beside.show()
         self.show_log()
@@ -295,7 +304,7 @@ class DisplayController(QObject):
         other = self.shown_document
         if other is not None:
             said = "It is being computed." if other.verdict is None else other.verdict.tip or other.verdict.text
-            self._window.findings_list.show_findings(other.findings, self._window.status.badge, said)
+            self._window.findings_list.show_findings(other.findings, self._window.status.badge, said, mends=other.mends)
             return
         shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
         mends = self._mends if self._computation.state is ComputationState.CURRENT else None
@@ -314,8 +323,13 @@ class DisplayController(QObject):
         library = [tool for each in load_libraries().libraries.values() for tool in each.tools]
         return mends(made.job, Fault.of(finding, index), library)
 
-    def mend(self, mend: Mend) -> None:
-        """Change the job so that a finding is mended, and compute it again; one undoable step."""
+    def mend(self, mend: Mend | DocumentMend) -> None:
+        """Change the job, or what is at the front in its place, so that a finding is mended; one undoable step, and
+        computed again.
+        """
+        if isinstance(mend, DocumentMend):
+            mend.act()
+            return
         self._document.change_job(mend.words, mend.job)
         self._computation.start()
 

@@ -12,18 +12,20 @@ from PySide6.QtWidgets import QFileDialog
 
 from ...drafting.document import DocumentChange
 from ...formats.project.project import Project, SavedView
-from ...formats.tools.at_path import holds_tools
-from ...gcode.posts.posts import load_post
+from ...formats.readers import offered_suffixes
+from ...formats.tools.at_path import holds_tools, tool_suffixes
+from ...gcode.posts import load_post
 from ...model.job import Job
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
-from ...usecases.pixels.options import is_picture
-from ...usecases.scene.solid_files import is_solid
+from ...usecases.pixels.options import PICTURES, is_picture
+from ...usecases.scene.solid_files import SOLIDS, is_solid
 from ..framework.figures import counted, grouped
 from ..framework.log import Log
 from ..framework.view import View, views
 from ..views.canvas.view_transform import ViewTransform as CanvasView
-from ..views.nc.program_reader import is_program
+from ..views.nc.program_reader import SUFFIXES as PROGRAMS
+from ..views.nc.program_reader import is_program, looks_like_program
 from ..views.surfaces.shown_scene import is_scene
 from .display_controller import DisplayController
 from .files import open_controller as opening_files
@@ -40,6 +42,17 @@ def open_filter() -> str:
     """Return what the dialog of Open shows: every kind of file that can be opened."""
     shown = " ".join(f"*{each}" for each in (".DXF", *opened_suffixes()))
     return f"Drawings, solids, scenes, pictures, tools and NC programs ({shown});;All files (*)"
+
+
+def unknown_kind(name: str) -> str:
+    """Return what is said of a file of a kind that nothing opens."""
+    drawings, solids, pictures, programs, tools = (
+        " ".join(dict.fromkeys(each)) for each in (offered_suffixes(), SOLIDS, PICTURES, PROGRAMS, tool_suffixes())
+    )
+    return (
+        f"{name} is of no kind that can be opened. Save it as a drawing ({drawings}), a solid ({solids}), a picture "
+        f"({pictures}), an NC program ({programs}), tools ({tools}), a scene or a job (.toml)."
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +78,7 @@ class Openers:
             (is_solid(path.name), self.solid),
             (holds_tools(path), self.tools),
             (path.suffix.lower() == ".toml", self.job),
+            (not path.name.lower().endswith(opened_suffixes()) and looks_like_program(path), self.program),
         )
         return next((opens for fits, opens in kinds if fits), None)
 
@@ -102,6 +116,7 @@ class FileController(QObject):
         window.actions_.recent.aboutToShow.connect(self._list_recent)
         self.open_controller.read.connect(lambda opened: showing.know_size(opened.job.part, opened.size))
         self.open_controller.opened.connect(self._on_opened)
+        self.open_controller.opening_changed.connect(showing.show_opening)
         self.open_controller.asked.connect(self._ask_how)
         self.export_controller.written.connect(self._on_written)
         self.export_controller.post_chosen.connect(self._choose_post)
@@ -128,6 +143,9 @@ class FileController(QObject):
         opens = self._others.of(path)
         if opens is not None:
             opens(path)
+            return
+        if not path.name.lower().endswith(opened_suffixes()):
+            self._window.notice.ask(unknown_kind(path.name), error=True)
             return
         if is_picture(path.name):
             self._leave_drawing(f"Open {path.name}", lambda: self._others.picture(path))

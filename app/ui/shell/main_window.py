@@ -22,6 +22,7 @@ from ..framework.computation import Computation
 from ..framework.log import Log
 from ..framework.notice import Notice
 from ..framework.preferences import Preferences
+from ..framework.section import upright_hairline
 from ..framework.theme import DARK, LIGHT, Theme
 from ..framework.view import View, ViewPage
 from ..framework.worker import Worker
@@ -73,7 +74,7 @@ class MainWindow(QMainWindow):
     """Menu, bars, views, panel, log, command line, status; `set_theme_choice` gives it its looks when all is there.
 
     Signals:
-        dropped(path): a file of a kind that can be opened was dropped on the window.
+        dropped(path): a file was dropped on the window.
         closing(): about to close; `may_close` tells whether it may.
     """
 
@@ -117,6 +118,7 @@ class MainWindow(QMainWindow):
             self.plot_panel,
             self.views.nc.beside,
         ]
+        self.side_line = upright_hairline()
         self.notice, self.card, self.command_line, self.status = (
             Notice(),
             QuestionCard(self.canvas),
@@ -153,6 +155,7 @@ class MainWindow(QMainWindow):
         middle.setSpacing(0)
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
+        middle.addWidget(self.side_line)
         middle.addWidget(self.side)
         for widget in self.sides[1:]:
             self._middle.addWidget(widget)
@@ -218,9 +221,9 @@ class MainWindow(QMainWindow):
         self.cut_panel.fit_beside(event.size().width())
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
-        """Welcome one file of a kind that can be opened."""
+        """Welcome one file; of a kind that cannot be opened it is said which can."""
         urls = event.mimeData().urls()
-        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(opened_suffixes()):
+        if len(urls) == 1 and urls[0].isLocalFile():
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 (Qt's name)

@@ -24,6 +24,7 @@ class NewPart:
     Attributes:
         x, y, z: how large it is, mm, > 0; its stock is `z` thick.
         material: for speeds and feeds. post: of the machine. outline: its rectangle is drawn.
+        round: radius of the rectangle's corners, mm, 0 = they are sharp.
     """
 
     x: float
@@ -32,10 +33,17 @@ class NewPart:
     material: str
     post: str
     outline: bool = True
+    round: float = 0.0
+
+    @property
+    def widest_round(self) -> float:
+        """The radius at which the shorter sides are half circles, mm."""
+        return min(self.x, self.y) / 2
 
     def line(self) -> str:
         """Return the line of the drawing language that draws it."""
-        return f"rect 0,0 {self.x:.12g},{self.y:.12g}"
+        rounded = f" round {self.round:.12g}" if self.round else ""
+        return f"rect 0,0 {self.x:.12g},{self.y:.12g}{rounded}"
 
 
 def new_job(part: NewPart) -> Job:

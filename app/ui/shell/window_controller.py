@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Qt
 
 from ...core.resources import resource
 from ...core.settings import ThemeChoice
@@ -54,6 +54,7 @@ from .drawing.proposal_controller import ProposalController
 from .drawing.shape_language_controller import ShapeLanguageController
 from .drawing.tab_controller import TabController
 from .drawing.template_controller import TemplateController
+from .drawing.unseen_controller import UnseenController
 from .file_controller import FileController, Openers
 from .files.drawing_export_controller import DrawingExportController
 from .files.open_controller import SAMPLE_PROGRAMS
@@ -174,6 +175,7 @@ class WindowController(QObject):
         self.underlay_controller = UnderlayController(canvas, workspace, commands)
         self.language = ShapeLanguageController(window.command_line.edit, HelpWindow(window), workspace, commands)
         self.files.save_controller.beside.watch(self.underlay_controller, self.language.control)
+        self.unseen_controller = UnseenController(canvas, self.language.lines, workspace)
         self.advice_controller = AdviceController(window.panel, workspace)
         self.proposal_controller = ProposalController(window.panel, workspace, commands)
         self.template_controller = TemplateController(window.panel, workspace, commands)
@@ -331,10 +333,13 @@ class WindowController(QObject):
         self.document.load(new_job(part))
         self.computation.forget()
         self.display_controller.show_view(View.DRAW)
-        if part.outline:
-            self.run(part.line())
         self.window_.lay_out_now()
-        self.window_.canvas.fit()
+        fit = self.window_.canvas.fit
+        if part.outline:
+            self.language.lines.ran.connect(lambda *_: fit(), Qt.ConnectionType.SingleShotConnection)
+            self.run(part.line())
+        else:
+            fit()
 
     def _open_tools(self, path: Path) -> None:
         """Take tools into the library, and show it."""

@@ -12,8 +12,7 @@ from ...core.progress import Progress
 from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.dialect_guess import guess_dialect
 from ...gcode.interpreter.program import NcProgram
-from ...gcode.posts.post import Post
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import Post, load_post
 from ...model.motion import MotionKind
 from ...model.tool import Tool
 from ...model.tool_kind import ToolKind

@@ -19,8 +19,7 @@ from ...core.memory import give_back
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.tolerances import LEVEL
 from ...formats.drawing import Drawing
-from ...gcode.posts.post import Post
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import Post, load_post
 from ...gcode.timing.extent import Extent
 from ...gcode.writer.write import NcFile, NcText
 from ...model.finding import Finding, FindingKind, worst_first
@@ -45,14 +44,12 @@ from ..job.drawn_depths import JobToDepths, with_drawn_depths
 from ..job.feeds import JobWithFeeds
 from ..job.layer_operations import with_layer_rules
 from ..job.machining import check_order
-from ..job.options import MakeOptions, job_with_options, with_feeds
-from ..job.own_job import with_own_job
+from ..job.options import MakeOptions, job_with_options, with_feeds, with_own_job
 from ..job.plausible import read_for
 from ..pixels.options import is_picture
-from .cut_job import MeasuredMoves, cut_job, news
 from .proofs.proofs import prove
 from .report import MakeReport, ReportData, make_report, rings_in_words
-from .written import write_and_check
+from .written import MeasuredMoves, cut_job, news, write_and_check
 
 if TYPE_CHECKING:
     from ..proposal.propose import Proposal  # few jobs are proposed
@@ -369,6 +366,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
 def _measured(program: Program, job: Job, progress: Progress) -> MeasuredMoves:
     """Return what closed forms say of computed moves; nothing of it needs their text."""
     progress.step(0.0, "Checking clearance")
+    give_back()
     depths = gouge_depths(program, job, progress=progress.part(0.0, 0.2))
     clear = clear_moves(program.moves, depths, CHORD)
     measured = MeasuredMoves(depths, measure_beside_clear(program, job, clear, progress.part(0.2, 1.0)))

@@ -84,14 +84,40 @@ class Hand(QObject):
         """Click the visible button of an action."""
         self.click(self.ask(lambda: self._button(action)))
 
+    def hold_button(self, action: str) -> None:
+        """Hold the visible button of an action until what lies behind it is open."""
+        widget = self.ask(lambda: self._button(action))
+        at = self.ask(lambda: widget.mapToGlobal(widget.rect().center()))
+        self.clicks += 1
+        _xdotool("mousemove", str(at.x()), str(at.y()), "mousedown", "1", "sleep", "1", "mouseup", "1")
+        time.sleep(SETTLE_S)
+
     def click_place(self, place: Point) -> None:
         """Click a place of the drawing, mm."""
         self._click_at(self.ask(lambda: self._on_screen(place)))
+
+    def drag(self, start: QPoint, end: QPoint) -> None:
+        """Drag something from one place of the display to another; one click more."""
+        self.clicks += 1
+        _xdotool("mousemove", str(start.x()), str(start.y()), "mousedown", "1")
+        time.sleep(SETTLE_S)
+        for share in (0.1, 0.5, 0.9, 1.0):
+            at = start + (end - start) * share
+            _xdotool("mousemove", str(at.x()), str(at.y()))
+            time.sleep(SETTLE_S)
+        _xdotool("mouseup", "1")
 
     def type_line(self, text: str) -> None:
         """Type something and Enter."""
         self._type(text)
         self.press("Return")
+
+    def type_values(self, *values: str) -> None:
+        """Type values into the boxes at the pointer, one after the other, and Enter."""
+        for value in values[:-1]:
+            self._type(value)
+            self.press("Tab")
+        self.type_line(values[-1])
 
     def type_seen_line(self, text: str) -> None:
         """Type something, and Enter once the field that has the keys shows it: a busy one shows it late."""

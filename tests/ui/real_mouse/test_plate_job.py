@@ -11,14 +11,15 @@ from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from tests.ui.real_mouse.display import run_on_display
 
-MOST_CLICKS, MOST_VALUES = 15, 12
-MOST_BUSY_MS = {"start": 100.0, "draw": 100.0, "compute": 150.0, "export": 200.0, "end": 100.0}
+MOST_CLICKS, MOST_VALUES, MOST_SEEN_S = 15, 12, 3.0
+MOST_BUSY_MS = {"start": 100.0, "open": 200.0, "draw": 100.0, "compute": 150.0, "export": 200.0, "end": 100.0}
 """Processor time of the window's thread between two moments at which it listens, by what goes on, on a machine that may
-be shared; 100 are wanted. The toolkit's file dialog is made in the last but one.
+be shared; 100 are wanted. The toolkit's file dialog is made to open and to export.
 """
 
 OPERATIONS = {
     "plate": ["drill", "pocket", "contour outside tabs"],
+    "keys": ["drill", "pocket", "contour outside tabs"],
     "gear": ["contour outside tabs"],
 }
 
@@ -29,7 +30,7 @@ def test_a_whole_job_takes_few_clicks_and_is_right_at_the_first_compute(name: st
     run_on_display(tmp_path, "tests.ui.real_mouse.plate_job", name, str(tmp_path))
     counts = json.loads((tmp_path / "counts.json").read_text("utf-8"))
     assert counts["wrong"] == ""
-    assert 0 < counts["clicks"] <= MOST_CLICKS
+    assert (name != "keys") == bool(counts["clicks"]) and counts["clicks"] <= MOST_CLICKS
     assert 0 < counts["values"] <= MOST_VALUES
     job = json.loads((tmp_path / "job.json").read_text("utf-8"))
     assert job["findings"] == []
@@ -42,3 +43,12 @@ def test_a_whole_job_takes_few_clicks_and_is_right_at_the_first_compute(name: st
         assert program.error is None and len(program.motions) > 3
         assert "M6" not in text, "grbl refuses it"
     assert all(busy < MOST_BUSY_MS[doing] for doing, busy in counts["busiest_ms"].items()), counts
+
+
+@pytest.mark.exhaustive
+def test_a_solid_that_is_dropped_is_seen_soon(tmp_path: Path) -> None:
+    run_on_display(tmp_path, "tests.ui.real_mouse.drop_job", str(tmp_path))
+    counts = json.loads((tmp_path / "counts.json").read_text("utf-8"))
+    assert counts["wrong"] == "" and counts["triangles"] == 2 * 96 * 48
+    (seen_s,) = counts["seen_s"]
+    assert seen_s < MOST_SEEN_S

@@ -1,6 +1,7 @@
 """The Stages view with mouse and keys."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from PySide6.QtGui import QGuiApplication, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
 from app.core.settings import ThemeChoice
+from app.model.curve_selectors import CurveNumber
 from app.raster.codes import PixelCode
 from app.raster.steps import STEPS
 from app.ui.framework.theme import LIGHT
@@ -16,7 +18,7 @@ from app.ui.framework.view import View
 from app.ui.views.stages.code_colours import step_colours
 from app.ui.views.stages.film_player import SPEEDS
 from app.ui.views.stages.painting.pixel_painter import LETTER_PX, RASTER_PX
-from app.ui.views.stages.panel import FillRules
+from app.ui.views.stages.panel import BY_THE_RULE, FillRules
 from app.ui.views.stages.step_notes import note
 from tests.ui.conftest import WAIT_MS
 from tests.ui.fields_typed import enter
@@ -178,7 +180,7 @@ def test_a_chain_is_lit_from_the_list_and_from_the_picture(qtbot, staged):
     qtbot.mouseClick(chains.copy, LEFT)
     assert QGuiApplication.clipboard().text().splitlines() == [chain.text() for chain in view.still.chains]
     view.show_stage(view.film.seek_step(204, -1))
-    assert chains.list.count() == 0 and "traces no line" in chains.text.toPlainText()
+    assert chains.list.count() == 0 and "traces no line" in chains.text.placeholderText()
 
 
 def test_published_rules_are_marked_where_they_err_and_counted(qtbot, wiring):
@@ -347,3 +349,22 @@ def test_what_gets_no_path_is_said(qtbot, staged):
     staged.window_.panel.operations.switched.emit(2, True)
     staged.run("circle 60,5 1")
     qtbot.waitUntil(lambda: "has no room for T2" in panel.finding.text(), timeout=WAIT_MS)
+
+
+def test_a_job_that_chooses_curves_is_shown_by_the_rule_of_1986(qtbot, wiring):
+    panel = wiring.window_.stages_panel
+    assert panel.points.value == 400.0 and panel.pitch.isHidden(), "before the first film"
+    wiring.run("rect 0,0 30,20")
+    wiring.run("circle 9,8 3")
+    qtbot.waitUntil(lambda: len(wiring.document.part.entities) == 5, timeout=WAIT_MS)
+    job = wiring.document.job
+    (first, *_) = job.operations
+    own = replace(first, cut=replace(first.cut, curves=(CurveNumber(5),)))
+    wiring.document.change_job("Own", replace(job, operations=(own,)))
+    wiring.display_controller.show_view(View.STAGES)
+    show_stages(qtbot, wiring)
+    assert panel.rule.text() == BY_THE_RULE and panel.rule.isVisible()
+    assert wiring.stages_controller.reel.made.paths, "all that is drawn is machined"
+    wiring.document.change_job("All", job)
+    show_stages(qtbot, wiring)
+    assert not panel.rule.text()

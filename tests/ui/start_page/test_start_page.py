@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QImage
 
 from app.core.progress import NO_PROGRESS
 from app.core.resources import resource
+from app.model.curves import Arc
 from app.model.part import Part
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.theme import DARK, LIGHT
@@ -20,6 +21,7 @@ from app.ui.shell.start_page.file_card import FileCard
 from app.ui.shell.start_page.page import StartPage
 from app.ui.shell.start_page.thumbnail import thumbnail
 from app.ui.views.canvas.modes import CanvasTool
+from app.ui.views.language import command_runner
 from tests.ui.conftest import WAIT_MS
 
 
@@ -94,6 +96,33 @@ def test_a_new_part_has_its_size_its_machine_and_its_material(qtbot, started):
     assert not started.document.part.entities, "its outline is a step that can be undone"
 
 
+def test_a_new_part_has_round_corners(qtbot, started, monkeypatch):
+    monkeypatch.setattr(command_runner, "AT_ONCE_S", 0.0)  # as on a busy machine, where the outline comes later
+    card = started.window_.views.start.new
+    card.lengths[0].edit.selectAll()
+    qtbot.keyClicks(card.lengths[0].edit, "x")
+    qtbot.keyClick(card.lengths[0].edit, Qt.Key.Key_Return)
+    assert started.window_.views.starting, "what is marked as wrong begins nothing"
+    card.lengths[0].edit.selectAll()
+    qtbot.keyClicks(card.lengths[0].edit, "80")
+    card.corners.edit.selectAll()
+    qtbot.keyClicks(card.corners.edit, "30")
+    qtbot.keyClick(card.corners.edit, Qt.Key.Key_Return)
+    assert started.window_.views.starting and "25 mm" in card.corners.reason.text(), "50 mm is its shorter side"
+    qtbot.mouseClick(card.begin, Qt.MouseButton.LeftButton)
+    assert started.window_.views.starting, "what is marked as wrong begins nothing"
+    card.corners.edit.selectAll()
+    qtbot.keyClicks(card.corners.edit, "6")
+    qtbot.keyClick(card.corners.edit, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: len(started.document.part.entities) == 8, timeout=WAIT_MS)
+    curves = [entity.curve for entity in started.document.part.entities]
+    assert [each.radius for each in curves if isinstance(each, Arc)] == [6.0] * 4 and len(curves) == 8
+    canvas = started.window_.canvas
+    qtbot.waitUntil(lambda: canvas._glide.state() is not canvas._glide.State.Running, timeout=WAIT_MS)
+    middle = canvas.view.to_screen((40.0, 25.0))
+    assert abs(middle.x() - canvas.area.center().x()) < 1 and abs(middle.y() - canvas.area.center().y()) < 1
+
+
 def test_escape_a_tool_a_view_or_a_typed_line_lead_to_the_drawing(qtbot, started):
     window, views = started.window_, started.window_.views
     qtbot.keyClick(views.start, Qt.Key.Key_Escape)
@@ -139,6 +168,34 @@ def test_a_program_is_drawn_by_its_cuts(qapp, tmp_path):
     image = thumbnail(path, QSize(200, 120), LIGHT, NO_PROGRESS)
     inked = [(x, y) for x in range(200) for y in range(120) if image.pixelColor(x, y).rgb() != LIGHT.canvas.rgb()]
     assert max(x for x, _ in inked) - min(x for x, _ in inked) == pytest.approx(1.5 * 92, abs=4)
+
+
+def test_a_dense_program_is_no_patch_and_one_without_a_way_in_the_plane_has_no_picture(qapp, tmp_path):
+    rows = "".join(f"G0 Y{k / 20}\nG1 X{(0 if k % 2 else 50) if k < 300 else 20 + k % 2 * 10}\n" for k in range(600))
+    path = tmp_path / "dense.ngc"
+    path.write_text(f"G21 G90\nG0 X0 Y0 Z-1\nF500\n{rows}M30\n")
+    image = thumbnail(path, QSize(200, 120), LIGHT, NO_PROGRESS)
+    inks = [image.pixelColor(100, y).red() for y in range(20, 100)]
+    assert min(inks) > 20 and max(inks) < 250 and len(set(inks)) > 2, "lines shine through"
+    path.write_text("G21 G90\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM30\n")
+    assert thumbnail(path, QSize(200, 120), LIGHT, NO_PROGRESS).isNull()
+
+
+def test_the_inside_of_an_outline_is_tinted_its_holes_are_not(qapp, tmp_path):
+    path = tmp_path / "lid.draw"
+    path.write_text("rect 0,0 60,40\ncircle 30,20 12\n")
+    image = thumbnail(path, QSize(200, 120), LIGHT, NO_PROGRESS)
+    assert image.pixelColor(100, 60).rgb() == LIGHT.canvas.rgb()
+    assert image.pixelColor(100, 20).rgb() not in (LIGHT.canvas.rgb(), LIGHT.ink.rgb())
+
+
+def test_of_a_scene_only_what_lies_on_top_is_drawn(qapp):
+    image = thumbnail(resource("samples", "die.toml"), QSize(200, 120), LIGHT, NO_PROGRESS)
+    rows = [y for y in range(120) if any(image.pixelColor(x, y).rgb() != LIGHT.canvas.rgb() for x in range(200))]
+    lowest = [x for x in range(200) if image.pixelColor(x, rows[-1]).rgb() != LIGHT.canvas.rgb()]
+    assert all(image.pixelColor(x, rows[-1]).green() >= image.pixelColor(x, rows[-1]).red() for x in lowest), (
+        "a corner of the binder, nothing that hangs below it"
+    )
 
 
 def test_what_was_said_of_the_part_before_does_not_lie_over_the_page(wiring):

@@ -7,6 +7,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextCursor
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QPushButton
 
 from app.core.resources import resource
 from app.formats.scene.toml import read_scene
@@ -14,6 +15,7 @@ from app.model.finding import Finding, FindingKind
 from app.ui.framework.verdict import VerdictLevel
 from app.ui.framework.view import View
 from app.ui.views.surfaces.field_widgets import VectorField
+from app.ui.views.surfaces.new_parts import passes_across
 from app.ui.views.surfaces.scene_computation import SceneState
 from app.ui.views.surfaces.scene_document import SceneDocument
 
@@ -310,3 +312,35 @@ def test_replacing_text_is_one_step_that_can_be_undone(qtbot, before, after):
     document.document.undo()
     assert document.text == before
     assert not document.document.isUndoAvailable()
+
+
+@pytest.mark.exhaustive
+def test_metal_that_is_left_has_a_button_that_adds_passes_across(qtbot, opened):
+    window, text = opened.window_, opened.window_.scene.text
+    (before,) = [each for each in opened.scenes.work.findings if each.kind is FindingKind.LEFT_REACHABLE]
+    window.status.badge.click()
+    (button,) = [each for each in window.findings_list.findChildren(QPushButton) if each.isVisible()]
+    assert button.text() == "Add passes across" and "T1 at 90 degrees" in button.toolTip()
+    button.click()
+    again(qtbot, opened)
+    assert [each.angle_deg for each in said(opened).passes] == [0.0, 90.0] and said(opened).passes[1].pitch == 4.0
+    after = [each.amount for each in opened.scenes.work.findings if each.kind is FindingKind.LEFT_REACHABLE]
+    assert sum(after) < 0.7 * before.amount
+    assert not any(opened.scenes.shown_document.mends(each) for each in opened.scenes.work.findings), "they are there"
+    window.actions_["undo"].trigger()
+    assert window.scene.text == text
+
+
+@pytest.mark.parametrize(
+    ("rule", "across"),
+    [
+        ("angle_deg = 30.0\npitch = 2.0", {"tool": 1, "angle_deg": 120.0, "pitch": 2.0}),
+        ("angle_deg = 150.0\nscallop = 0.1", {"tool": 1, "angle_deg": 60.0, "scallop": 0.1}),
+        ("fan_deg = [0.0, 90.0, 5.0]", None),
+        ("line = [0.0, 0.0, 5.0, 5.0]\npitch = 2.0", None),
+        ("pitch = 2.0\nenabled = false", None),
+    ],
+)
+def test_passes_across_are_square_to_straight_ones(rule, across):
+    text = SPHERES.read_text("utf-8").partition("[[passes]]")[0] + f"[[passes]]\ntool = 1\n{rule}\n"
+    assert passes_across(read_scene("a.toml", text.encode())) == across

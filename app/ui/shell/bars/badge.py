@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from ....model.finding import Finding
+from ...framework.controller import DocumentMend
 from ...framework.fields import restyle
 from ...framework.figures import counted
 from ...framework.labels import muted
@@ -30,7 +31,7 @@ from ...framework.verdict import VerdictLevel, VerdictSummary, finding_level, sh
 if TYPE_CHECKING:
     from ....usecases.mending import Mend
 
-    MendsOf = Callable[[Finding], Sequence[Mend]]
+    MendsOf = Callable[[Finding], Sequence[Mend | DocumentMend]]
 
 _TURN = "◐◓◑◒"
 _TURN_MS = 150
@@ -108,8 +109,8 @@ class FindingsList(QFrame):
     """Every finding, worst first; a click goes to its place, a button mends what one button can.
 
     Signals:
-        picked(finding). left_out(layer): what is on it shall not be machined. mended(Mend): the job shall be changed
-            so.
+        picked(finding). left_out(layer): what is on it shall not be machined. mended(Mend or DocumentMend): the job, or
+            what is at the front, shall be changed so.
     """
 
     picked = Signal(Finding)
@@ -211,7 +212,7 @@ class FindingsList(QFrame):
         button.clicked.connect(lambda: self.left_out.emit(layer))
         return button
 
-    def _mending(self, mend: Mend) -> QPushButton:
+    def _mending(self, mend: Mend | DocumentMend) -> QPushButton:
         tip = f"{mend.words}: {mend.change}. The paths are computed again; Ctrl+Z takes it back."
         button = self._button(mend.words, tip)
         button.clicked.connect(lambda: self.mended.emit(mend))

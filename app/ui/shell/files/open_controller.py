@@ -147,20 +147,29 @@ class OpenController(QObject):
         read(OpenedDrawing): the document will hold it next. opened(OpenedDrawing): the document holds it now.
             failed(sentence).
         asked(UndecidedDrawing): it is not opened before somebody has said how it is to be read.
+        opening_changed(name): this file is being read now, or none, "".
     """
 
     read = Signal(OpenedDrawing)
     opened = Signal(OpenedDrawing)
     asked = Signal(UndecidedDrawing)
     failed = Signal(str)
+    opening_changed = Signal(str)
 
     def __init__(self, document: Document, worker: Worker) -> None:
         super().__init__()
         self._document, self._worker = document, worker
         self._job_id: int | None = None
+        self._name = ""
         self._then: Callable[[], None] | None = None
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
+        worker.busy_changed.connect(lambda _: self.opening_changed.emit(self.opening))
+
+    @property
+    def opening(self) -> str:
+        """Name of the file that is being read; "" = none is."""
+        return self._name if self._job_id is not None and self._job_id == self._worker.job_id else ""
 
     def open(self, path: Path, reading: ReadingOptions = AS_THE_FILE_SAYS, before: Job | None = None) -> None:
         """Read a drawing; the document changes only when it has been read whole.
@@ -171,13 +180,15 @@ class OpenController(QObject):
             before: the job that goes on with a drawing; None = the document's.
         """
         before, self._then = before or self._document.job, None
+        self._name = path.name
         self._job_id = self._worker.start(
             lambda progress: _read(path, reading, before, progress), self._document.revision
         )
+        self.opening_changed.emit(self.opening)
 
     def once_open(self, action: Callable[[], None]) -> None:
         """Do something with the drawing that is being read as soon as it is open, or else at once."""
-        if self._job_id is not None and self._job_id == self._worker.job_id:
+        if self.opening:
             self._then = action
         else:
             action()

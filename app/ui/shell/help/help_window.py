@@ -16,8 +16,8 @@ from ...framework.theme import LIGHT, Theme, mixed
 from ...views.language.usage import usage_of
 from .help_pages import HelpPage, pages, rendered
 
-_SIZE = (860, 640)
-_LIST_PX = 200
+_SIZE = (884, 640)
+_LIST_PX = 224
 LANGUAGE = "language"
 
 
@@ -42,6 +42,8 @@ class HelpWindow(QWidget):
         self.search.installEventFilter(self)
         self.search.textEdited.connect(lambda _: self._on_typed())
         self.list.setAccessibleName("Pages")
+        self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.currentRowChanged.connect(self._show_row)
         self.browser.setFrameShape(QTextBrowser.Shape.NoFrame)
         self.browser.setOpenLinks(False)

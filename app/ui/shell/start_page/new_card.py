@@ -12,19 +12,20 @@ from ..new_job import MATERIALS, NewPart
 from .file_card import HEIGHT
 
 _LENGTHS = (("Along X", 80.0), ("Along Y", 50.0), ("Thickness", 10.0))
+_CORNERS = NumberSpec("Corner R", low=0.0, high=10_000, tip="Radius of the outline's corners; 0 = they are sharp.")
 _NAME_PX = 68
 """So narrow that the card takes two columns of the page, no more, in a window of 1024 px."""
 
 
 class NewCard(QFrame):
-    """Three lengths, two lists, one button.
+    """Four lengths, two lists, one button.
 
     Signals:
         begun(NewPart): this is to be made.
 
     Attributes:
-        lengths: along X, Y and Z, mm. material, machine: what of, and what writes the NC text.
-        outline: whether the part's rectangle is drawn.
+        lengths: along X, Y and Z, mm. corners: radius of the outline's, mm.
+        material, machine: what of, and what writes the NC text. outline: whether the part's rectangle is drawn.
     """
 
     begun = Signal(NewPart)
@@ -41,6 +42,10 @@ class NewCard(QFrame):
         ]
         for field, (_, value) in zip(self.lengths, _LENGTHS, strict=True):
             field.show_value(value)
+        self.corners = NumberField(_CORNERS, label_width=_NAME_PX)
+        self.corners.show_value(0.0)
+        self._numbers = (*self.lengths, self.corners)
+        for field in self._numbers:
             field.note.hide()
         self.material = ListField("Material", [(name, name.capitalize()) for name in MATERIALS], _NAME_PX)
         self.machine = ListField("Machine", [], _NAME_PX)
@@ -48,13 +53,17 @@ class NewCard(QFrame):
         self.outline.setChecked(True)
         self.begin.setProperty("role", "primary")
         self.begin.clicked.connect(self._begin)
-        for field in self.lengths:
+        self.outline.toggled.connect(self.corners.setEnabled)
+        for field in self._numbers:
             field.edit.returnPressed.connect(self._begin)
         self._lay_out()
 
     def _lay_out(self) -> None:
         left, right = QVBoxLayout(), QVBoxLayout()
-        for column, widgets in ((left, self.lengths), (right, (self.material, self.machine, self.outline))):
+        for column, widgets in (
+            (left, self._numbers),
+            (right, (self.material, self.machine, self.outline)),
+        ):
             column.setSpacing(4)
             for widget in widgets:
                 column.addWidget(widget)
@@ -80,9 +89,17 @@ class NewCard(QFrame):
         self.machine.show_value(chosen)
 
     def _begin(self) -> None:
-        values = [field.value for field in self.lengths]
-        if all(value is not None for value in values):
-            x, y, z = (float(value or 0.0) for value in values)
-            self.begun.emit(
-                NewPart(x, y, z, str(self.material.value), str(self.machine.value), self.outline.isChecked())
-            )
+        for field in self._numbers:
+            field.commit()  # Enter is told before the field takes what was typed
+        wrong = next((field for field in self._numbers if field.reason.text()), None)
+        if wrong is not None:
+            wrong.edit.setFocus()
+            return
+        x, y, z = (field.number for field in self.lengths)
+        part = NewPart(
+            x, y, z, str(self.material.value), str(self.machine.value), self.outline.isChecked(), self.corners.number
+        )
+        if part.outline and part.round > part.widest_round:
+            self.corners.refuse(f"At most {part.widest_round:g} mm, half of the shorter side.")
+        else:
+            self.begun.emit(part)

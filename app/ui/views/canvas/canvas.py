@@ -258,6 +258,8 @@ class Canvas(InteractiveViewport):
         if self._mode is CanvasMode.DRAW and self.tool is CanvasTool.SELECT:
             overlay.paint_grips(painter, self.view, self.grips.points, self._grip_under, theme)
         if self.runner.tool is not None:
+            for curve in () if self.runner.shows_change else self.runner.tool.picked:
+                overlay.paint_highlight(painter, self.view, curve_path(curve), (theme.accent, theme.accent_text))
             self._paint_tool(painter)
         self._paint_marks(painter)
         if self.banding and self.band_from is not None and self.mouse is not None:
@@ -331,7 +333,7 @@ class Canvas(InteractiveViewport):
         end = typed.answer(tool, at)
         end = end if isinstance(end, tuple) else at
         if isinstance(tool, SelectionDragTool):
-            for _ in self.picture.selected_steps(painter, self._carried_view(tool, end), theme.accent, self.area):
+            for _ in self.picture.selected_steps(painter, self._carried_view(tool, end), theme.selection, self.area):
                 pass
         preview = self.runner.preview(at)
         self._preview_picture.paint(painter, self.view, preview.trial, theme)

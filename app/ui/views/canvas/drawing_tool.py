@@ -102,6 +102,11 @@ class DrawingTool:
         return False
 
     @property
+    def picked(self) -> tuple[Curve, ...]:
+        """The curves that were picked so far."""
+        return ()
+
+    @property
     def wants(self) -> InputKind:
         """What is asked for now."""
         return InputKind.POINT

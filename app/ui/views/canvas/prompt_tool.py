@@ -80,6 +80,11 @@ class PromptTool(DrawingTool):
         return self.asks[min(len(self.answers), len(self.asks) - 1)]
 
     @property
+    def picked(self) -> tuple[Curve, ...]:
+        """The curves that were picked so far."""
+        return tuple(answer.curve for answer in self.answers if isinstance(answer, Pick))
+
+    @property
     def wants(self) -> InputKind:
         """What is asked for now."""
         return InputKind.POINT if self.setting else self.ask.wants

@@ -155,6 +155,13 @@ class Viewport(QWidget):
         self.set_view(fitted(box, self.free_area(box)))
         self._fitted = box
 
+    def cover_right(self, width: float) -> None:
+        """Tell how wide what is laid over the right is now, px; what was fitted is fitted anew beside it."""
+        if width != self.covered_right:
+            self.covered_right = width
+            if self._fitted is not None:
+                self.glide_to_box(self._fitted)
+
     def free_area(self, box: Box) -> QRectF:
         """Return the part of the area that a box in mm is fitted into: nothing laid over it covers it, unless there is
         no room.

@@ -179,7 +179,7 @@ class CurvesPanel(QScrollArea):
         Raises:
             HitofudeError: it cannot be so; a sentence.
         """
-        from ....gcode.posts.posts import load_post
+        from ....gcode.posts import load_post
         from ....usecases.smoothing.result import OutputForm
 
         name, profile = self.post.value, self.outline.profile() if self.region.value == "outline" else None
@@ -233,6 +233,7 @@ class CurvesPanel(QScrollArea):
         self.title.setText(_headline(told, {piece.kept for piece in done.pieces}))
         while (item := self._grid.takeAt(0)) is not None:
             if (widget := item.widget()) is not None:
+                widget.hide()
                 widget.deleteLater()
         self.figures = {}
         for row, (name, value, tip) in enumerate(_figures(told) if changed else ()):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -21,13 +22,29 @@ from .motion_shapes import MotionShapes, ViewSide, shape_motions
 from .painting.motion_layer import MotionLayer
 from .program_text import ProgramText, program_text
 
-SUFFIXES = (".ngc", ".nc", ".tap", ".gcode", ".cnc", ".g", ".gc", ".eia", ".min", ".mpf", ".txt")
+SUFFIXES = (".ngc", ".nc", ".tap", ".gcode", ".cnc", ".g", ".gc", ".eia", ".min", ".mpf", ".spf", ".h", ".iso", ".txt")
+"""Those of controls that are not read are among them: what is said of such a program names its control."""
+
+_HEAD_BYTES, _BLOCKS = 4096, 2
+_BLOCK = re.compile(rb"^\s*/?(?:N\d+\s*)?[GMTO]\s*\d", re.MULTILINE)
 FILTER = f"NC programs ({' '.join('*' + suffix for suffix in SUFFIXES)});;All files (*)"
 
 
 def is_program(path: Path) -> bool:
     """Return whether a file's name says that it is an NC program."""
     return path.suffix.lower() in SUFFIXES
+
+
+def looks_like_program(path: Path) -> bool:
+    """Return whether a file of any name begins as an NC program does: many controls give theirs no suffix, or an own
+    one; of none that cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            head = file.read(_HEAD_BYTES)
+    except OSError:
+        return False
+    return b"\0" not in head and len(_BLOCK.findall(head)) >= _BLOCKS
 
 
 @dataclass(frozen=True, eq=False)

@@ -45,11 +45,12 @@ class FilmSet:
     """What was computed.
 
     Attributes:
-        request: for which. part: the pixels. made: the paths. films: of each variant that was asked for, by
-            `published`.
+        request: for which. job: whose paths are shown, that of the request unless its operations choose curves.
+        part: the pixels. made: the paths. films: of each variant that was asked for, by `published`.
     """
 
     request: FilmRequest
+    job: Job
     part: BitmapPart
     made: BitmapProgram
     films: dict[bool, Film]
@@ -76,23 +77,32 @@ def film_set_of(request: FilmRequest, before: FilmSet | None = None, progress: P
     if before is not None and request.same_paths(before.request):
         if request.published in before.films:
             return replace(before, request=request)
-        part, made, films = before.part, before.made, dict(before.films)
+        job, part, made, films = before.job, before.part, before.made, dict(before.films)
     else:
         progress.step(0.0, "Drawing the pixels")
-        part, films = request.pixels or _drawn(request), {}
+        job = _shown_job(request.job)
+        part, films = request.pixels or _drawn(job, request.size), {}
         _check(part, request.pixels is not None)
-        made = compute_on_bitmap(request.job, part, progress.part(0.02, 0.6))
+        made = compute_on_bitmap(job, part, progress.part(0.02, 0.6))
     variant = Variant.PUBLISHED if request.published else Variant.SETTLED
     films[request.published] = film_of(
-        stages(request.job, part, made.paths, variant), _about(part, made), progress.part(0.6, 1.0)
+        stages(job, part, made.paths, variant), _about(part, made), progress.part(0.6, 1.0)
     )
-    return FilmSet(request, part, made, films)
+    return FilmSet(request, job, part, made, films)
 
 
-def _drawn(request: FilmRequest) -> BitmapPart:
+def _shown_job(job: Job) -> Job:
+    """Return the job, or, where operations choose curves, that by the rule of 1986, which knew no such choice."""
+    from ....usecases.proposal.propose import as_in_1986
+
+    choosing = any(operation.cut.curves for operation in job.operations if operation.cut.enabled)
+    return as_in_1986(job).job if choosing else job
+
+
+def _drawn(job: Job, size: BitmapSize) -> BitmapPart:
     from ....usecases.making.bitmap_job import drawn_job
 
-    return drawn_job(request.job, request.size).part
+    return drawn_job(job, size).part
 
 
 def _check(part: BitmapPart, picture: bool) -> None:

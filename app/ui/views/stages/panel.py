@@ -27,6 +27,7 @@ LEAST, MOST = 100, 2000
 _LEAST_ROUND = 16
 """Rows and columns of a bitmap that is as large as it must be, at the least."""
 
+BY_THE_RULE = "Curves that operations choose were unknown in 1986: this is how it machines the whole drawing."
 _TOLD_PX = 208
 """Height that nearly all explanations fit in, so that what is below stays where it is while stages follow one
 another.
@@ -69,7 +70,9 @@ class StagesPanel(QScrollArea):
                 "Pitch", "mm", 0.0001, 1000, 4, True, "Size of a pixel; the bitmap is then as large as it must be."
             )
         )
-        self.bitmap, self.given_up, self.finding = muted(), muted(), QLabel()
+        self.points.show_value(BitmapSize().points)
+        self.pitch.hide()  # known with the first bitmap
+        self.bitmap, self.given_up, self.rule, self.finding = muted(), muted(), muted(), QLabel()
         self.finding.setProperty("role", "error")
         self._shape = (0, 0)
         self._told = QWidget()
@@ -83,6 +86,7 @@ class StagesPanel(QScrollArea):
             self.chains,
             *self._lines,
             self.given_up,
+            self.rule,
         )
         self._lay_out()
         self.rules.chosen.connect(self.rules_chosen)
@@ -93,7 +97,8 @@ class StagesPanel(QScrollArea):
     def _lay_out(self) -> None:
         inner = QWidget()
         inner.setObjectName("sidePanel")
-        for label in (self.title, self.sentence, self.notes, self.wrong, self.bitmap, self.given_up, self.finding):
+        made = (self.bitmap, self.given_up, self.rule, self.finding)
+        for label in (self.title, self.sentence, self.notes, self.wrong, *made):
             label.setWordWrap(True)
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.rules.show_value(FillRules.SETTLED)
@@ -107,7 +112,7 @@ class StagesPanel(QScrollArea):
             told.addWidget(label)
         told.addStretch(1)
         self._told.setMinimumHeight(_TOLD_PX)
-        bitmap = (self.rules, self.wrong, self.points, self.pitch, self.bitmap, self.given_up, self.finding)
+        bitmap = (self.rules, self.wrong, self.points, self.pitch, *made)
         column.addWidget(self._told)
         for line, group in ((self._lines[0], (self.chains,)), (self._lines[1], bitmap)):
             column.addSpacing(2)
@@ -152,6 +157,7 @@ class StagesPanel(QScrollArea):
         )
         paths = any(each.levels for each in reel.made.paths)
         self.given_up.setText(f"{cost}{_rough(reel.made.unsmoothed)}" if paths else "")
+        self.rule.setText("" if reel.job is reel.request.job else BY_THE_RULE)
         self.finding.setText(_finding(reel))
         self.finding.setVisible(bool(self.finding.text()))
 

@@ -97,6 +97,7 @@ class TextFilmPanel(QScrollArea):
         self.settled.setVisible(bool(step is not None and step.settled))
         while (item := self._grid.takeAt(0)) is not None:
             if (widget := item.widget()) is not None:
+                widget.hide()
                 widget.deleteLater()
         self.figures = {}
         for row, figure in enumerate(step.figures if step is not None else ()):

@@ -15,14 +15,24 @@ from ....core.atomic import write_atomically
 from ....core.errors import HitofudeError, InputError
 from ....core.resources import resource
 from ....formats.scene.edit import line_of, with_table
+from ....model.finding import Finding, FindingKind
 from ....model.scene import Scene
 from ....usecases.scene.solid_files import SOLIDS, STEPS
 from ....usecases.step_extra import fetch_step_reader, step_files_readable
-from ...framework.controller import Controller, ShownDocument
+from ...framework.controller import Controller, DocumentMend, ShownDocument
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
 from ..nc.program_reader import ProgramReader, ProgramSource
-from .new_parts import NEW_SCENE, Table, free_name, new_passes, new_surface, new_tool, surface_from_curves
+from .new_parts import (
+    NEW_SCENE,
+    Table,
+    free_name,
+    new_passes,
+    new_surface,
+    new_tool,
+    passes_across,
+    surface_from_curves,
+)
 from .scene_computation import SceneComputation, SceneState
 from .scene_document import UNTITLED, SceneDocument
 from .scene_fields import SHAPES
@@ -117,7 +127,11 @@ class SceneController(Controller):
             return None
         work = self.work
         return ShownDocument(
-            self.document.name, self.document.modified, None if work.busy else work.verdict, work.findings
+            self.document.name,
+            self.document.modified,
+            None if work.busy else work.verdict,
+            work.findings,
+            mends=self._mends,
         )
 
     def open(self, path: Path) -> None:
@@ -342,6 +356,14 @@ class SceneController(Controller):
         self._side.panel.awaited = (name, number)
         self._change(lambda text: with_table(text, name, made))
 
+    def _mends(self, finding: Finding) -> tuple[DocumentMend, ...]:
+        """Return what clears metal that passes have left."""
+        across = passes_across(self.work.scene) if self.work.scene is not None else None
+        if finding.kind is not FindingKind.LEFT_REACHABLE or across is None or self.work.busy:
+            return ()
+        change = f"T{across['tool']} at {across['angle_deg']:g} degrees"
+        return (DocumentMend("Add passes across", change, lambda: self._add("passes", lambda _: across)),)
+
     def _show_in_text(self, name: str, number: int) -> None:
         self._side.show_page(TEXT)
         self._side.text.editor.go_to(1 if name == "scene" else line_of(self.document.text, name, number))
@@ -351,7 +373,7 @@ class SceneController(Controller):
         self._side.points.choose(number)
 
     def _on_read(self, scene: Scene) -> None:
-        from ....gcode.posts.posts import post_titles
+        from ....gcode.posts import post_titles
 
         self._side.panel.show_posts(tuple(post_titles().items()))
         self._side.panel.show_scene(scene)

@@ -171,6 +171,7 @@ class ColourField(QWidget):
             for colour in [own for own in self.swatches if own not in ("", *(each.lower() for each in TOOL_COLOURS))]:
                 gone = self.swatches.pop(colour)
                 self._group.removeButton(gone)
+                gone.hide()
                 gone.deleteLater()
             self._add(value)
         self.swatches[value.lower()].setChecked(True)

@@ -148,6 +148,20 @@ def new_passes(scene: Scene) -> Table:
     }
 
 
+def passes_across(scene: Scene) -> Table | None:
+    """Return passes square to the scene's last ones, with their tool, as dense as they; None where these are not the
+    straight passes over everything, or such passes are there.
+    """
+    last = next((each for each in reversed(scene.passes) if each.enabled), None)
+    if last is None or last.fan_deg is not None or last.guide or last.line or last.boundary:
+        return None
+    turned = (last.angle_deg + 90.0) % 180.0
+    if any(each.enabled and each.angle_deg % 180.0 == turned and each.tool == last.tool for each in scene.passes):
+        return None
+    dense = {"pitch": last.pitch} if last.pitch is not None else {"scallop": last.scallop}
+    return {"tool": last.tool, "angle_deg": turned, **dense}
+
+
 def new_tool(scene: Scene) -> Table:
     """Return a new ball end mill with a number of its own."""
     number = max((tool.number for tool in scene.tools), default=0) + 1

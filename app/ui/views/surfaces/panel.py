@@ -289,6 +289,9 @@ class ScenePanel(QScrollArea):
 
     def _show_stock(self, scene: Scene) -> None:
         box = scene.stock.box or self._block
+        if box == (0.0,) * 6:
+            self.stock.setText("")  # known once the scene has been looked at
+            return
         size = f" {TIMES} ".join(
             f"{high - low:.3f}".rstrip("0").rstrip(".") for low, high in zip(box[:3], box[3:], strict=True)
         )
