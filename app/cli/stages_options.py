@@ -41,8 +41,9 @@ DIR gets, for every step in the text's order, NN_STEP.png and NN_STEP.npy (uint8
 the step leaves them after its last time. Where it has chain codes, NN_STEP.txt has those of every time, a line for
 each contour line: "region R turn T start ROW COLUMN: directions 0 to 7." (region 0 = all). Of a step that is repeated,
 for each region, peel and path, turns/NN_STEP_rR_tTTT.png is each time's plane, a point a pixel; its palette's indices
-are the codes. Of the texts B to E it gets NN_STEP.svg and .png, NN_STEP.csv where a step has a table, and film.json
-with what each step says, what is settled otherwise, and its figures, published ones beside. Codes: 0 empty, 1 contour
+are the codes. Of the texts B to E it gets NN_STEP.svg and .png, and NN_STEP.csv where a step has a table. Of all texts
+film.json has what each step says and its figures, of B to E also what is settled otherwise, published ones beside; of A
+what came of the published rules is in its sentence with --variant published. Codes: 0 empty, 1 contour
 or area, 2 traced, 3 R, 4 I, 5 processed, 6 outermost frame, 7 path further in, 8 circle, 9 long line, 10 vertex,
 11 short line, 12 arc, 13 free curve.
 """

@@ -9,7 +9,7 @@ from pathlib import Path
 from ..core.input_file import read_input
 from ..core.progress import Progress
 from ..core.resources import resource
-from ..exhibits.films.making import SAMPLES, film_files, make_film
+from ..exhibits.films.making import FILM, SAMPLES, film_files, make_film
 from ..exhibits.films.program_input import program_input
 from ..exhibits.films.step import TEXTS, PublishedText
 from ..exhibits.stage_files import run_stages, stage_files
@@ -28,8 +28,9 @@ def stages_outcome(arguments: argparse.Namespace, folder: Path, progress: Progre
     run = run_stages(path.name, read_input(path), requested, progress.part(0.0, 0.8))
     files = {folder / name: data for name, data in stage_files(run, progress.part(0.8, 1.0)).items()}
     folders = sorted({each.parent for each in files})
+    files[folder / FILM] = (json.dumps(run.report(), indent=2, allow_nan=False) + "\n").encode()
     if arguments.report is not None:
-        files[arguments.report] = (json.dumps(run.report(), indent=2, allow_nan=False) + "\n").encode()
+        files[arguments.report] = files[folder / FILM]
     counts = any(finding.counts for finding in run.findings)
     return CommandOutcome(files, stages_lines(run, folder), counts, folders)
 
@@ -43,5 +44,5 @@ def film_outcome(arguments: argparse.Namespace, folder: Path, progress: Progress
     film = make_film(text, source, film_options(arguments), progress.part(0.1, 0.8), cutting)
     files = {folder / name: data for name, data in film_files(film, progress.part(0.8, 1.0)).items()}
     if arguments.report is not None:
-        files[arguments.report] = files[folder / "film.json"]
+        files[arguments.report] = files[folder / FILM]
     return CommandOutcome(files, film_lines(film, folder), folders=[folder])

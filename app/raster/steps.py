@@ -53,8 +53,8 @@ STEPS: dict[int, tuple[str, str]] = {
     ),
     301: (
         "Trace the border",
-        "The border of what is left is traced; directions in which the average of five vectors would turn by more "
-        "than 180 degrees cannot be a border.",
+        "The border of what is left is traced; directions in which the average of five vectors would turn by 180 "
+        "degrees or more cannot be a border.",
     ),
     302: ("The first time?", "Only the border that is traced first is the area's frame."),
     303: (

@@ -104,6 +104,8 @@ def test_every_time_of_a_repeated_step_is_written(tmp_path: Path) -> None:
         == 0
     )
     steps = {step["number"]: step for step in json.loads(report.read_text())["steps"]}
+    assert (folder / "film.json").read_bytes() == report.read_bytes()
+    assert all(step["name"] and step["sentence"] and step["pixels"] for step in steps.values())
     chains = {
         number: (folder / f"{steps[number]['file']}.txt").read_text().splitlines()
         for number in (142, 144, 146, 301, 303, 306)

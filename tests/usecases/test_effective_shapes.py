@@ -116,6 +116,47 @@ def plain_spline(shape: str, sag: float) -> float:
     return off(shape, CubicSpline(along, ends)(np.linspace(0, along[-1], 100_000)))
 
 
+def by_effective(done: SmoothedProgram, points: Floats) -> Floats:
+    """The effective points that a program's report names, of all its points (n, 2)."""
+    (stretch,) = report(done)["stretches"]["listed"]
+    return points[[stretch["ranges"][0]["first"], *(each["last"] for each in stretch["ranges"])]]
+
+
+def random_shape(seed: int) -> tuple[Shape, float]:
+    """An ellipse or a wavy spline nobody has seen, and a sag."""
+    random = np.random.default_rng(seed)
+    sag = float(np.exp(random.uniform(math.log(0.002), math.log(0.05))))
+    if seed % 2:
+        a, b = random.uniform(10, 80, 2)
+        return lambda t: np.column_stack([a * np.cos(math.pi * t), b * np.sin(math.pi * t)]), sag
+    count = int(random.integers(5, 9))
+    x = np.linspace(0, 100, count) + random.uniform(-4, 4, count)
+    control = np.column_stack([x, random.uniform(-15, 15, count)])
+    curve = BSpline(np.concatenate([np.zeros(4), np.linspace(0, 1, count - 2)[1:-1], np.ones(4)]), control, 3)
+    return lambda t: curve(np.clip(t, 0, 1)), sag
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seed", range(10))
+def test_on_shapes_it_has_not_seen_it_is_as_good_as_the_plain_spline(seed: int, monkeypatch) -> None:
+    """Through the effective points that it found: at an inflection two facets may be one range, as in the text."""
+    shape, sag = random_shape(seed)
+    monkeypatch.setitem(SHAPES, f"random {seed}", shape)
+    done = written(f"random {seed}", sag, OutputForm.ARCS, 1)
+    ends = facet_ends(f"random {seed}", sag)
+    share = np.arange(1, INNER + 2) / (INNER + 1)
+    inner = (ends[:-1, None] + (ends[1:] - ends[:-1])[:, None] * share[None, :, None]).reshape(-1, 2)
+    points = by_effective(done, np.vstack([ends[:1], inner]).round(4))
+    along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    plain = off(f"random {seed}", CubicSpline(along, points)(np.linspace(0, along[-1], 100_000)))
+    own, by_all = (
+        off(f"random {seed}", cut(each)) for each in (done, written(f"random {seed}", sag, OutputForm.ARCS, 0))
+    )
+    assert done.nearness is not None and own <= 2 * plain + done.nearness
+    if len(points) == len(ends):
+        assert own <= max(by_all / 10, 2 * plain, 2 * DIGIT + done.nearness)
+
+
 FAMILY = [(shape, sag) for shape in SHAPES for sag in (0.002, 0.01, 0.05)]
 FAST = {("ellipse", 0.01), ("circle", 0.05)}
 
@@ -190,9 +231,10 @@ def test_a_facet_over_the_joint_of_a_line_and_an_arc_becomes_both(
 ) -> None:
     """So much of it is line, the rest is arc; ends of ranges on the line are within epsilon of it, as in the text."""
     step = 2 * math.acos(1 - sag / 20)
-    turn = (1 - share) * step + step * np.arange(0, math.floor((math.pi - (1 - share) * step) / step))
+    turn = step * (1 - share + np.arange(math.floor(math.pi / step + share)))
+    turn = turn[turn < math.pi - 0.3 * step]
     arc = np.column_stack([40 + 20 * np.sin(turn), 20 - 20 * np.cos(turn)])
-    after = 20 * (step - min(math.pi - turn[-1], 0.8 * step))
+    after = 20 * max(step - (math.pi - turn[-1]), 0.2 * step)
     program = along_facets(np.vstack([[0, 0], [40 - 20 * share * step, 0], arc, [40 - after, 40], [0, 40]]))
     choose = EffectiveOptions(max(sag / 10, 2 * DIGIT))
     done = smooth(

@@ -148,7 +148,8 @@ class _CompoundSteps:
             "One line and a rule",
             "A line on the XY plane and a rule are entered, from which follow the lines in which the cutting planes, "
             "upright on it, meet that plane: in the example parallel ones, a distance d apart.",
-            "The distance may also follow a height of the ridges between passes.",
+            "The distance may also follow a height of the ridges between passes; planes may also fan out from a place, "
+            "or stand square on a guide.",
             sketch.page(),
             (
                 FilmFigure("planes", len(planes.offsets)),

@@ -326,14 +326,16 @@ class _DexelSteps:
             f"{counts.wedges:,}. Wedges are red, half spheres at the ends of the path yellow.",
             self._net(self._shown_facets(self.cutter.radius / 8)).page(),
             (
-                FilmFigure("polygons with wedges", counts.wedges, "", counts.spheres),
-                FilmFigure("of these that look down", counts.drawn, "", counts.spheres_down),
+                FilmFigure("polygons with whole spheres", counts.spheres),
+                FilmFigure("of these spheres' polygons look down", counts.spheres_down),
+                FilmFigure("polygons with wedges", counts.wedges),
+                FilmFigure("of these that look down", counts.drawn),
             ),
         )
 
     def tessellated(self) -> FilmStep:
         """Return S105."""
-        rows = [("d / w", "facets", "off the closed form, mm", "stated, mm")]
+        rows = [("d / w", "facets", "off the closed form, straight up, mm", "stated, square to it, mm")]
         rows += [
             (f"{times:g}", f"{count:,}", f"{off:.6f}", f"{stated:.6f}") for times, count, off, stated in self.by_facet
         ]
@@ -408,7 +410,8 @@ class _DexelSteps:
             sketch.page(),
             (
                 FilmFigure("volume taken off here", taken, "mm³"),
-                FilmFigure("facets off the closed form", _apart(self.cut, self.exact), "mm", error),
+                FilmFigure("facets off the closed form, straight up", _apart(self.cut, self.exact), "mm"),
+                FilmFigure("stated, square to the surface", error, "mm"),
             ),
         )
 

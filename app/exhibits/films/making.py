@@ -28,6 +28,8 @@ SAMPLES = {
     PublishedText.E: "points.ngc",
 }
 """The file that a text is shown on unless another is named; B has the die of figure 11, which is computed."""
+FILM = "film.json"
+"""The file of all words and figures beside the pictures of a film's steps."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +112,7 @@ def film_files(film: TextFilm, progress: Progress = NO_PROGRESS) -> dict[str, by
         files[f"{stem}.svg"], files[f"{stem}.png"] = page_svg(step.page, title), page_png(step.page)
         if step.table:
             files[f"{stem}.csv"] = "\r\n".join([",".join(map(_cell, row)) for row in step.table] + [""]).encode()
-    files["film.json"] = (json.dumps(_plain(film), indent=1, allow_nan=False, ensure_ascii=False) + "\n").encode()
+    files[FILM] = (json.dumps(_plain(film), indent=1, allow_nan=False, ensure_ascii=False) + "\n").encode()
     return files
 
 

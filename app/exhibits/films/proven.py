@@ -192,7 +192,8 @@ class _ProvenSteps:
         if inside:
             after = "It lies in the region as a whole: this is the curve."
         elif fit.outside:
-            after = f"{fit.outside} points are too far from it, so control points are added where it fails."
+            many = "One point is" if fit.outside == 1 else f"{fit.outside} points are"
+            after = f"{many} too far from it, so control points are added where it fails."
         else:
             after = "All points are near, but it leaves the region between them, so control points are added there."
         return FilmStep(
