@@ -22,4 +22,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return [*globals(), *import_module(".api", __name__).__all__]
+    own = [name for name in globals() if name.startswith("__")]  # no name that this file only needs itself
+    return [*own, *import_module(".api", __name__).__all__]

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.curves import Arc, Circle, Line, Point
 from app.model.part import Contour, Entity, Layer, Part
 

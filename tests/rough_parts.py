@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from app.geometry.outlines import polygon_contour
 from app.geometry.overlay.overlay import without_crossings
-from app.geometry.region import polygon_contour
 from app.model.part import Contour
 from tests.part_shapes import bulged, circle, random_star, square
 

@@ -7,19 +7,28 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
+from ..core.errors import InputError
 from ..core.file_bytes import FileBytes
 from ..core.input_file import read_input
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.drawing import Drawing
 from ..formats.readers import read_drawing
+from ..formats.tools.materials import stock_material
 from ..model.job import Job
-from ..model.part import Units
+from ..model.machine import Machine
+from ..model.operation import Operation
+from ..model.part import Part, Units
 from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.tool import Tool
+from ..toolpath.feeds.proposal import CutEngagement, FeedProposal, proposed_feeds
+from ..usecases.advice import AdviceOptions, ToolAdvice, advice_for
 from ..usecases.batch.lanes import ExecutorLane, ProcessLane
 from ..usecases.batch.run import BatchRun
 from ..usecases.batch.task import BatchKind, BatchResult, BatchTask
+from ..usecases.better.improve import better as better_program
+from ..usecases.better.result import BetterOptions
 from ..usecases.cutting.cut import CutOptions
 from ..usecases.cutting.cut import cut as cut_programs
 from ..usecases.cutting.ready_setup import SetupRequest, setup_of
@@ -32,9 +41,47 @@ from ..usecases.job.options import MakeOptions
 from ..usecases.making import make as usecase
 from ..usecases.smoothing.result import SmoothOptions
 from ..usecases.smoothing.smooth import smooth as smooth_text
-from .results import CheckedProgram, CutMetal, MadeInlay, MadeProgram, MadeSurface, SmoothedText
+from .results import BetterText, CheckedProgram, CutMetal, MadeInlay, MadeProgram, MadeSurface, SmoothedText
 
 FilePath = str | os.PathLike[str]
+Given = TypeVar("Given")
+
+
+def _path(file: FilePath) -> Path:
+    """Return the path of a file that a script names.
+
+    Raises:
+        InputError: it names none.
+    """
+    if not isinstance(file, str | os.PathLike):
+        raise InputError(f"A file is named by its path, not by a {type(file).__name__}; save it, and give the path.")
+    return Path(file)
+
+
+def _given(value: Given | None, kind: type[Given], name: str) -> Given:
+    """Return what a script gives for an argument, or what stands for nothing.
+
+    Raises:
+        InputError: it is of another kind.
+    """
+    if value is not None and not isinstance(value, kind):
+        raise InputError(f"{name} is a {type(value).__name__}; it must be hitofude.{kind.__name__}(...).")
+    return kind() if value is None else value
+
+
+def _ensure_job(job: Job) -> None:
+    """Refuse a job whose parts are of another kind, which a script may take for one another.
+
+    Raises:
+        InputError: it is one.
+    """
+    if not isinstance(job.part, Part):
+        raise InputError(
+            f"The job's part is a {type(job.part).__name__}; it must be the part of a drawing: read(...).part."
+        )
+    for name, kind, values in (("tools", Tool, job.tools), ("operations", Operation, job.operations)):
+        if not isinstance(values, Sequence) or not all(isinstance(each, kind) for each in values):
+            raise InputError(f"The job's {name} must be a tuple of {name}, such as ({name[:-1]},).")
 
 
 def read(
@@ -49,7 +96,9 @@ def read(
     Raises:
         InputError: it cannot be read, or something that is said has no effect on it.
     """
-    path = Path(drawing)
+    path = _path(drawing)
+    if units is not None and not isinstance(units, Units):
+        raise InputError(f"units is {units!r}; it must be Units.MM or Units.INCH.")
     return read_drawing(path.name, read_input(path), units, layers, how)
 
 
@@ -65,10 +114,12 @@ def make(what: FilePath | Job, options: MakeOptions | None = None, progress: Pro
         HitofudeError: it cannot be used, or nothing in it can be cut with these tools.
         Cancelled: by progress.
     """
+    asked = _given(options, MakeOptions, "options")
     if isinstance(what, Job):
-        return MadeProgram(usecase.export(what, progress, machine=options.machine if options else None))
-    path = Path(what)
-    return MadeProgram(usecase.make(path.name, read_input(path), options or MakeOptions(), progress))
+        _ensure_job(what)
+        return MadeProgram(usecase.export(what, progress, machine=asked.machine))
+    path = _path(what)
+    return MadeProgram(usecase.make(path.name, read_input(path), asked, progress))
 
 
 def inlay(
@@ -88,11 +139,38 @@ def inlay(
         HitofudeError: it cannot be used.
         Cancelled: by progress.
     """
-    fitting = wished or InlayOptions()
+    fitting, asked = _given(wished, InlayOptions, "wished"), _given(options, MakeOptions, "options")
     if isinstance(what, Job):
+        _ensure_job(what)
         return MadeInlay(inlay_of(what, fitting, progress))
-    path = Path(what)
-    return MadeInlay(inlay_drawing(path.name, read_input(path), options or MakeOptions(), fitting, progress))
+    path = _path(what)
+    return MadeInlay(inlay_drawing(path.name, read_input(path), asked, fitting, progress))
+
+
+def tools(drawing: FilePath, options: AdviceOptions | None = None, progress: Progress = NO_PROGRESS) -> ToolAdvice:
+    """Return which tools a drawing wants, and why: `advice.pocket`, `advice.contour`, what each reaches and leaves.
+
+    Raises:
+        HitofudeError: the drawing or a tool cannot be used, or nothing in it is closed.
+        Cancelled: by progress.
+    """
+    path = _path(drawing)
+    return advice_for(path.name, read_input(path), _given(options, AdviceOptions, "options"), progress)
+
+
+def feeds(
+    tool: Tool, material: str, engagement: CutEngagement | None = None, machine: Machine | None = None
+) -> FeedProposal:
+    """Return speed and feeds of a tool in a material, each number with its reason.
+
+    Args:
+        material: its word, such as "aluminium". engagement: how much of the tool is in metal; without it a full slot.
+        machine: that bounds them; None = a usual one.
+
+    Raises:
+        InputError: there is no such material.
+    """
+    return proposed_feeds(tool, stock_material(material), _given(engagement, CutEngagement, "engagement"), machine)
 
 
 def check(program: FilePath, options: ExamineOptions | None = None, progress: Progress = NO_PROGRESS) -> CheckedProgram:
@@ -102,8 +180,8 @@ def check(program: FilePath, options: ExamineOptions | None = None, progress: Pr
         InputError: it cannot be read at all; what is wrong in it is among the problems.
         Cancelled: by progress.
     """
-    path = Path(program)
-    return CheckedProgram(examine(path.name, read_input(path), options or ExamineOptions(), progress))
+    path = _path(program)
+    return CheckedProgram(examine(path.name, read_input(path), _given(options, ExamineOptions, "options"), progress))
 
 
 def cut(
@@ -127,9 +205,11 @@ def cut(
         HitofudeError: a file cannot be read, or a tool or the stock is not known.
         Cancelled: by progress.
     """
-    paths, request = [Path(program) for program in programs], request or SetupRequest()
+    paths, request = [_path(program) for program in programs], _given(request, SetupRequest, "request")
+    if not paths:
+        raise InputError("There is no program to cut; name one at least.")
     if against is not None:
-        part = Path(against)
+        part = _path(against)
         request = replace(request, against=FileBytes(part.name, read_input(part)), beside=_reader_beside(part))
     if tools:
         request = replace(request, tools=(ToolSource("the script", dict(tools)), *request.tools))
@@ -138,7 +218,7 @@ def cut(
         examine(path.name, read_input(path), ExamineOptions(), share) for path, share in zip(paths, shares, strict=True)
     )
     ready = setup_of(examined, request, progress.part(0.2, 0.25))
-    done = cut_programs(ready.setup, options or CutOptions(), progress.part(0.25, 1.0))
+    done = cut_programs(ready.setup, _given(options, CutOptions, "options"), progress.part(0.25, 1.0))
     return CutMetal(cut_report(done, ready), done, paths[0].name)
 
 
@@ -177,9 +257,19 @@ def batch(
 
 
 def _task(number: int, part: BatchPart) -> BatchTask:
-    path = Path(part.path)
-    kinds = {MakeOptions: BatchKind.MAKE, ExamineOptions: BatchKind.CHECK, SmoothOptions: BatchKind.SMOOTH}
-    return BatchTask(path.name, read_input(path), kinds[type(part.options)], part.options, f"{number}/{path.stem}.ngc")
+    if not isinstance(part, BatchPart):
+        raise InputError(f"parts[{number}] is a {type(part).__name__}; it must be hitofude.BatchPart(path, options).")
+    path, kind = _path(part.path), _KINDS.get(type(part.options))
+    if kind is None:
+        known = ", ".join(each.__name__ for each in _KINDS)
+        raise InputError(
+            f"parts[{number}] has a {type(part.options).__name__} for options; it must have one of {known}."
+        )
+    return BatchTask(path.name, read_input(path), kind, part.options, f"{number}/{path.stem}.ngc")
+
+
+_KINDS = {MakeOptions: BatchKind.MAKE, ExamineOptions: BatchKind.CHECK, SmoothOptions: BatchKind.SMOOTH}
+"""What is done with a part of a batch, by its options."""
 
 
 def smooth(program: FilePath, options: SmoothOptions | None = None, progress: Progress = NO_PROGRESS) -> SmoothedText:
@@ -189,8 +279,29 @@ def smooth(program: FilePath, options: SmoothOptions | None = None, progress: Pr
         HitofudeError: it cannot be read, or not be written for the control.
         Cancelled: by progress.
     """
-    path = Path(program)
-    return SmoothedText(smooth_text(path.name, read_input(path), options or SmoothOptions(), progress))
+    path = _path(program)
+    return SmoothedText(smooth_text(path.name, read_input(path), _given(options, SmoothOptions, "options"), progress))
+
+
+def better(
+    program: FilePath,
+    options: BetterOptions | None = None,
+    request: SetupRequest | None = None,
+    progress: Progress = NO_PROGRESS,
+) -> BetterText:
+    """Return a better program in place of one that goes over surfaces in passes, cut again and compared.
+
+    Args:
+        request: tools and stock that the program does not tell of itself.
+
+    Raises:
+        HitofudeError: it cannot be read, is no such program, or the tolerance does not hold its facets.
+        Cancelled: by progress.
+    """
+    path, asked = _path(program), _given(options, BetterOptions, "options")
+    return BetterText(
+        better_program(path.name, read_input(path), asked, _given(request, SetupRequest, "request"), progress)
+    )
 
 
 def surface(scene: FilePath, progress: Progress = NO_PROGRESS) -> MadeSurface:
@@ -208,7 +319,7 @@ def surface(scene: FilePath, progress: Progress = NO_PROGRESS) -> MadeSurface:
     from ..usecases.scene_program.nc import write_scene_nc
     from ..usecases.scene_program.report import surface_report
 
-    path = Path(scene)
+    path = _path(scene)
     sources = sources_of(_reader_beside(path))
     computed = compute(read_scene(path.name, read_input(path)), sources, progress.part(0.0, 0.6))
     written = write_scene_nc(computed, progress.part(0.6, 1.0))

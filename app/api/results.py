@@ -10,8 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from ..core.atomic import write_together
+from ..core.durations import minutes_words
 from ..core.errors import InputError
 from ..core.input_file import read_input
+from ..core.wording import counted
 from ..formats.sheet import SUFFIXES
 from ..gcode.interpreter.program import ProgramProblem
 from ..model.finding import Finding
@@ -19,6 +21,8 @@ from ..model.job import Job
 from ..model.motion import Motions
 from ..model.moves import Moves
 from ..simulation.field.workpiece import Heights
+from ..usecases.better import report as better_report
+from ..usecases.better.result import BetterProgram
 from ..usecases.cutting.cut import CutProgram
 from ..usecases.cutting.report import CutReport
 from ..usecases.examine import ExaminedProgram
@@ -31,8 +35,15 @@ from ..usecases.smoothing.result import SmoothedProgram
 Report = dict[str, Any]
 
 
-@dataclass(frozen=True, eq=False)
-class MadeProgram:
+class _Shown:
+    """What a prompt shows of a result: its first line, not the ten thousand values that are behind it."""
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {str(self).partition(chr(10))[0]}>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MadeProgram(_Shown):
     """A program that was made, read back and proven.
 
     Attributes:
@@ -115,8 +126,8 @@ class MadeProgram:
         return self.result.report.summary(self.job.part.name)
 
 
-@dataclass(frozen=True, eq=False)
-class MadeInlay:
+@dataclass(frozen=True, eq=False, repr=False)
+class MadeInlay(_Shown):
     """A pocket and the plug that fits into it, read back, proven, and laid into one another.
 
     Attributes:
@@ -169,8 +180,8 @@ class MadeInlay:
         return "\n".join([str(self.pocket), str(self.plug), self.fit.summary()])
 
 
-@dataclass(frozen=True, eq=False)
-class CheckedProgram:
+@dataclass(frozen=True, eq=False, repr=False)
+class CheckedProgram(_Shown):
     """An NC program as its control reads it.
 
     Attributes:
@@ -206,11 +217,13 @@ class CheckedProgram:
 
     def __str__(self) -> str:
         lines = [problem.message(self.result.name) for problem in self.problems]
-        return "\n".join([f"{self.result.name}: {len(lines)} problems, {self.time_s / 60:.1f} min", *lines])
+        return "\n".join(
+            [f"{self.result.name}: {counted(len(lines), 'problem')}, {minutes_words(self.time_s)} min", *lines]
+        )
 
 
-@dataclass(frozen=True, eq=False)
-class _Reported:
+@dataclass(frozen=True, eq=False, repr=False)
+class _Reported(_Shown):
     """What a report has been made of.
 
     Attributes:
@@ -238,7 +251,7 @@ class _Reported:
         return self.told.summary()
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CutMetal(_Reported):
     """What programs leave of their stock, and how near it is to the part.
 
@@ -264,8 +277,33 @@ class CutMetal(_Reported):
         return self.png()
 
 
-@dataclass(frozen=True, eq=False)
-class SmoothedText:
+@dataclass(frozen=True, eq=False, repr=False)
+class _NewText(_Shown):
+    """A program in place of another one.
+
+    Attributes:
+        result: all that is known of it.
+    """
+
+    result: SmoothedProgram | BetterProgram
+
+    @property
+    def text(self) -> str:
+        """Its NC text."""
+        return self.result.data.decode("latin-1")
+
+    def save(self, path: str | os.PathLike[str]) -> tuple[Path, ...]:
+        """Write the program, whole or not at all.
+
+        Raises:
+            InputError: it cannot be written.
+        """
+        write_together({Path(path): self.result.data})
+        return (Path(path),)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SmoothedText(_NewText):
     """A program that was smoothed, read back and proven.
 
     Attributes:
@@ -273,11 +311,6 @@ class SmoothedText:
     """
 
     result: SmoothedProgram
-
-    @property
-    def text(self) -> str:
-        """Its NC text."""
-        return self.result.data.decode("latin-1")
 
     @property
     def bound(self) -> float:
@@ -303,22 +336,42 @@ class SmoothedText:
 
         return report(self.result)
 
-    def save(self, path: str | os.PathLike[str]) -> tuple[Path, ...]:
-        """Write the program, whole or not at all.
-
-        Raises:
-            InputError: it cannot be written.
-        """
-        write_together({Path(path): self.result.data})
-        return (Path(path),)
-
     def __str__(self) -> str:
         from ..usecases.smoothing.report import certificate
 
         return "\n".join(certificate(self.result))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
+class BetterText(_NewText):
+    """A program whose passes were made anew, cut again and compared with the old one.
+
+    Attributes:
+        result: all that is known of it.
+    """
+
+    result: BetterProgram
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What somebody has to know before it is used."""
+        return better_report.findings(self.result)
+
+    @property
+    def clean(self) -> bool:
+        """True when no finding counts."""
+        return not any(finding.counts for finding in self.findings)
+
+    @property
+    def report(self) -> Report:
+        """Everything that was found, by the keys of `better --report`."""
+        return better_report.report(self.result)
+
+    def __str__(self) -> str:
+        return "\n".join(better_report.lines(self.result))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class MadeSurface(_Reported):
     """The program over the surfaces of a scene, proven.
 

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from ..gcode.interpreter.dialect import Dialect
-from ..gcode.posts.posts import load_post, post_names
+from ..gcode.posts import load_post, post_names
 from ..usecases.better.result import BetterOptions
 from ..usecases.cutting.ready_setup import SetupRequest
 from ..usecases.cutting.setup_tools import ToolSource

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import HitofudeError, InputError
+from ..core.wording import either
 from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import angle, length
 from ..formats.job.toml import ORIGIN_HELP, parse_origin, read_units
@@ -49,7 +50,7 @@ ENGINE_HELP = (
 def _shapes() -> str:
     """Return how a tool of each kind is told."""
     ways = {
-        kind: " or ".join(
+        kind: either(
             ":".join(kind.spelled().split(":")[: len(kind.given) + 1 - fewer])
             for fewer in range(kind.omissible, -1, -1)
         )

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from ..core.errors import InputError
+from ..core.wording import either
 from ..fitting.point_curves.correction import CorrectionMove, CorrectionOptions, CorrectionScope
 from ..fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
 from ..fitting.point_curves.effective_points import EffectiveOptions, RangeEnds
@@ -108,9 +109,7 @@ def _pair(kinds: dict[str, Kind]) -> Callable[[str], tuple[Kind, float]]:
     def read(text: str) -> tuple[Kind, float]:
         name, _, value = text.partition(":")
         if name not in kinds or not value:
-            raise argparse.ArgumentTypeError(
-                f"is wrong: '{text}'; write {' or '.join(f'{kind}:0.25' for kind in kinds)}"
-            )
+            raise argparse.ArgumentTypeError(f"is wrong: '{text}'; write {either(f'{kind}:0.25' for kind in kinds)}")
         return kinds[name], number("value", least=0.0)(value)
 
     return read

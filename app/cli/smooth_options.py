@@ -10,8 +10,7 @@ from ..core.errors import InputError, ParameterError
 from ..fitting.line_arcs.arc_fit import BEND
 from ..fitting.point_curves.region_profile import RegionProfile, profile_of_formula, profile_of_table
 from ..gcode.interpreter.dialect import Dialect
-from ..gcode.posts.post import Post
-from ..gcode.posts.posts import load_post
+from ..gcode.posts import Post, load_post
 from ..usecases.smoothing.result import OutputForm, SmoothOptions
 from .command import OptionParser
 from .effective_options import add_effective_options, effective_method

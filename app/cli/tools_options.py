@@ -9,7 +9,7 @@ from ..formats.job.toml import read_units
 from ..formats.readers import offered_suffixes
 from ..formats.tools.at_path import tools_at
 from ..model.operation import LEAST_LENGTH
-from ..toolpath.advice.time import CuttingPlan
+from ..toolpath.advice.advise import CuttingPlan
 from ..usecases.advice import AdviceOptions
 from .command import OptionParser
 from .reading_options import add_reading_options, reading

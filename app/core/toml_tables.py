@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 
 from .errors import HitofudeError, InputError
 from .file_bytes import FileBytes
+from .wording import either
 
 Kind = TypeVar("Kind")
 
@@ -286,14 +287,14 @@ def _meant(union: types.UnionType, value: Any, at: _KeyPlace) -> Any:
     kinds = {part.kind: part for part in choices}
     place = at.inside()
     if "kind" not in value:
-        raise place.error("kind", f"is missing; add kind = {_either(kinds)}.")
+        raise place.error("kind", f"is missing; add kind = {_kinds_of(kinds)}.")
     if not isinstance(value["kind"], str) or value["kind"] not in kinds:
-        raise place.error("kind", f"is {shown(value['kind'])}; expected is {_either(kinds)}.")
+        raise place.error("kind", f"is {shown(value['kind'])}; expected is {_kinds_of(kinds)}.")
     return kinds[value["kind"]]
 
 
-def _either(words: typing.Iterable[str]) -> str:
-    return " or ".join(f'"{word}"' for word in words)
+def _kinds_of(words: typing.Iterable[str]) -> str:
+    return either(f'"{word}"' for word in words)
 
 
 def _repeated(kind: Any) -> Any:
@@ -337,12 +338,12 @@ def _expected(kind: Any) -> str:
         return (
             _expected(choices[0])
             if len(choices) == 1
-            else f"a table with kind = {_either(part.kind for part in choices)}"
+            else f"a table with kind = {_kinds_of(part.kind for part in choices)}"
         )
     if _is_table(kind):
         return f"a table with {', '.join(each.name for each in fields(kind))}"
     if words := _words(kind):
-        return " or ".join(map(repr, words))
+        return either(map(repr, words))
     if (part := _repeated(kind)) is not None:
         return f"a list, and in it {_expected(part)} each time"
     return EXPECTED.get(kind) or f"a list of {len(typing.get_args(kind))} numbers"

@@ -1,6 +1,11 @@
-"""Numbers in sentences: counts with their nouns, places."""
+"""Numbers in sentences, counts with their nouns, places; words one behind the other.
+
+The catalogue of another language knows lists by these joints, and has its own (`[lists]` in its file).
+"""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 
 def counted(count: int, one: str, many: str = "", thousands: str = "") -> str:
@@ -11,6 +16,21 @@ def counted(count: int, one: str, many: str = "", thousands: str = "") -> str:
         thousands: what stands between groups of three digits.
     """
     return f"{count:,}".replace(",", thousands) + f" {one if count == 1 else many or one + 's'}"
+
+
+def either(words: Iterable[str]) -> str:
+    """Return words of which one is meant: "a, b or c"."""
+    return _listed(words, "or")
+
+
+def together(words: Iterable[str]) -> str:
+    """Return words that are all meant: "a, b and c"."""
+    return _listed(words, "and")
+
+
+def _listed(words: Iterable[str], last: str) -> str:
+    *before, final = [*words] or [""]
+    return f"{', '.join(before)} {last} {final}" if before else final
 
 
 def place_mm(value: float) -> str:

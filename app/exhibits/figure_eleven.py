@@ -17,6 +17,7 @@ import numpy as np
 
 from ..core.errors import Cancelled, HitofudeError
 from ..core.progress import NO_PROGRESS, Progress
+from ..core.wording import together
 from ..simulation.cutter import Cutter
 from ..simulation.engines import Graphics
 from ..simulation.field.differences import HeightDifference, height_difference
@@ -411,7 +412,7 @@ def why_slower(figure: FigureEleven) -> Iterator[str]:
             continue
         drawn, cells = row.polygons.drawn, row.program.piece(figure.options.cells).grid
         a_move = drawn / max(row.program.moves, 1)
-        than = " and ".join(f"{took / row.seconds[way]:.1f} times the {way.value} way" for way in faster)
+        than = together(f"{took / row.seconds[way]:.1f} times the {way.value} way" for way in faster)
         why = (
             f"they are drawn by the processor, {figure.renderer}, which is what that way was to leave free"
             if is_software(figure.renderer)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core import tolerances
 from ..core.errors import InputError
-from ..core.wording import place_mm
+from ..core.wording import place_mm, together
 from ..geometry.affine import Affine, transformed
 from ..geometry.chaining.pieces import FARTHEST, straightened, within_reach
 from ..geometry.sample import bounds, bounds_of_all
@@ -310,7 +310,7 @@ def _remedy(left_out: Counter[str]) -> str:
     """Return what to do about texts that are not read as they stand, or nothing."""
     ways = [("to fill a length)", "let letters run to the right")]
     named = [way for kind, way in ways if any(each.endswith(kind) for each in left_out)]
-    return f" To machine them, {' and '.join(named)}, or turn them into curves, where they were drawn." if named else ""
+    return f" To machine them, {together(named)}, or turn them into curves, where they were drawn." if named else ""
 
 
 def listed(left_out: Counter[str], before: str) -> str:

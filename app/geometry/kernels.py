@@ -64,11 +64,11 @@ def place_on(rows, j, fraction):
     return rows[j, 4] + rows[j, 6] * math.cos(angle), rows[j, 5] + rows[j, 6] * math.sin(angle)
 
 
-@kernel("void(float64[:, ::1], float64[::1], float64[:, ::1])")
-def places_on(rows, fractions, found):
-    """Write the place (n, 2) at a fraction in [0, 1] of the length of each row."""
-    for j in range(len(rows)):
-        found[j, 0], found[j, 1] = place_on(rows, j, fractions[j])
+@kernel("void(float64[:, ::1], int64[::1], float64[::1], float64[:, ::1])")
+def places_on(rows, which, fractions, found):
+    """Write the place (m, 2) at a fraction in [0, 1] of the length of the row that each of m numbers names."""
+    for k in range(len(which)):
+        found[k, 0], found[k, 1] = place_on(rows, which[k], fractions[k])
 
 
 @kernel("boolean(float64[:, ::1], int64, float64, float64)", counts=False)

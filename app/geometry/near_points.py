@@ -7,9 +7,11 @@ points are compared with one another.
 from __future__ import annotations
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+
 Indices = NDArray[np.int64]
 
 FEW = 100_000
@@ -76,7 +78,7 @@ def nearest(points: Floats, places: Floats, count: int) -> tuple[Floats, Indices
         distance = _distances(places, points)
         order = np.argsort(distance, axis=1, kind="stable")[:, :count]
         return np.take_along_axis(distance, order, 1), order.astype(np.int64)
-    from . import kernels, near_kernels
+    from ..geometry import kernels, near_kernels
 
     points, places = np.ascontiguousarray(points), np.ascontiguousarray(places)
     away, which = np.empty((len(places), count)), np.empty((len(places), count), np.int64)
@@ -96,7 +98,7 @@ def pairs_meeting(boxes: Floats, owner: Indices) -> Indices:
         pairs = owner[np.argwhere(~(apart | apart.T))]
         pairs = pairs[pairs[:, 0] < pairs[:, 1]]
     else:
-        from . import kernels, near_kernels
+        from ..geometry import kernels, near_kernels
 
         boxes, owner = np.ascontiguousarray(boxes), np.ascontiguousarray(owner)
         found, count = near_kernels.meeting_boxes(*kernels.build_tree(boxes), boxes, owner)
@@ -115,7 +117,7 @@ def groups(count: int, pairs: Indices) -> Indices:
     """
     if len(pairs) <= FEW // 20:
         return _by_first(_merged(count, pairs))
-    from . import kernels
+    from ..geometry import kernels
 
     number = np.empty(count, np.int64)
     kernels.merge(np.ascontiguousarray(pairs, np.int64), number)
@@ -130,7 +132,7 @@ def groups_within(points: Floats, owner: Indices, count: int, reach: float) -> I
         points: (n, 2) of all things. owner: (n,) whose each one is.
         reach: mm, > 0.
     """
-    from . import kernels
+    from ..geometry import kernels
 
     number = np.arange(count, dtype=np.int64)
     if len(points):
@@ -173,3 +175,29 @@ def _distances(places: Floats, points: Floats) -> Floats:
     for axis in range(points.shape[1]):
         square += (places[:, axis, None] - points[None, :, axis]) ** 2
     return np.sqrt(square)
+
+
+# Questions to a tree of shapes, asked in portions.
+
+
+_PORTION = 500
+"""Shapes a question; the library holds all other threads while it answers, the window's among them."""
+
+
+def near(
+    tree: shapely.STRtree, shapes: NDArray[np.object_], distance: float | NDArray[np.float64] | None = None
+) -> NDArray[np.int64]:
+    """Return pairs (2, m): index of a shape, index in the tree, whose boxes meet, or that come within a distance.
+
+    Args:
+        distance: mm, for all shapes or for each; None compares boxes only.
+    """
+    found = [np.zeros((2, 0), np.int64)]
+    for first in range(0, len(shapes), _PORTION):
+        part = slice(first, first + _PORTION)
+        if distance is None:
+            pairs = tree.query(shapes[part])
+        else:
+            pairs = tree.query(shapes[part], predicate="dwithin", distance=np.broadcast_to(distance, len(shapes))[part])
+        found.append(pairs + np.array([[first], [0]]))
+    return np.concatenate(found, axis=1)

@@ -286,22 +286,34 @@ def samples(rows: Rows, tolerance: float | NDArray[np.float64]) -> tuple[Indices
     counts = np.where(rows[:, TURN] == 0, 1, np.maximum(1, np.ceil(turn / step))).astype(np.int64)
     index = np.repeat(np.arange(len(rows)), counts)
     part = (np.arange(len(index)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[index]
-    return index, points_at(rows[index], part)
+    return index, points_of(rows, index, part)
 
 
 def points_at(rows: Rows, fraction: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the point (n, 2) at a fraction in [0, 1] of each row's length."""
     if len(rows) >= _MANY:
-        from . import kernels  # here, so that the window opens without the compiler
-
-        found = np.empty((len(rows), 2))
-        kernels.places_on(np.ascontiguousarray(rows, np.float64), np.ascontiguousarray(fraction, np.float64), found)
-        return found
+        return points_of(rows, np.arange(len(rows)), fraction)
     line = rows[:, :2] + (rows[:, 2:4] - rows[:, :2]) * fraction[:, None]
     angle = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX]) + sweeps(rows) * fraction
     arc = rows[:, CX:R] + rows[:, [R]] * np.stack([np.cos(angle), np.sin(angle)], 1)
     arc = np.where((fraction == 0)[:, None], rows[:, :2], arc)
     return np.where((rows[:, TURN] == 0)[:, None], line, arc)
+
+
+def points_of(rows: Rows, which: Indices, fraction: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the point (m, 2) at a fraction in [0, 1] of the length of the row that each of m numbers names."""
+    if len(which) < _MANY:
+        return points_at(rows[which], fraction)
+    from . import kernels  # here, so that the window opens without the compiler
+
+    found = np.empty((len(which), 2))
+    kernels.places_on(
+        np.ascontiguousarray(rows, np.float64),
+        np.ascontiguousarray(which, np.int64),
+        np.ascontiguousarray(fraction, np.float64),
+        found,
+    )
+    return found
 
 
 def point_on(row: Sequence[float], fraction: float) -> Point:

@@ -7,6 +7,7 @@ import io
 import logging
 import os
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
@@ -38,11 +39,19 @@ def outlined(name: str, words: str) -> StrokeFont:
     Raises:
         InputError: there is no such font, it cannot be read, or it lacks a letter.
     """
-    font = Typeface(_found(name))
+    path = _found(name)
+    with _readable(path.name):
+        font = _opened(path, path.stat().st_mtime_ns)
     lacking = font.lacking(words)
     if lacking:
         raise InputError(f"The font {name} has no letter for {' '.join(lacking)}; choose other words or another font.")
     return font.face(words)
+
+
+@lru_cache(4)
+def _opened(path: Path, changed_ns: int) -> Typeface:
+    """Return a font that many texts are set in, read once as long as its file does not change."""
+    return Typeface(path)
 
 
 class Typeface:
@@ -57,6 +66,7 @@ class Typeface:
         self.name = path.stem
         self._glyphs: dict[str, Glyph] = {}
         self._file = path.name
+        self._one = threading.Lock()  # tables are read when they are first asked for
         with _readable(self._file):
             self._font: Any = TTFont(io.BytesIO(path.read_bytes()), fontNumber=0, lazy=True)
             self._letters: dict[int, str] = self._font.getBestCmap() or {}
@@ -81,7 +91,7 @@ class Typeface:
             InputError: a letter cannot be read.
         """
         letters = [letter for letter in dict.fromkeys(words) if ord(letter) in self._letters]
-        with _readable(self._file):
+        with self._one, _readable(self._file):
             glyphs = {letter: self._glyph(letter) for letter in letters}
             kerning = _kerning(self._font, self._letters, words) if kerned else {}
         return StrokeFont(self.name, self._capital, 0.0, glyphs, kerning, max(self._below, 0.0))

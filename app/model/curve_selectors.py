@@ -143,13 +143,13 @@ def read_selector(text: str) -> Selector:
     raise ParameterError(f"'{shown}' selects no curves; write {HELP}.")
 
 
-def read_selectors(texts: Iterable[str]) -> tuple[Selector, ...]:
-    """Return what texts select, each once.
+def read_selectors(texts: str | Iterable[str]) -> tuple[Selector, ...]:
+    """Return what texts select, or a single one, each once.
 
     Raises:
         ParameterError: one is no selector.
     """
-    return tuple(dict.fromkeys(map(read_selector, texts)))
+    return tuple(dict.fromkeys(map(read_selector, [texts] if isinstance(texts, str) else texts)))
 
 
 def on_layers(names: Iterable[str]) -> tuple[Selector, ...]:

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from functools import cache
+from numbers import Real
 from typing import Any, TypeVar, cast
 
 from ..core.errors import ParameterError
@@ -131,16 +132,12 @@ class Parameter:
         """
         if value is None and self.auto:
             return
-        if self.unit in (
-            Unit.LENGTH,
-            Unit.ANGLE,
-            Unit.SHARE,
-            Unit.COUNT,
-            Unit.TIME,
-        ) and not self.low <= value <= self.high * (1 + 1e-12):
+        if self.unit in _RANGED and not self.low <= value <= self.high * (1 + 1e-12):
             raise ParameterError(f"{self.label} is {self.shown(value):g}{self.sign}; use {self.range_words()}.")
 
 
+_RANGED = frozenset({Unit.LENGTH, Unit.ANGLE, Unit.SHARE, Unit.COUNT, Unit.TIME})
+_NUMBERS = _RANGED | {Unit.SPEED, Unit.RATE}
 _PARAMETER, _PART = "parameter", "part"
 
 
@@ -267,10 +264,29 @@ def check_ranges(whole: Any) -> None:
     """Refuse a dataclass one of whose own parameters is out of its range; its parts have checked theirs.
 
     Raises:
-        ParameterError: one is.
+        ParameterError: one is, or is nothing of its kind.
     """
+    check_kinds(whole)
     for name, declared in _own(cast(Any, type(whole))):
         declared.check(getattr(whole, name))
+
+
+def check_kinds(whole: Any) -> None:
+    """Refuse a dataclass one of whose own parameters is a text where it is a number or a choice, as in scripts.
+
+    Raises:
+        ParameterError: one is.
+    """
+    for field in dataclasses.fields(whole):
+        declared, value = field.metadata.get(_PARAMETER), getattr(whole, field.name)
+        if declared is None or (value is None and declared.auto):
+            continue
+        if declared.unit in _NUMBERS and not isinstance(value, Real):
+            raise ParameterError(f"{declared.label} is {value!r}; it must be a number.")
+        if declared.unit is Unit.CHOICE and isinstance(value, str):
+            raise ParameterError(
+                f"{declared.label} is {value!r}; it must be a member of {type(field.default).__name__}."
+            )
 
 
 @cache

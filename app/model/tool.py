@@ -9,7 +9,7 @@ from functools import cache
 from itertools import pairwise
 
 from ..core.errors import ParameterError
-from .fields import Parameter, Unit, declared_of, parameter, required
+from .fields import Parameter, Unit, check_kinds, declared_of, parameter, required
 from .tool_kind import ToolKind, ToolProfile, ToolShape, shape_keys
 
 __all__ = ["LEAST_RATE", "MOST_LENGTH", "FeedRow", "HolderPoint", "Tool", "ToolKind", "ToolMaterial", "shape_keys"]
@@ -145,6 +145,7 @@ class Tool:
     )
 
     def __post_init__(self) -> None:
+        check_kinds(self)
         if not 1 <= self.number <= 9999:
             raise ParameterError(f"Tool number {self.number} is out of range; use 1 to 9999.")
         self._check_above_zero()

@@ -9,8 +9,8 @@ import shapely
 
 from ..core.effort import announce
 from ..core.progress import NO_PROGRESS, Progress
+from ..geometry.outlines import nested
 from ..geometry.overlay.overlay import OverlayResult, without_crossings
-from ..geometry.region import nested
 from ..model.finding import Finding, FindingKind, worst_first
 from ..model.job import Job
 from ..model.moves import Program
@@ -18,14 +18,12 @@ from ..model.operation import Order, Side
 from ..model.part import Contour, Region
 from ..model.stock_box import stock_box, work_origin
 from ..raster.fill import Observer
-from ..toolpath.bitmap_check import BitmapCheck
-from ..toolpath.coverage.flat import region_shapes
+from ..toolpath.coverage.areas import region_shapes
 from ..toolpath.coverage.floor_target import CHORD
-from ..toolpath.drawn_contours import DrawnContours, drawn_contours
+from ..toolpath.drawn_contours import DrawnContours, drawn_contours, selected, selection_findings
 from ..toolpath.drill_holes import across_holes
 from ..toolpath.machining_areas import MachiningAreas
-from ..toolpath.operation_context import OperationContext, ProgramDigits
-from ..toolpath.selected import selected, selection_findings
+from ..toolpath.operation_context import BitmapCheck, OperationContext, ProgramDigits
 from ..toolpath.witness import region_findings
 from .preparing import carry_out
 from .reckoning import job_effort
@@ -105,8 +103,8 @@ def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
 
 
 def followed_lines(job: Job, parts: DrawnContours) -> tuple[Contour, ...]:
-    """Return the open lines that some operation follows."""
-    cuts = [each.cut for each in job.operations if each.wall_side is Side.ON and each.cut.enabled]
+    """Return the open lines that some operation machines."""
+    cuts = [each.cut for each in job.operations if each.takes_open and each.cut.enabled]
     followed = {id(line) for cut in cuts for line in selected(parts, cut.curves).open}
     return tuple(line for line in parts.open if id(line) in followed)
 
@@ -138,9 +136,10 @@ def _only_followed(job: Job, parts: DrawnContours) -> set[int]:
     numbers: dict[bool, set[int]] = {True: set(), False: set()}
     for operation in at_work:
         found = selected(parts, operation.cut.curves)
-        contours = (*found.closed, *found.open) if operation.wall_side is Side.ON else found.closed
+        contours = found.closed if not operation.takes_open or operation.wall_side is Side.ON else ()
+        contours += found.open if operation.takes_open else ()
         if not operation.HOLES:
-            numbers[operation.wall_side is Side.ON].update(n for each in contours for n in each.entity_ids)
+            numbers[operation.takes_open].update(n for each in contours for n in each.entity_ids)
     return numbers[True] - numbers[False]
 
 

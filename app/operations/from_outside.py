@@ -14,10 +14,8 @@ from ..geometry.primitives import lengths
 from ..model.moves import Purpose
 from ..model.operation import Operation
 from ..toolpath.build import Stroke
-from ..toolpath.entry.entry import EntryContext
-from ..toolpath.entry.links import keeps_off_walls
-from ..toolpath.machining_areas import MachiningArea
-from ..toolpath.open_edges import BoxSides
+from ..toolpath.entry.entry import EntryContext, keeps_off_walls
+from ..toolpath.machining_areas import BoxSides, MachiningArea
 from ..toolpath.operation_context import OperationContext, PreparedStrokes, emit
 
 _BESIDE = 1e-6

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.outlines import polygon_contour
 from ..geometry.primitives import TURN, Rows
-from ..geometry.region import polygon_contour
 from ..model.part import Contour
 from .draw import image_rows, rows_of
 from .frame import BitmapFrame

@@ -4,8 +4,9 @@ touch.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from enum import Enum
 from functools import cached_property
 
 import numpy as np
@@ -15,19 +16,21 @@ from numpy.typing import NDArray
 
 from ..core import tolerances
 from ..core.errors import ParameterError
-from ..geometry.chaining.chain import chain
+from ..geometry.as_circle import as_circle
+from ..geometry.chaining.chain import ChainingResult, chain
 from ..geometry.even_odd import even_odd
+from ..geometry.outlines import holders, reversed_contour
 from ..geometry.overlay.overlay import without_crossings
 from ..geometry.primitives import contour_rows, sample, signed_area
-from ..geometry.region import holders, reversed_contour
-from ..model.curve_selectors import CurveNumber, OnLayer, Selector, layer_names
+from ..model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer, Selector, layer_names
 from ..model.curves import Arc, Circle, Line, Point, Primitive
+from ..model.fields import parameters_of
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.notes import Mark, Note
-from ..model.part import Contour, Region
+from ..model.operation import Operation, Side
+from ..model.part import Contour, Entity, Region
 from ..model.stock_box import extent
-from .text_strokes import strokes_of
 from .witness import chaining_findings
 
 _CHORD = 1e-3
@@ -262,8 +265,9 @@ def _copies_meet(contours: Sequence[Contour], job: Job) -> list[Finding]:
     """Return the finding that lines of copies meet, if some do; copies that reach into one another without touching are
     none.
     """
-    box, copies = extent(contours), job.copies
-    if box is None or len(copies.shifts) == 1:
+    copies = job.copies
+    box = extent(contours) if len(copies.shifts) > 1 else None
+    if box is None:
         return []
     lines = shapely.union_all([shapely.boundary(shape) for shape in filled(contours)])
     shapely.prepare(lines)
@@ -281,3 +285,178 @@ def _copies_meet(contours: Sequence[Contour], job: Job) -> list[Finding]:
             text = f"Copies that are {abs(dx):.3f} mm apart along X and {abs(dy):.3f} mm along Y meet; move them apart."
             return [Finding(FindingKind.OVERLAP, text, box[0] + max(dx, 0.0), box[1] + max(dy, 0.0), amount=gap)]
     return []
+
+
+# Strokes of letters: lines for a tool to follow, which bound nothing, wherever they meet, cross or close.
+
+
+def strokes_of(entities: Sequence[Entity], join_tolerance: float) -> tuple[tuple[Contour, ...], list[Finding]]:
+    """Return the strokes of letters as open lines, also those that end where they begin, and what is to say about them.
+
+    Args:
+        entities: strokes of letters. join_tolerance: within which ends are joined, mm.
+    """
+    if not entities:
+        return (), []
+    chaining = chain(entities, join_tolerance)
+    lines = tuple(map(_opened, chaining.contours))
+    doubts = chaining_findings(entities, ChainingResult(lines, chaining.findings), join_tolerance)
+    return lines, [*(_told(lines, layer) for layer in dict.fromkeys(line.layer for line in lines)), *doubts]
+
+
+def _opened(contour: Contour) -> Contour:
+    return replace(
+        contour, primitives=tuple(part for each in contour.primitives for part in _halves(each)), closed=False
+    )
+
+
+def _halves(primitive: Primitive) -> tuple[Primitive, ...]:
+    """Return both halves of a circle, and anything else as it is."""
+    if not isinstance(primitive, Circle):
+        return (primitive,)
+    (x, y), radius, ccw = primitive.centre, primitive.radius, primitive.ccw
+    right, left = (x + radius, y), (x - radius, y)
+    return Arc(right, left, (x, y), ccw), Arc(left, right, (x, y), ccw)
+
+
+def _told(lines: Sequence[Contour], layer: str) -> Finding:
+    """Return the remark that letters of a layer are but strokes; it goes where an operation follows them all."""
+    mine = [line for line in lines if line.layer == layer]
+    x, y = mine[0].primitives[0].start
+    count = "1 stroke of a letter, which bounds" if len(mine) == 1 else f"{len(mine)} strokes of letters, which bound"
+    text = f"Layer {layer} has {count} nothing and that no operation follows; --side on engraves along them."
+    ids = tuple(dict.fromkeys(number for line in mine for number in line.entity_ids))
+    return Finding(FindingKind.OPEN_CONTOUR, text, x, y, False, ids, float(len(mine)))
+
+
+# Which contours of a drawing an operation works on, by its selectors, and what to say of those that find nothing.
+
+
+SAME_DIAMETER = 0.005
+"""mm by which a circle may be wider or narrower than asked for: drawings in inches, and their last digits."""
+
+_NAMED = 8
+"""Diameters, numbers or layers that a finding names."""
+
+
+@dataclass(frozen=True, eq=False)
+class SelectedCurves:
+    """Contours of a drawing that an operation works on.
+
+    Attributes:
+        closed, open: in the order of the drawing, copies and all.
+    """
+
+    closed: tuple[Contour, ...]
+    open: tuple[Contour, ...]
+
+
+def selected(drawn: DrawnContours, curves: Sequence[Selector]) -> SelectedCurves:
+    """Return the contours that any of some selectors selects; without one all that the job machines."""
+    if not curves:
+        return SelectedCurves(drawn.closed, drawn.open)
+    placed = any(each in (ContourKind.OUTER, ContourKind.INNER) for each in curves)
+    inner = drawn.inner if placed else frozenset()
+    return SelectedCurves(
+        tuple(c for c in drawn.closed if any(_selects(each, c, id(c) in inner) for each in curves)),
+        tuple(c for c in drawn.open if any(_selects(each, c, False) for each in curves)),
+    )
+
+
+def _selects(selector: Selector, contour: Contour, is_inner: bool) -> bool:
+    match selector:
+        case CurveNumber(number):
+            return number in contour.entity_ids
+        case OnLayer(name):
+            return contour.layer == name
+        case CirclesOf(least, most):
+            circle = as_circle(contour)
+            return circle is not None and least - SAME_DIAMETER <= 2 * circle.radius <= most + SAME_DIAMETER
+        case ContourKind.OPEN:
+            return not contour.closed
+        case _:
+            return contour.closed and is_inner is (selector is ContourKind.INNER)
+
+
+def selection_findings(job: Job, drawn: DrawnContours) -> list[Finding]:
+    """Return a finding that counts for each selector of an operation that selects nothing which that can machine."""
+    return [
+        _about(operation, selector, drawn, job)
+        for operation in job.operations
+        if operation.cut.enabled
+        for selector in operation.cut.curves
+        if not _usable(operation, selected(drawn, (selector,)))
+        # an empty layer was never a fault: nothing is asked for that could be missing
+        if not isinstance(selector, OnLayer)
+    ]
+
+
+def _not_taken(operation: Operation) -> tuple[Enum, ...]:
+    """Return the sides that an operation refuses."""
+    side = parameters_of(type(operation)).get("side")
+    return () if side is None else side.parameter.not_taken
+
+
+def _usable(operation: Operation, found: SelectedCurves) -> bool:
+    """Tell whether an operation can machine something of what was found."""
+    if operation.takes_open:
+        return bool(found.open or (found.closed and operation.wall_side is Side.ON))
+    if operation.HOLES:
+        return any(as_circle(each) is not None for each in found.closed)
+    return bool(found.closed)
+
+
+def _about(operation: Operation, selector: Selector, drawn: DrawnContours, job: Job) -> Finding:
+    who = f"{operation.WORD.capitalize()} T{operation.cut.tool} asks for {selector.text}"
+    found = selected(drawn, (selector,))
+    x, y = (found.closed or found.open)[0].primitives[0].start if found.closed or found.open else (None, None)
+    ids = tuple(number for each in (*found.closed, *found.open) for number in each.entity_ids)
+    if found.closed:
+        why = "which is no circle to drill"
+    elif found.open:
+        on = Side.ON not in _not_taken(operation)
+        why = f"which is open, beginning at ({x:.3f}, {y:.3f}): close it{', or follow it with side = on' if on else ''}"
+    else:
+        why = f"and there is none; {_there(selector, drawn, job)}"
+    return Finding(FindingKind.LEFT_OUT, f"{who}, {why}.", x, y, entity_ids=ids)
+
+
+def _there(selector: Selector, drawn: DrawnContours, job: Job) -> str:
+    """Return what the drawing has in the place of what a selector does not find."""
+    match selector:
+        case CurveNumber(number):
+            if (entity := next((each for each in job.part.entities if each.id == number), None)) is not None:
+                return f"that curve is on layer '{entity.layer}', which the job does not machine or keeps off"
+            numbers = sorted({each.id for each in job.part.entities})
+            return f"the drawing has {_listed(_runs(numbers))}"
+        case CirclesOf():
+            circles = (as_circle(each) for each in drawn.closed)
+            sizes = sorted({round(2 * circle.radius, 3) for circle in circles if circle is not None})
+            return f"the drawing has {_listed(f'circles:{size:g}' for size in sizes)}"
+        case _:
+            outer, inner = len(drawn.closed) - len(drawn.inner), len(drawn.inner)
+            return (
+                f"the drawing has {_counted(outer, 'outer')}, {_counted(inner, 'inner')} and "
+                f"{_counted(len(drawn.open), 'open')} contours"
+            )
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count or 'no'} {what}"
+
+
+def _listed(words: Iterable[str]) -> str:
+    """Return the first of some words, and how many more there are."""
+    every = list(words)
+    more = [f"{len(every) - _NAMED} more"] if len(every) > _NAMED else []
+    return ", ".join([*every[:_NAMED], *more]) or "none"
+
+
+def _runs(numbers: Sequence[int]) -> Iterator[str]:
+    """Yield numbers, from the first to the last where there is no gap between them."""
+    first = None
+    for k, number in enumerate(numbers):
+        first = number if first is None else first
+        if k + 1 == len(numbers) or numbers[k + 1] != number + 1:
+            yield f"#{first}" if first == number else f"#{first} to #{number}"
+            first = None

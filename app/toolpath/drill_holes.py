@@ -18,9 +18,8 @@ from ..model.job import Job
 from ..model.operation import ALIKE, HoleOperation
 from ..model.part import Contour, Region
 from ..model.tool import Tool
-from .coverage.flat import region_shapes
-from .drawn_contours import DrawnContours
-from .selected import selected
+from .coverage.areas import region_shapes
+from .drawn_contours import DrawnContours, selected
 
 Floats = NDArray[np.float64]
 

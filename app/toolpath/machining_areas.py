@@ -8,30 +8,33 @@ import threading
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
+from ..core import tolerances
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.distance import DistanceField
-from ..geometry.offset.grown_lines import grown_lines
-from ..geometry.offset.offset import OffsetLevel, offset_levels
-from ..geometry.overlay.overlay import OverlayResult, without_crossings, without_outlines
-from ..geometry.primitives import Primitives, contour_rows, pack, points_at
-from ..geometry.region import nested, polygon_contour
+from ..geometry.even_odd import even_odd
+from ..geometry.offset.offset import OffsetLevel, Ring, grown_lines, offset_levels
+from ..geometry.outlines import Outlines, nested, polygon_contour, polygons
+from ..geometry.overlay.overlay import OverlayResult, differing, without_crossings, without_outlines
+from ..geometry.primitives import TURN, Primitives, Rows, contour_rows, pack, points_at, reversed_rows
 from ..model.curve_selectors import Selector
 from ..model.entry import Lead
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.moves import Area
-from ..model.operation import HoleOperation, Operation, Side
+from ..model.operation import Direction, HoleOperation, Operation, Side, SideStrip
 from ..model.part import Contour, Region
 from ..model.stock_box import extent
-from .drawn_contours import DrawnContours
+from .drawn_contours import DrawnContours, selected
 from .drill_holes import CircleHole, circle_of, hole_regions, made_by_drills
+from .leads.contour_path import ContourPath
 from .leads.lead import lead_size, straight_way
-from .open_edges import BoxSides, OpenedArea, opened
-from .selected import selected
+from .open_strips import strips
 from .witness import grown_findings, region_findings
 
 _ON_CLAMP = 2e-5
@@ -104,12 +107,14 @@ class _AreaKey:
     Attributes:
         width: of slots along the lines, mm; 0 = the lines bound it.
         past: how far it goes past the stock's edges where walls lie on them, mm; 0 = these are walls.
+        strip: that it is beside open lines.
     """
 
     curves: frozenset[Selector]
     side: Side
     width: float = 0.0
     past: float = 0.0
+    strip: SideStrip | None = None
 
 
 @dataclass
@@ -130,9 +135,11 @@ class MachiningAreas:
         tool, side = self.job.tool(operation.cut.tool), operation.wall_side or Side.INSIDE
         width = operation.line_width(tool) or 0.0
         width = width if width > tool.diameter + _SAME else 0.0
-        key = _AreaKey(frozenset(operation.cut.curves), side, width, self._past(operation))
+        strip = operation.beside_open(tool)
+        key = _AreaKey(frozenset(operation.cut.curves), side, width, self._past(operation), strip)
         if key not in self._made:
-            self._made[key] = self._slots(key) if key.width else self._sheet(key)
+            made = self._beside_lines(key, strip) if strip else self._slots(key) if key.width else self._sheet(key)
+            self._made[key] = made
         return self._made[key]
 
     def areas(self) -> tuple[Area, ...]:
@@ -191,7 +198,7 @@ class MachiningAreas:
     @cached_property
     def stock(self) -> BoxSides | None:
         """The sides of the stock, mm; None where nothing is drawn."""
-        followed = [each.cut.curves for each in self.job.operations if each.wall_side is Side.ON and each.cut.enabled]
+        followed = [each.cut.curves for each in self.job.operations if each.takes_open and each.cut.enabled]
         lines = [line for curves in followed for line in selected(self.drawn, curves).open]
         box = extent((*self.drawn.closed, *lines))
         return None if box is None else BoxSides(*box).grown(self.job.stock.margin)
@@ -212,6 +219,17 @@ class MachiningAreas:
         outlines = tuple(c for region in self.drawn.clamps for c in region.contours)
         walls = DistanceField.of(primitives.rows)
         return MachiningArea(nesting.regions, primitives, walls, lies_on(primitives, outlines), (), outlines)
+
+    def _beside_lines(self, key: _AreaKey, strip: SideStrip) -> MachiningArea | None:
+        """Return what lies on one side of open lines, without what clamps hold."""
+        found = strips(selected(self.drawn, tuple(key.curves)).open, strip)
+        regions = self._regions(found.contours)
+        if not regions:
+            return None
+        primitives = pack(regions)
+        outlines = (*(c for region in self.drawn.clamps for c in region.contours), *found.bare)
+        walls = DistanceField.of(primitives.rows)
+        return MachiningArea(regions, primitives, walls, lies_on(primitives, outlines), (), outlines)
 
     def _milled(self, contours: Sequence[Contour]) -> list[Contour]:
         """Return contours but for the circles that drills make."""
@@ -273,3 +291,146 @@ def lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.b
     near = [outlines.nearest(points_at(rows, np.full(len(rows), part)), 1.0)[0] < _ON_CLAMP for part in (0.0, 0.5, 1.0)]
     lying: NDArray[np.bool_] = near[0] & near[1] & near[2]
     return lying
+
+
+# Walls that lie on the stock's edges, and how an area goes on past them, where there is no metal.
+#
+# Past each such wall the area is a strip along the stock's edge: as far out as asked for, and as far on to both sides,
+# so that a tool goes round the ends of the walls that meet the edge at whatever angle they do.
+
+
+class BoxSides(NamedTuple):
+    """The sides of a box, mm."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+
+    def grown(self, by: float) -> BoxSides:
+        """Return the sides of a box that is so much larger all round, mm."""
+        return BoxSides(self.x0 - by, self.y0 - by, self.x1 + by, self.y1 + by)
+
+    def mirrored(self) -> BoxSides:
+        """Return them with x of the other sign."""
+        return BoxSides(-self.x1, self.y0, -self.x0, self.y1)
+
+    def away(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return (n,) how far points (n, 2) are from the box, mm; 0 within it."""
+        x, y = points.T
+        beyond: NDArray[np.float64] = np.hypot(
+            np.maximum(np.maximum(self.x0 - x, x - self.x1), 0.0), np.maximum(np.maximum(self.y0 - y, y - self.y1), 0.0)
+        )
+        return beyond
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedArea:
+    """An area that goes on past the stock's edges.
+
+    Attributes:
+        contours: that bound it, even-odd. strips: outlines of what of it lies past the edges.
+        findings: where areas on the way there are not what they should be.
+    """
+
+    contours: tuple[Contour, ...]
+    strips: tuple[Contour, ...]
+    findings: tuple[Finding, ...] = ()
+
+
+def opened(regions: Sequence[Region], stock: BoxSides, past: float) -> OpenedArea:
+    """Return an area that goes on past all of its walls that lie on the stock's edges.
+
+    It is what of stock and strips is left without the metal that stands in the stock beside the area. So edges that
+    area and strips have together are no walls, and every other wall stays as it is.
+
+    Args:
+        regions: within the stock. stock: its sides.
+        past: how far it goes on, mm, > 0.
+    """
+    contours = tuple(contour for region in regions for contour in region.contours)
+    boxes = _strips(pack(regions).rows, stock, past)
+    if not boxes:
+        return OpenedArea(contours, ())
+    block = shapely.box(*stock)
+    strips = shapely.difference(shapely.union_all(boxes), block)
+    standing = without_crossings([*_outlines(block), *contours])
+    made = without_crossings([*_outlines(shapely.union(strips, block)), *standing.contours])
+    grown = differing(even_odd(contours), even_odd(made.contours).area - float(strips.area), contours)
+    return OpenedArea(made.contours, _outlines(strips), (*standing.findings, *made.findings, *grown))
+
+
+def _strips(rows: Rows, stock: BoxSides, past: float) -> list[shapely.Geometry]:
+    """Return boxes past all rows that lie on sides of the stock."""
+    boxes = []
+    for number, side in enumerate(stock):
+        axis = number % 2
+        on = (rows[:, TURN] == 0) & (np.abs(rows[:, [axis, axis + 2]] - side) <= tolerances.WELD).all(axis=1)
+        across = sorted((side, side + (past if number > 1 else -past)))
+        for low, high in np.sort(rows[on][:, [1 - axis, 3 - axis]], axis=1).tolist():
+            along = [low - past, high + past]
+            (x0, x1), (y0, y1) = (across, along) if axis == 0 else (along, across)
+            boxes.append(shapely.box(x0, y0, x1, y1))
+    return boxes
+
+
+def _outlines(shape: shapely.Geometry) -> tuple[Contour, ...]:
+    """Return the outlines of polygons."""
+    parts = [each for each in shapely.get_parts(shape) if each.geom_type == "Polygon"]
+    rings = [ring for each in parts for ring in (each.exterior, *each.interiors)]
+    return tuple(polygon_contour(shapely.get_coordinates(shapely.simplify(ring, 0.0))[:-1].tolist()) for ring in rings)
+
+
+# Which way along the walls a cutter goes: rings, cut open where they run beside clamps, in the order that frees parts
+# last.
+
+
+_CHORD = 0.01
+"""mm; only which ring lies in which depends on it."""
+
+
+def wall_paths(level: OffsetLevel, area: MachiningArea, direction: Direction) -> tuple[ContourPath, ...]:
+    """Return the paths along all walls that a level's rings follow, but not along clamps or the frame.
+
+    A ring has the area to machine on its left, inside and outside alike, and so the metal that stays on its right: its
+    own direction is climb milling.
+
+    Args:
+        level: rings at tool radius + stock to leave.
+    """
+    paths: list[ContourPath] = []
+    for ring, rank in zip(level.rings, ranks([ring.rows for ring in level.rings]), strict=True):
+        paths.extend(_along_walls(ring, area, rank))
+    if direction is Direction.CLIMB:
+        return tuple(paths)
+    return tuple(
+        ContourPath(reversed_rows(path.rows), path.closed, path.region, path.rank, path.area) for path in paths
+    )
+
+
+def _along_walls(ring: Ring, area: MachiningArea, rank: int) -> list[ContourPath]:
+    bare = area.follows_bare(ring.rows)
+    if not bare.any():
+        return [ContourPath(ring.rows, True, ring.region, rank, ring.area)]
+    if bare.all():
+        return []
+    # begin beside something bare, so that no run is cut in two by the ring's own beginning
+    first = int(np.argmax(bare))
+    rows, bare = np.roll(ring.rows, -first, axis=0), np.roll(bare, -first)
+    edges = np.flatnonzero(np.diff(np.concatenate([[True], bare, [True]]).astype(np.int8)))
+    return [ContourPath(rows[a:b], False, ring.region, rank, ring.area) for a, b in edges.reshape(-1, 2).tolist()]
+
+
+def ranks(loops: Sequence[np.ndarray]) -> list[int]:
+    """Return how many of some closed loops of rows lie round each of them."""
+    if len(loops) < 2:
+        return [0] * len(loops)
+    outlines = Outlines.joined(loops)
+    shapes = np.asarray(shapely.points(outlines.rows[outlines.first[:-1], :2]), dtype=object)
+    places = shapes.copy()
+    number, wide = polygons(outlines, np.arange(len(outlines)), _CHORD)
+    shapes[number] = wide
+    held = shapely.STRtree(shapes).query(places, predicate="within")
+    size = shapely.area(shapes)
+    inside = held[:, (held[0] != held[1]) & (size[held[0]] < size[held[1]])]
+    return [int(count) for count in np.bincount(inside[0], minlength=len(loops))]

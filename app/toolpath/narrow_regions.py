@@ -22,8 +22,7 @@ from ..model.job import Job
 from ..model.operation import Operation
 from ..model.part import Region
 from ..model.tool import Tool
-from .linking.bridge import RingEdges, level_bridges
-from .linking.tree import BridgeForest
+from .linking.bridge import BridgeForest, RingEdges, level_bridges
 from .narrow_kernels import widest_way
 
 _CHORD = 1e-3

@@ -17,8 +17,8 @@ import numpy as np
 import shapely
 
 from ..core.errors import ParameterError
+from ..geometry.outlines import holders
 from ..geometry.primitives import contour_rows, sample
-from ..geometry.region import holders
 from ..geometry.sample import bounds, union
 from ..model.curve_selectors import CurveNumber
 from ..model.drawn_depths import DepthSource, DrawnDepth
@@ -26,9 +26,8 @@ from ..model.fields import parameters_of
 from ..model.job import Copies, Job
 from ..model.operation import HoleOperation, Operation, Side
 from ..model.part import Contour
-from .drawn_contours import DrawnContours, drawn_contours
+from .drawn_contours import DrawnContours, drawn_contours, selected
 from .drill_holes import circle_of, holes_of
-from .selected import selected
 
 BESIDE = 3.0
 """Heights of letters from a text to a shape that it is beside."""

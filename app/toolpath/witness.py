@@ -23,15 +23,14 @@ from ..geometry.chaining.findings import at
 from ..geometry.chaining.pieces import length_of, within_reach
 from ..geometry.distance import DistanceField
 from ..geometry.even_odd import even_odd
-from ..geometry.outlines import Outlines
+from ..geometry.outlines import NestingResult, Outlines
 from ..geometry.overlay.overlay import differing
 from ..geometry.primitives import contour_rows, points_at, sample
-from ..geometry.region import NestingResult
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Primitive, Spline
 from ..model.finding import Finding, FindingKind
 from ..model.moves import Area
 from ..model.part import Contour, Entity, Region
-from .coverage.flat import region_shapes
+from .coverage.areas import region_shapes
 
 Floats = NDArray[np.float64]
 

@@ -14,8 +14,7 @@ from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.reading import ReadingOptions
 from ..model.tool import Tool
 from ..operations.compute import regions_of
-from ..toolpath.advice.advise import Advice, RegionAdvice, ToolChoice, advise, standard_tools
-from ..toolpath.advice.time import CuttingPlan
+from ..toolpath.advice.advise import Advice, CuttingPlan, RegionAdvice, ToolChoice, advise, standard_tools
 from .job.layers import with_layers_spelled
 from .job.plausible import read_plausible
 

@@ -99,7 +99,7 @@ class ExaminedProgram:
         Raises:
             InputError: nothing is cut, or it is cut in more than one place of the work.
         """
-        from ..gcode.posts.posts import load_post
+        from ..gcode.posts import load_post
         from ..gcode.rework.frame import JobFrame, frame_text
 
         used = [self.program.states[k] for k in np.unique(self.program.motions.state).tolist()]

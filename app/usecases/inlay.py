@@ -21,10 +21,10 @@ from numpy.typing import NDArray
 
 from ..core.errors import ParameterError
 from ..core.progress import NO_PROGRESS, Progress
-from ..gcode.posts.posts import load_post
+from ..gcode.posts import load_post
 from ..geometry.distance import DistanceField
+from ..geometry.outlines import polygon_contour
 from ..geometry.primitives import contour_rows
-from ..geometry.region import polygon_contour
 from ..geometry.transform import Similarity, transformed
 from ..model.chamfer_operation import ChamferOperation
 from ..model.curve_selectors import OnLayer
@@ -34,8 +34,7 @@ from ..model.operation import CutParameters, Operation, PocketOperation, Side
 from ..model.part import Contour, Entity, Part
 from ..model.stock_box import extent
 from ..operations.vcarve.paths import RIDGE, flat_tool_of
-from ..toolpath.drawn_contours import drawn_contours
-from ..toolpath.selected import selected
+from ..toolpath.drawn_contours import drawn_contours, selected
 from .cutting.cut import CutOptions, CutProgram, cut
 from .job.options import MakeOptions
 from .job.plausible import read_for

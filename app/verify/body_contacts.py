@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.motion import Floats, MotionKind
-from ..simulation.bodies.holder import Body
+from ..simulation.bodies.bodies import Body
 from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Workpiece
 from ..simulation.sweeps.course import Course, Rapids, TrimOptions

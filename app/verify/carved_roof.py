@@ -5,12 +5,15 @@ centre c, its radius r. A cone as wide as r at c cuts all that lies between as d
 was, as wide as w round p, leaves nowhere between more than r - w + |c - p|, by the triangle's inequality: so what is
 left at c bounds what is left all the way to the wall. Discs are found on the distance field of the drawn curves alone;
 nothing is known of how the path was made.
+
+Regions that a translation brings onto one another, as equal letters are, have the same discs: they are found behind the
+walls of one of them, and what was cut is held against them in each place.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +23,7 @@ from ..core.pool import in_bands
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.distance import DistanceField
 from ..geometry.kernels import build_tree
-from ..geometry.primitives import CX, TURN, Primitives, R, lengths, points_at, sweeps
+from ..geometry.primitives import CX, TURN, Primitives, R, lengths, points_at, signed_area, sweeps
 from . import carved_kernels as kernels
 
 Floats = NDArray[np.float64]
@@ -39,6 +42,9 @@ _ROUNDS = 10
 
 _EMPTY = 1e-9
 """mm that a wall may reach into a disc that counts as empty."""
+
+_SAME = 1e-9
+"""mm; what rows of regions that are alike may differ by, and with them the discs: a millionth of what is told."""
 
 _PORTION = 100_000
 """Places between two looks at whether to stop."""
@@ -95,37 +101,125 @@ def prove_roof(path: ConePath, walls: Primitives, reported: float, progress: Pro
         Cancelled: by progress.
     """
     most = path.tip + path.greatest * path.rate
-    elements = _Elements.of(walls)
-    discs = _discs(elements, DistanceField.of(walls.rows), most, progress.part(0.0, 0.5))
-    blunt = discs.radius < path.tip
+    groups = _alike(walls)
+    share = [progress.part(0.5 * k / len(groups), 0.5 * (k + 1) / len(groups)) for k in range(len(groups))]
+    behind = [_behind(group, path.tip, most, part) for group, part in zip(groups, share, strict=True)]
+    centres = np.concatenate([np.zeros((0, 2)), *(each.centres for each in behind)])
+    radius = np.concatenate([np.zeros(0), *(each.radius for each in behind)])
+    blunt = radius < path.tip
     left = np.zeros(len(blunt))
     left[~blunt] = _Carving.of(path).uncarved(
-        discs.centres[~blunt], discs.radius[~blunt], reported * path.rate, progress.part(0.5, 1.0)
+        centres[~blunt], radius[~blunt], reported * path.rate, progress.part(0.5, 1.0)
     )
     height = left / path.rate
     worst = int(np.argmax(height))
-    x, y = discs.centres[worst].tolist()
+    x, y = centres[worst].tolist()
     return RoofProof(
         len(blunt),
         max(0.0, float(height[worst])),
         x,
         y,
         int(np.count_nonzero(height > reported)),
-        _blunt_length(elements, discs, blunt),
-        float(discs.gaps().max(initial=0.0)),
+        sum(each.blunt_mm for each in behind),
+        max(each.gap_mm for each in behind),
     )
 
 
-def _blunt_length(walls: _Elements, discs: _Discs, blunt: NDArray[np.bool_]) -> float:
-    """Return the length of wall, mm, of the places that are told apart: each stands for half the way to its
-    neighbours.
+@dataclass(frozen=True, eq=False)
+class _AlikeRegions:
+    """Regions, and where each of them is found again.
+
+    Attributes:
+        walls: of the regions.
+        shifts: by region, (m, 2) mm from it to where it is, its own place (0, 0) among them.
     """
+
+    walls: Primitives
+    shifts: dict[int, Floats]
+
+
+def _alike(walls: Primitives) -> list[_AlikeRegions]:
+    """Return the regions that have no other like them, and of those that have the first ones.
+
+    Alike are regions with bounds that close, the area within, whose rows come to the same within `_SAME`: discs that
+    touch one wall and hold none then lie in the region, and are as much alike.
+    """
+    order = np.argsort(walls.region, kind="stable")
+    numbers, begins = np.unique(walls.region[order], return_index=True)
+    place = np.empty(len(order), np.int64)
+    first: dict[Hashable, list[tuple[int, Floats]]] = {}
+    shifts: dict[int, list[Floats]] = {}
+    for number, here in zip(numbers.tolist(), np.split(order, begins[1:]), strict=True):
+        place[here] = np.arange(len(here))
+        rows, previous = walls.rows[here], place[walls.previous[here]]
+        shifts[number] = [np.zeros(2)]
+        if (rows[previous, 2:4] != rows[:, :2]).any() or signed_area(rows) <= 0:
+            continue
+        at = rows[0, :2].copy()
+        rows[:, :CX] -= np.tile(at, 2)
+        rows[rows[:, TURN] != 0, CX:R] -= at
+        size = tuple(np.round(np.ptp(rows[:, :2], axis=0), 6).tolist())
+        known = first.setdefault((previous.tobytes(), rows[:, TURN].tobytes(), size), [])
+        same = next((each for each, its in known if np.abs(its - rows).max() <= _SAME), None)
+        if same is None:
+            known.append((number, rows))
+            shifts[number][0] = at
+        else:
+            del shifts[number]
+            shifts[same].append(at - shifts[same][0])
+    for places in shifts.values():
+        places[0] = np.zeros(2)
+    single = [number for number, places in shifts.items() if len(places) == 1]
+    several = [number for number in shifts if len(shifts[number]) > 1]
+    return [
+        _AlikeRegions(_of_regions(walls, some), {number: np.array(shifts[number]) for number in some})
+        for some in (single, several)
+        if some
+    ]
+
+
+def _of_regions(walls: Primitives, numbers: Sequence[int]) -> Primitives:
+    own = np.isin(walls.region, numbers)
+    place = np.cumsum(own) - 1
+    return Primitives(walls.rows[own], place[walls.previous[own]], walls.region[own])
+
+
+@dataclass(frozen=True, eq=False)
+class _BehindWalls:
+    """Discs behind walls, wherever these are; `RoofProof` has the words for the rest."""
+
+    centres: Floats
+    radius: Floats
+    blunt_mm: float
+    gap_mm: float
+
+
+def _behind(group: _AlikeRegions, tip: float, most: float, progress: Progress) -> _BehindWalls:
+    """Return the discs behind the walls of regions, and of all that are like them."""
+    elements = _Elements.of(group.walls)
+    discs = _discs(elements, DistanceField.of(group.walls.rows), most, progress)
+    blunt = np.where(discs.radius < tip, _lengths_of_wall(elements, discs), 0.0)
+    region = elements.region[discs.wall]
+    order = np.argsort(region, kind="stable")
+    numbers, begins = np.unique(region[order], return_index=True)
+    centres, radius, blunt_mm = [], [], 0.0
+    for number, own in zip(numbers.tolist(), np.split(order, begins[1:]), strict=True):
+        shifts = group.shifts[number]
+        centres.append((discs.centres[own] + shifts[:, None]).reshape(-1, 2))
+        radius.append(np.tile(discs.radius[own], len(shifts)))
+        blunt_mm += len(shifts) * float(blunt[own].sum())
+    gap = float(discs.gaps().max(initial=0.0))
+    return _BehindWalls(np.concatenate(centres), np.concatenate(radius), blunt_mm, gap)
+
+
+def _lengths_of_wall(walls: _Elements, discs: _Discs) -> Floats:
+    """Return the length of wall (n,), mm, that each place stands for: half the way to its neighbours."""
     same = np.diff(discs.wall) == 0
     between = np.where(same, np.diff(discs.share) / 2, 0.0)
     before = np.where(np.concatenate([[False], same]), np.concatenate([[0.0], between]), discs.share)
     after = np.where(np.concatenate([same, [False]]), np.concatenate([between, [0.0]]), 1.0 - discs.share)
-    size = np.concatenate([lengths(walls.rows), np.zeros(len(walls.corners))])[discs.wall]
-    return float(((before + after) * size)[blunt].sum())
+    size: Floats = np.concatenate([lengths(walls.rows), np.zeros(len(walls.corners))])[discs.wall]
+    return (before + after) * size
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,10 +229,12 @@ class _Elements:
     Attributes:
         rows: (m, 8).
         corners: (n - m, 4) places x, y, the angle of the first normal and how far it turns, radians.
+        region: (n,) numbers of their regions.
     """
 
     rows: Floats
     corners: Floats
+    region: NDArray[np.int64]
 
     @staticmethod
     def of(walls: Primitives) -> _Elements:
@@ -146,9 +242,11 @@ class _Elements:
         before = rows[walls.previous]
         into, out = _normals(before, before[:, 2:4]), _normals(rows, rows[:, :2])
         turn = np.arctan2(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], np.einsum("ni,ni->n", into, out))
-        reflex = turn < -_EMPTY
+        # a row without one before it, as where something else bounds the area, begins at no corner
+        reflex = (turn < -_EMPTY) & (walls.previous != np.arange(len(rows)))
         angle = np.arctan2(into[reflex, 1], into[reflex, 0])
-        return _Elements(rows, np.column_stack([rows[reflex, :2], angle, turn[reflex]]))
+        corners = np.column_stack([rows[reflex, :2], angle, turn[reflex]])
+        return _Elements(rows, corners, np.concatenate([walls.region, walls.region[reflex]]))
 
     def counts(self) -> NDArray[np.int64]:
         """Return how many places on each are looked at first."""

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +15,11 @@ from numpy.typing import NDArray
 from ..gcode.interpreter.program import NcProgram
 from ..gcode.timing.extent import at_home, from_nowhere_of, nowhere_of
 from ..model.motion import Floats, MotionKind, Motions
-from ..simulation.sweeps.course import Course
+from ..model.motion_path import reach
+from ..simulation.cutter import Cutter
+from ..simulation.field.workpiece import Grid, StockShape, Workpiece
+from ..simulation.sweeps.course import Course, Rapids, TrimOptions
+from ..simulation.sweeps.trim import RapidHit, trim
 
 COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 """Of motions, a row for each."""
@@ -113,3 +121,153 @@ def inserted(course: Course, at: NDArray[np.intp], more: Motions, tool: NDArray[
         replace(course.motions, splines=splines, **columns), np.insert(course.tool, at, tool).astype(np.int32), left_out
     )
     return InsertedMotions(made, owner)
+
+
+# The metal at any place and any time, as finely as need be: what goes between the cells of the whole stock is looked
+# at closer.
+
+
+NARROW = 1.5
+"""Cells of radius below which a cutter may go unseen between the cells' centres."""
+
+FINE = 4.0
+"""Cells of a closer look in the radius of what is led along a way."""
+
+SIDE, LONG = 192, 20_000
+"""Cells of one look along its shorter and its longer side, at most."""
+
+LOOKS = 256
+"""Looks at one way, at most; a longer one is looked at in as many places, spread evenly; `FineStock.wholly` says so."""
+
+MOST = 3000
+"""Ways of one kind that are looked at closer in a program."""
+
+Box = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class CutterTravel:
+    """Where a cutter is led, straight from point to point, when a motion is about to begin.
+
+    Attributes:
+        row: of the motion. points: (k, 3) mm, k >= 1. cutter: that is led there.
+    """
+
+    row: int
+    points: Floats
+    cutter: Cutter
+
+    def radius(self, top: float) -> float:
+        """Return how wide the cutter is at most below a height, mm."""
+        return self.cutter.radius_at(top - float(self.points[:, 2].min()) - self.cutter.lift)
+
+    def course(self) -> Course:
+        """Return the way as rapids of T1."""
+        points = self.points if len(self.points) > 1 else np.repeat(self.points, 2, axis=0)
+        return Course(straight(points[:-1], points[1:]), np.ones(len(points) - 1, np.int32))
+
+
+@dataclass(frozen=True, eq=False)
+class FineStock:
+    """What programs are cut out of.
+
+    Attributes:
+        stock: before all of them. courses: of the programs up to the one that is looked at, which is the last.
+        cutters: by T number.
+    """
+
+    stock: StockShape
+    courses: tuple[Course, ...]
+    cutters: Mapping[int, Cutter]
+
+    def over(self, grid: Grid, row: int) -> Workpiece:
+        """Return the metal over a grid when a motion of the last program is about to begin."""
+        stock = self.stock.over(grid)
+        for k, course in enumerate(self.courses):
+            rows = self.near(k, grid.box)
+            rows = rows if k < len(self.courses) - 1 else rows[rows < row]
+            if len(rows):
+                stock = trim(stock, picked(course, rows), self.cutters, TrimOptions(Rapids.IGNORED)).workpiece
+        return stock
+
+    def met(self, way: CutterTravel, top: float, pitch: float) -> RapidHit | None:
+        """Return where a way goes deepest into metal, None where it meets none.
+
+        Args:
+            top: no metal is higher, mm.
+            pitch: of the cells, mm, where the cutter is wide.
+        """
+        deepest: RapidHit | None = None
+        course = way.course()
+        for grid in fine_grids(way, top, pitch, self.stock.box):
+            stock = self.over(grid, way.row)
+            for hit in trim(stock, course, {1: way.cutter}).rapids:
+                if deepest is None or hit.depth > deepest.depth:
+                    deepest = replace(hit, motion=way.row, cells=max(1, round(hit.cells * (grid.pitch / pitch) ** 2)))
+        return deepest
+
+    @staticmethod
+    def wholly(way: CutterTravel, top: float, pitch: float) -> bool:
+        """Return whether `met` looks at all of a way."""
+        radius = way.radius(top)
+        return radius <= 0 or len(_pieces(way, min(radius / FINE, pitch))) <= LOOKS
+
+    def near(self, k: int, box: Box) -> NDArray[np.intp]:
+        """Return the rows of a course that may cut in a box."""
+        low, high = self._reaches[k]
+        return np.flatnonzero(
+            (low[:, 0] <= box[2]) & (low[:, 1] <= box[3]) & (high[:, 0] >= box[0]) & (high[:, 1] >= box[1])
+        )
+
+    @cached_property
+    def _reaches(self) -> list[tuple[Floats, Floats]]:
+        """Of each course the boxes that its motions cut in, (n, 2) lower and upper corners, mm; empty for those that
+        cut nothing.
+        """
+        return [self._reach(course) for course in self.courses]
+
+    def _reach(self, course: Course) -> tuple[Floats, Floats]:
+        low, high = reach(course.motions)
+        radius = np.full(len(course.motions), -math.inf)
+        for number, cutter in self.cutters.items():
+            radius[course.tool == number] = cutter.radius
+        radius[course.motions.kind == MotionKind.RAPID] = -math.inf
+        radius[list(course.left_out)] = -math.inf
+        return low[:, :2] - radius[:, None], high[:, :2] + radius[:, None]
+
+
+def fine_grids(way: CutterTravel, top: float, pitch: float, stock: Box) -> Iterator[Grid]:
+    """Yield grids that a way is seen on: what of it is below the top and over the stock, in pieces that are not too
+    large.
+    """
+    radius = way.radius(top)
+    if radius <= 0:
+        return
+    fine = min(radius / FINE, pitch)
+    pieces = _pieces(way, fine)
+    step = max(1, math.ceil(len(pieces) / LOOKS))
+    for start, end in pieces[::step]:
+        low, high = np.minimum(start, end), np.maximum(start, end)
+        if low[2] + way.cutter.lift >= top:
+            continue
+        x0, y0 = np.maximum(low[:2] - radius, stock[:2]).tolist()
+        x1, y1 = np.minimum(high[:2] + radius, stock[2:]).tolist()
+        if x1 > x0 and y1 > y0:
+            yield Grid(x0, y0, fine, max(1, math.ceil((y1 - y0) / fine)), max(1, math.ceil((x1 - x0) / fine)))
+
+
+def _pieces(way: CutterTravel, fine: float) -> list[tuple[Floats, Floats]]:
+    """Return a way in pieces that are looked at one by one."""
+    return [piece for start, end in _legs(way.points) for piece in _chopped(start, end, fine)]
+
+
+def _legs(points: Floats) -> Iterator[tuple[Floats, Floats]]:
+    yield from pairwise(points) if len(points) > 1 else ((points[0], points[0]),)
+
+
+def _chopped(start: Floats, end: Floats, fine: float) -> Iterator[tuple[Floats, Floats]]:
+    """Yield a leg in pieces whose boxes have few cells."""
+    wide, tall = np.abs(end[:2] - start[:2]).tolist()
+    count = max(1, math.ceil(min(wide, tall) / (SIDE * fine)), math.ceil(max(wide, tall) / (LONG * fine)))
+    at = start + (end - start) * np.linspace(0.0, 1.0, count + 1)[:, None]
+    yield from pairwise(at)

@@ -7,14 +7,18 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
+from ..core.tolerances import LEVEL
 from ..model.job import Job
-from ..model.moves import Moves
+from ..model.motion import Floats, MotionKind
+from ..model.motion_path import arc_paths
+from ..model.moves import Moves, Purpose
 from ..model.stock_box import StockBox
 from ..simulation.sweeps.course import Course
+from ..simulation.sweeps.pieces import PieceSplitter
 from ..toolpath.coverage.coverage import Coverage, measure
-from .motion_moves import moves_of
 from .parts import FlatPart
 from .verdict import MoveDepths, gouge_depths
 
@@ -69,3 +73,119 @@ def _flat(moves: Moves, job: Job) -> bool:
     """Return whether all tools that move are flat, but for drills, which clear no floor."""
     kinds = [job.tool(number).kind for number in np.unique(moves.tool).tolist()]
     return all(kind.square or kind.drills for kind in kinds)
+
+
+# The motions of a read program as moves in the part's coordinates, for the verdicts that know moves.
+
+
+STIR = 1e-6
+"""mm; the library that measures areas overlooks lines of no length at all."""
+
+
+@dataclass(frozen=True, eq=False)
+class MotionMoves:
+    """Moves, and the row of the motion that each belongs to, (n,)."""
+
+    moves: Moves
+    motion: NDArray[np.int64]
+
+
+def moves_of(course: Course, job: Job, origin: tuple[float, float, float]) -> MotionMoves:
+    """Return a course as moves of a job.
+
+    Motions that are left out are not among them. A way that does not begin where the one before ends begins with a
+    rapid there. One that sinks ends with a move of next to no length, since at its end the cutter stands whole at that
+    depth. Arcs of up to a full turn in the XY plane stay arcs; other curves become chords within 1 um
+    (`app.simulation.sweeps.pieces`).
+
+    Args:
+        course: known ways only.
+        job: where a tool is used in more than one operation, its moves count to the one that leaves the least stock.
+        origin: program = part - origin, mm.
+    """
+    ways = _ways(course).chosen(course)
+    rows = ways.rows
+    jumps = np.ones(len(rows), bool)
+    jumps[1:] = np.any(ways.start[1:] != ways.end[:-1], axis=1)
+    sinks = (ways.end[:, 2] < ways.start[:, 2]) & (ways.kind != MotionKind.RAPID)
+    counts = 1 + jumps + sinks
+    order = np.repeat(np.arange(len(rows)), counts)
+    nth = np.arange(len(order)) - np.repeat(np.cumsum(counts) - counts, counts)
+    jump, stop = jumps[order] & (nth == 0), sinks[order] & (nth == jumps[order] + 1)
+    end = (
+        np.where(jump[:, None], ways.start[order], ways.end[order])
+        + np.array(origin)
+        + stop[:, None] * np.array((STIR, 0, 0))
+    )
+    kind = np.where(jump, MotionKind.RAPID, np.where(stop, MotionKind.LINE, ways.kind[order])).astype(np.uint8)
+    centre = np.where((jump | stop)[:, None], np.nan, ways.centre[order] + np.array(origin[:2]))
+    tool, rapid = course.tool[rows[order]].astype(np.int16), kind == MotionKind.RAPID
+    operation = np.zeros(len(order), np.int16)
+    for number in np.unique(tool).tolist():
+        operation[tool == number] = _operation(job, number)
+    purpose, feed = np.where(rapid, Purpose.RAPID, Purpose.POCKET).astype(np.uint8), course.motions.feed[rows[order]]
+    moves = Moves(
+        end,
+        centre,
+        kind,
+        purpose,
+        operation,
+        tool,
+        np.zeros(len(order), np.int32),
+        np.where(rapid, 0.0, feed),
+        course.motions.line[rows[order]],
+    )
+    return MotionMoves(moves, rows[order])
+
+
+@dataclass(frozen=True, eq=False)
+class _PlainMoves:
+    """Plain ways: starts and ends, the motion that each belongs to, kinds, and centres of arcs."""
+
+    start: Floats
+    end: Floats
+    rows: NDArray[np.int64]
+    kind: NDArray[np.uint8]
+    centre: Floats
+
+    def chosen(self, course: Course) -> _PlainMoves:
+        """Return those of motions that are not left out."""
+        kept = ~np.isin(self.rows, course.left_out)
+        return _PlainMoves(self.start[kept], self.end[kept], self.rows[kept], self.kind[kept], self.centre[kept])
+
+
+def _ways(course: Course) -> _PlainMoves:
+    """Return every motion: plain arcs whole, other curves in chords."""
+    motions = course.motions
+    arcs = arc_paths(motions)
+    even = np.abs(arcs.end_radius - arcs.start_radius) < LEVEL
+    plain = arcs.rows[(arcs.axes[:, 2] == 2) & even & (np.abs(arcs.sweep) <= 2 * np.pi * (1 + 1e-12))]
+    curved = np.setdiff1d(np.flatnonzero(motions.kind >= MotionKind.ARC_CW), plain)
+    splitter = PieceSplitter(motions, arcs_stay=False)
+    counts = np.ones(len(motions), np.int64)
+    parts = [splitter.pieces(int(row), int(row) + 1) for row in curved]
+    counts[curved] = [len(part) for part in parts]
+    rows = np.repeat(np.arange(len(motions)), counts)
+    ways = _PlainMoves(
+        motions.start[rows].copy(),
+        motions.end[rows].copy(),
+        rows,
+        motions.kind[rows].copy(),
+        motions.centre[rows, :2].copy(),
+    )
+    at = np.cumsum(counts) - counts
+    for row, part in zip(curved.tolist(), parts, strict=True):
+        mine = slice(int(at[row]), int(at[row] + counts[row]))
+        ways.start[mine], ways.end[mine], ways.kind[mine], ways.centre[mine] = (
+            part.start,
+            part.end,
+            MotionKind.LINE,
+            np.nan,
+        )
+    return ways
+
+
+def _operation(job: Job, number: int) -> int:
+    """Return the index of the operation of a tool that leaves the least stock; 0 where the tool has none."""
+    mine = [k for k, operation in enumerate(job.operations) if operation.cut.tool == number and operation.cut.enabled]
+    return min(mine, key=lambda k: job.operations[k].cut.stock_to_leave, default=0)

@@ -20,8 +20,7 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..model.motion import Floats
 from ..model.motion_path import reach
 from ..model.tool import Tool
-from ..simulation.bodies.holder import Body, HolderPart, bodies_of
-from ..simulation.bodies.pyramid import BodyPaths, HeightPyramid, shape_rows
+from ..simulation.bodies.bodies import Body, BodyPaths, HeightPyramid, HolderPart, bodies_of, shape_rows
 from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Workpiece
 from ..simulation.sweeps.course import Course, Rapids, TrimOptions

@@ -7,17 +7,34 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely import Geometry as Shape
+
 from ..core.progress import NO_PROGRESS, Progress
+from ..geometry.distance import DistanceField
+from ..geometry.primitives import pack
+from ..model.curves import Circle
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Area, DogBone, Moves, Program, Tab
 from ..model.part import Contour, Region
 from ..model.stock_box import StockBox, extent
+from ..model.tool import ToolKind
+from ..simulation.field.outline import beside, inside
 from ..simulation.field.solid import SolidStock
+from ..simulation.field.target import MARGIN, TargetHeights
+from ..simulation.field.workpiece import Grid
+from ..toolpath.build import MovesBuilder
+from ..toolpath.coverage.areas import grown, region_shapes, united
+from ..toolpath.coverage.floor_target import CHORD, dog_bone_shape
+from .verdict import OperationBound, bounds_of, followed_walls
 
 if TYPE_CHECKING:
     from ..toolpath.coverage.floor_target import FloorTarget
     from .solid_depth import DepthInSolid
+
 
 TOLERANCE = 0.01
 """mm; metal within this of the part is neither gouged nor left."""
@@ -147,3 +164,188 @@ def beyond(part: Part, stock: StockBox) -> Iterator[Finding]:
             "the stock, and where the part's zero lies (its origin and units)."
         )
         yield Finding(FindingKind.BEYOND_STOCK, text, amount=far)
+
+
+# The heights that a drawing milled to depths asks for.
+
+
+Mask = NDArray[np.bool_]
+
+Floats = NDArray[np.float64]
+
+_AT_A_TIME = 4096
+"""Parts of a shape whose outlines are looked at together."""
+
+NO_MOVES = MovesBuilder().moves()
+
+
+@dataclass(frozen=True, eq=False)
+class FlatTarget:
+    """Wanted heights, and which cells some tool of the job reaches, (rows, cols)."""
+
+    target: TargetHeights
+    reach: Mask
+
+
+def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
+    """Return the heights of a part over a grid, program coordinates.
+
+    Within the walls and their stock to leave metal is wanted down to the floor; it is gouged below the deepest
+    operation that may be there. Elsewhere the part's top is wanted, and what stands on it is not spoken of.
+    """
+    found, cells = part.targets, _Cells(part, grid)
+    top, shape = np.float32(-part.origin[2]), (grid.rows, grid.cols)
+    goal, low = np.full(shape, top, np.float32), np.full(shape, top, np.float32)
+    high, reach = np.full(shape, np.inf, np.float32), np.zeros(shape, bool)
+    slack, pockets = part.wall_tolerance + CHORD, any(each.whole for each in found)
+    for each in found:  # from the shallowest to the deepest, which has the last word
+        floor = top - np.float32(each.depth)
+        mine = cells.within(each.floor)
+        goal[mine if each.whole or not pockets else cells.within(each.target)] = floor
+        within = cells.within(each.reach, -slack)
+        if each.out_of_reach is not None:
+            within &= ~cells.within(each.out_of_reach, slack)
+        high[within if each.target is each.reach else cells.within(each.target, -slack)] = floor
+        high[cells.within(each.beyond, -slack)] = floor
+        reach[mine] = False  # what a tool reaches that does not go as deep is no reach here
+        reach |= within
+    for bound in bounds_of(part.program(NO_MOVES), part.job):
+        if bound.carves:
+            _carve(part, bound, FlatTarget(TargetHeights(grid, goal, low, high), reach))
+            continue
+        # drilled holes may cross, and cells are told inside by crossings of all outlines together
+        mine = cells.within(united(region_shapes(bound.area.regions, CHORD)), slack - bound.leave)
+        low[mine] = np.minimum(low[mine], top - np.float32(bound.floor))
+        for dog_bone in part.dog_bones:
+            near = cells.within(dog_bone_shape(dog_bone), slack)
+            low[near] = np.minimum(low[near], top - np.float32(bound.floor))
+    return FlatTarget(TargetHeights(grid, np.pad(goal, MARGIN, mode="edge"), low, high), reach)
+
+
+def _carve(part: FlatPart, bound: OperationBound, target: FlatTarget) -> None:
+    """Put in the slanted walls that a cone makes: as high as the nearest wall is far, divided by the cone's slope.
+
+    What is left is spoken of where a pointed cone gets to the drawn depth; a flat tip leaves corners, and the middle of
+    what is wider than the cone belongs to other tools.
+    """
+    if balls := _balls(part, bound):
+        _carve_round(part, bound, balls, target)
+        return
+    cones = [tool for tool in part.job.tools if tool.number in bound.tools and tool.kind is ToolKind.V]
+    if not cones:
+        return
+    grid, top = target.target.grid, np.float32(-part.origin[2])
+    x = np.asarray(grid.x0 + (np.arange(grid.cols) + 0.5) * grid.pitch + part.origin[0], float)
+    y = np.asarray(grid.y0 + (np.arange(grid.rows) + 0.5) * grid.pitch + part.origin[1], float)
+    over = max(-bound.leave, 0.0)
+    far = (_in_cones(x, y, bound, over) if bound.holes else _in_walls(x, y, bound)) + over  # from the cone's rim
+    steepest = max(tool.profile.cone for tool in cones)
+    depth = np.clip(far * steepest, 0.0, bound.floor)
+    surface = (top - depth).astype(np.float32)
+    inside = far > 0
+    slack = np.float32(CHORD * steepest)
+    low, high, goal = target.target.low, target.target.high, target.target.around
+    low[inside] = np.minimum(low, surface - slack)[inside]
+    spoken = inside & np.isinf(high)
+    goal[spoken] = surface[spoken]
+    if all(tool.tip_diameter == 0 for tool in cones) and len(cones) == 1:
+        sharp = spoken & (depth < bound.floor)
+        high[sharp] = surface[sharp] + slack
+        target.reach[sharp] = True
+
+
+def _balls(part: FlatPart, bound: OperationBound) -> list[float]:
+    """Return the radii of the balls that carve what a bound speaks of, mm."""
+    tools = {part.job.operations[k].cut.tool for k in bound.operations}
+    return [tool.radius for tool in part.job.tools if tool.number in tools and tool.kind is ToolKind.BALL]
+
+
+def _carve_round(part: FlatPart, bound: OperationBound, balls: list[float], target: FlatTarget) -> None:
+    """Put in the hollow edges that a ball makes which goes so deep, as far over the drawn lines as the bound says.
+
+    Its axis comes to all places that are as far from the walls as its width at the surface less that; how far a cell
+    is from these is how far from the axis the ball cuts it.
+    """
+    grid, top = target.target.grid, np.float32(-part.origin[2])
+    x = np.asarray(grid.x0 + (np.arange(grid.cols) + 0.5) * grid.pitch + part.origin[0], float)
+    y = np.asarray(grid.y0 + (np.arange(grid.rows) + 0.5) * grid.pitch + part.origin[1], float)
+    radius, over = max(balls), max(-bound.leave, 0.0)
+    above = radius - bound.floor
+    wide = float(np.sqrt(radius**2 - above**2))
+    far = _in_walls(x, y, bound) + over
+    apart = _off_axes(x, y, bound, wide - over)
+
+    def height(off: Floats) -> NDArray[np.float32]:
+        return np.minimum(above - np.sqrt(np.maximum(radius**2 - off**2, 0.0)), 0.0).astype(np.float32) + top
+
+    inside, slack = far > 0, 2 * CHORD
+    low, high, goal = target.target.low, target.target.high, target.target.around
+    low[inside] = np.minimum(low, height(np.maximum(apart - slack, 0.0)))[inside]
+    spoken = inside & np.isinf(high) & (apart < wide)
+    goal[spoken] = height(apart)[spoken]
+    edge = spoken & (far < wide)
+    high[edge] = height(np.minimum(apart + slack, radius))[edge]
+    target.reach[edge] = True
+
+
+def _off_axes(x: Floats, y: Floats, bound: OperationBound, off: float) -> Floats:
+    """Return (rows, cols) how far places are from all that is so far from an area's walls, mm; 0 within it, inf where
+    there is nothing.
+    """
+    shapes = shapely.get_parts(grown(united(region_shapes(bound.area.regions, CHORD)), -off, CHORD))
+    rings = [np.asarray(shapely.get_coordinates(ring)) for ring in shapely.get_rings(shapes)]
+    if not rings:
+        return np.full((len(y), len(x)), np.inf)
+    rows = np.zeros((sum(len(ring) - 1 for ring in rings), 8))
+    rows[:, :4] = np.concatenate([np.hstack([ring[:-1], ring[1:]]) for ring in rings])
+    field = DistanceField.of(rows)
+    centres = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    far = np.where(field.inside(centres), 0.0, field.nearest(centres)[0])
+    return np.asarray(far.reshape(len(y), len(x)))
+
+
+def _in_walls(x: Floats, y: Floats, bound: OperationBound) -> Floats:
+    """Return (rows, cols) how far inside the followed walls of an area places are, mm; < 0: so far outside."""
+    centres = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    inner = DistanceField.of(pack(bound.area.regions).rows).inside(centres)
+    far = DistanceField.of(followed_walls(bound.area).rows).nearest(centres)[0]
+    return np.where(inner, far, -far).reshape(len(y), len(x))
+
+
+def _in_cones(x: Floats, y: Floats, bound: OperationBound, over: float) -> Floats:
+    """Return (rows, cols) how far inside a circle places are, mm, the one that holds most of them where circles cross;
+    -inf where none is within `over`.
+    """
+    far = np.full((len(y), len(x)), -np.inf)
+    for hole in (each for region in bound.area.regions for each in region.boundary.primitives):
+        assert isinstance(hole, Circle)
+        (middle, across), wide = hole.centre, hole.radius + over
+        columns = slice(*np.searchsorted(x, (middle - wide, middle + wide)))
+        rows = slice(*np.searchsorted(y, (across - wide, across + wide)))
+        apart = np.hypot(x[columns] - middle, (y[rows] - across)[:, None])
+        far[rows, columns] = np.maximum(far[rows, columns], hole.radius - apart)
+    return far
+
+
+@dataclass(frozen=True, eq=False)
+class _Cells:
+    """The cells of a grid, program coordinates, that lie in shapes of a part."""
+
+    part: FlatPart
+    grid: Grid
+
+    def within(self, shape: Shape | NDArray[np.object_], by: float = 0.0) -> Mask:
+        """Return (rows, cols) which cells' centres lie in a shape, or in several that do not overlap: in all that
+        comes within `by` mm of it, or, where that is negative, in what of its parts is deeper inside.
+        """
+        parts = shapely.get_parts(shape)
+        if abs(by) > self.grid.pitch:  # cells near edges would be too many
+            parts, by = shapely.get_parts(grown(parts, by, CHORD)), 0.0
+        held, near = np.zeros((2, self.grid.rows, self.grid.cols), bool)
+        for first in range(0, len(parts), _AT_A_TIME):
+            some = shapely.get_rings(parts[first : first + _AT_A_TIME])
+            rings = [shapely.get_coordinates(ring)[:-1] - self.part.origin[:2] for ring in some]
+            held ^= inside(self.grid, rings)
+            if by:
+                near |= beside(self.grid, rings, abs(by))
+        return held | near if by > 0 else held & ~near

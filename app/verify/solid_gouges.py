@@ -19,9 +19,8 @@ from numpy.typing import NDArray
 from ..model.motion import Floats
 from ..simulation.field.target import frozen
 from ..simulation.field.workpiece import Heights, Workpiece
-from .judgement import Spot, SpotKind
+from .judgement import MOST, CellPlace, Spot, SpotKind
 from .parts import SolidPart
-from .places import MOST, CellPlace
 from .solid_depth import CutColumns, DepthInSolid
 from .wall_probe import Probe, WallProbe, stock_at
 
@@ -215,7 +214,7 @@ class SolidGouges:
 
 def apart(places: Floats) -> NDArray[np.int64]:
     """Return which of some places (m, 2), in order, are farther than APART from all of these before them."""
-    from .apart_kernels import told_apart
+    from .clearance_kernels import told_apart
 
     cells = np.floor(places / APART).astype(np.int64)
     cells -= cells.min(axis=0, initial=0) - 1

@@ -96,9 +96,11 @@ float line_at(float cells) {
 }
 
 // Which way a wall faces: what the cells a little way along it say alike, for one alone knows the steps of the grid.
-vec2 facing_around(ivec2 here, vec2 facing) {
+// Only at a wall: a loop that is not gone through costs nothing, what an `if` leaves out does.
+vec2 facing_around(ivec2 here, vec2 facing, bool at_wall) {
     vec2 sum = facing;
-    for (int k = 0; k < 16; ++k) {
+    int count = at_wall ? 16 : 0;
+    for (int k = 0; k < count; ++k) {
         ivec2 off = ivec2(k % 4, k / 4) * 2 - 3;
         vec3 told = texelFetch(walls, clamp(here + off, ivec2(0), last_cell), 0).rgb * 255.0;
         vec2 other = told.yz - 128.0;
@@ -123,8 +125,9 @@ vec3 metal(vec3 place, ivec2 square, bool at_wall) {
         }
     }
     vec3 normal;
+    vec2 faced = facing_around(near, facing, at_wall);
     if (at_wall) {
-        normal = vec3(facing_around(near, facing), 0.0);
+        normal = vec3(faced, 0.0);
         float low = max(level(weight, true), floor_z / corner.z), high = level(weight, false);
         open = 0.74 + 0.24 * sqrt(clamp((place.z - low) / max(high - low, 1e-3), 0.0, 1.0));
     } else {
@@ -143,8 +146,14 @@ vec3 metal(vec3 place, ivec2 square, bool at_wall) {
 
 const int MISSED = 0, TOP = 1, WALL = 2, SIDE = 3, CUT = 4, UNDERSIDE = 5;
 
+// What tells faces apart where they are equally bright: their kind, of tops their height over the floor, cells.
+float face_of(int kind, int face, float height) {
+    if (kind != TOP) return 0.08 * float(kind == SIDE ? face : kind);
+    return 0.5 + 0.5 * clamp(height / max(highest / corner.z - floor_z / corner.z, 1e-3), 0.0, 1.0);
+}
+
 void main() {
-    if (finer == 1 && texelFetch(uneven, ivec2(gl_FragCoord.xy) / 2, 0).r == 0.0) discard;
+    bool asked = finer == 0 || texelFetch(uneven, ivec2(gl_FragCoord.xy) / 2, 0).r > 0.0;
     vec3 start = eye + gl_FragCoord.x * right + gl_FragCoord.y * up, way = away;
     for (int k = 0; k < 3; ++k) if (abs(way[k]) < 1e-6) way[k] = way[k] < 0.0 ? -1e-6 : 1e-6;
     float lowest = floor_z / corner.z;
@@ -156,7 +165,7 @@ void main() {
     if (section.xy != vec2(0.0)) {
         float turn = dot(section.xy, way.xy), left = section.z - dot(section.xy, start.xy);
         if (abs(turn) < 1e-7) {
-            if (left < 0.0) discard;
+            if (left < 0.0) asked = false;
         } else if (turn > 0.0) {
             end = min(end, left / turn);
         } else if (left / turn > begin) {
@@ -164,78 +173,82 @@ void main() {
             face = 3;
         }
     }
-    if (begin >= end) discard;
-    vec2 hole_one = (hole.xy - start.xy) / way.xy, hole_other = (hole.zw - start.xy) / way.xy;
-    vec2 hole_in = min(hole_one, hole_other), hole_out = max(hole_one, hole_other);
-    float gone = max(hole_in.x, hole_in.y), back = min(hole_out.x, hole_out.y);
-    if (hole.z <= hole.x || gone >= back) gone = back = 3e38;
+    int kind = MISSED, sights = asked && begin < end ? 1 : 0;
+    colour = vec4(0.0);
+    gl_FragDepth = 1.0;
+    // A loop, as its body is all that a software renderer passes over where no pixel at hand has anything to do.
+    for (int sight = 0; sight < sights; ++sight) {
+        vec2 hole_one = (hole.xy - start.xy) / way.xy, hole_other = (hole.zw - start.xy) / way.xy;
+        vec2 hole_in = min(hole_one, hole_other), hole_out = max(hole_one, hole_other);
+        float gone = max(hole_in.x, hole_in.y), back = min(hole_out.x, hole_out.y);
+        if (hole.z <= hole.x || gone >= back) gone = back = 3e38;
 
-    // what is met where the line of sight comes to the stock
-    vec3 place = start + begin * way, side_normal = vec3(0.0, 0.0, -1.0);
-    ivec2 square = clamp(ivec2(floor(place.xy)), ivec2(0), last_cell + 1);
-    int kind = MISSED;
-    float at = begin, below = -1.0;
-    look_at(square);
-    if (begin < gone || begin >= back) {
-        float top = surface(place.xy, square);
-        if (face == 2 && way.z > 0.0 && top > lowest) kind = UNDERSIDE;
-        if (face != 2 && place.z < top) {
-            side_normal = face == 3 ? vec3(section.xy, 0.0)
-                : face == 0 ? vec3(-sign(way.x), 0.0, 0.0) : vec3(0.0, -sign(way.y), 0.0);
-            vec4 off = abs(vec4(place.xy, place.xy) - stock_box);
-            bool outside = (face == 0 ? min(off.x, off.z) : min(off.y, off.w)) < 0.05;
-            kind = face == 3 ? CUT : outside ? SIDE : TOP;
-            if (kind == SIDE) below = top - place.z;
-        }
-    }
-
-    vec2 forward = step(vec2(0.0), way.xy), per_cell = 1.0 / way.xy;
-    for (int n = 0; n < MOST_STEPS && kind == MISSED && at < end; ++n) {
-        if (at >= gone - 1e-4 && at < back) { at = back; continue; }
-        float stop = at < gone ? min(end, gone) : end;
-        vec2 here = start.xy + (at + 2e-4) * way.xy;
-        square = clamp(ivec2(floor(here)), ivec2(0), last_cell + 1);
-        ivec2 block = square / BLOCK;
-        float most = texelFetch(blocks, block, 0).r / corner.z;
-        vec2 exits = ((vec2(block) + forward) * float(BLOCK) - start.xy) * per_cell;
-        float leave = max(min(min(exits.x, exits.y), stop), at + 4e-4);
-        if (start.z + min(at * way.z, leave * way.z) > most) { at = leave; continue; }
-        if (way.z < 0.0) {  // nothing here is met above the highest
-            float reached = (most + 1e-3 - start.z) / way.z;
-            if (reached > at + 1e-3) { at = reached; continue; }
-        }
-        exits = (vec2(square) + forward - start.xy) * per_cell;
-        leave = max(min(min(exits.x, exits.y), stop), at + 4e-4);
+        // what is met where the line of sight comes to the stock
+        vec3 place = start + begin * way, side_normal = vec3(0.0, 0.0, -1.0);
+        ivec2 square = clamp(ivec2(floor(place.xy)), ivec2(0), last_cell + 1);
+        float at = begin, below = -1.0;
         look_at(square);
-        vec4 first = weights(start.xy + at * way.xy, square), last = weights(start.xy + leave * way.xy, square);
-        float z_from = start.z + at * way.z, z_to = start.z + leave * way.z;
-        float side_from = dot(first, side), side_to = dot(last, side);
-        bool foot = side_from > 0.0, crosses = wall && foot != (side_to > 0.0);
-        float share = crosses ? side_from / (side_from - side_to) : 1.0;
-        vec4 between = mix(first, last, share);
-        float before = (wall ? level(first, foot) : dot(first, height)) - z_from;
-        float after = (wall ? level(between, foot) : dot(between, height)) - mix(z_from, z_to, share);
-        if (before >= 0.0 || after >= 0.0) {
-            kind = TOP;
-            at = before >= 0.0 ? at : mix(at, leave, share * before / (before - after));
-            break;
-        }
-        if (crosses) {
-            before = level(between, !foot) - mix(z_from, z_to, share);
-            after = level(last, !foot) - z_to;
-            if (before >= 0.0 || after >= 0.0) {
-                kind = before >= 0.0 ? WALL : TOP;
-                float on = before >= 0.0 ? 0.0 : before / (before - after);
-                at = mix(mix(at, leave, share), leave, on);
-                break;
+        if (begin < gone || begin >= back) {
+            float top = surface(place.xy, square);
+            if (face == 2 && way.z > 0.0 && top > lowest) kind = UNDERSIDE;
+            if (face != 2 && place.z < top) {
+                side_normal = face == 3 ? vec3(section.xy, 0.0)
+                    : face == 0 ? vec3(-sign(way.x), 0.0, 0.0) : vec3(0.0, -sign(way.y), 0.0);
+                vec4 off = abs(vec4(place.xy, place.xy) - stock_box);
+                bool outside = (face == 0 ? min(off.x, off.z) : min(off.y, off.w)) < 0.05;
+                kind = face == 3 ? CUT : outside ? SIDE : TOP;
+                if (kind == SIDE) below = top - place.z;
             }
         }
-        at = leave;
+
+        vec2 forward = step(vec2(0.0), way.xy), per_cell = 1.0 / way.xy;
+        for (int n = 0; n < MOST_STEPS && kind == MISSED && at < end; ++n) {
+            if (at >= gone - 1e-4 && at < back) { at = back; continue; }
+            float stop = at < gone ? min(end, gone) : end;
+            vec2 here = start.xy + (at + 2e-4) * way.xy;
+            square = clamp(ivec2(floor(here)), ivec2(0), last_cell + 1);
+            ivec2 block = square / BLOCK;
+            float most = texelFetch(blocks, block, 0).r / corner.z;
+            vec2 exits = ((vec2(block) + forward) * float(BLOCK) - start.xy) * per_cell;
+            float leave = max(min(min(exits.x, exits.y), stop), at + 4e-4);
+            if (start.z + min(at * way.z, leave * way.z) > most) { at = leave; continue; }
+            if (way.z < 0.0) {  // nothing here is met above the highest
+                float reached = (most + 1e-3 - start.z) / way.z;
+                if (reached > at + 1e-3) { at = reached; continue; }
+            }
+            exits = (vec2(square) + forward - start.xy) * per_cell;
+            leave = max(min(min(exits.x, exits.y), stop), at + 4e-4);
+            look_at(square);
+            vec4 first = weights(start.xy + at * way.xy, square), last = weights(start.xy + leave * way.xy, square);
+            float z_from = start.z + at * way.z, z_to = start.z + leave * way.z;
+            float side_from = dot(first, side), side_to = dot(last, side);
+            bool foot = side_from > 0.0, crosses = wall && foot != (side_to > 0.0);
+            float share = crosses ? side_from / (side_from - side_to) : 1.0;
+            vec4 between = mix(first, last, share);
+            float before = (wall ? level(first, foot) : dot(first, height)) - z_from;
+            float after = (wall ? level(between, foot) : dot(between, height)) - mix(z_from, z_to, share);
+            if (before >= 0.0 || after >= 0.0) {
+                kind = TOP;
+                at = before >= 0.0 ? at : mix(at, leave, share * before / (before - after));
+                break;
+            }
+            if (crosses) {
+                before = level(between, !foot) - mix(z_from, z_to, share);
+                after = level(last, !foot) - z_to;
+                if (before >= 0.0 || after >= 0.0) {
+                    kind = before >= 0.0 ? WALL : TOP;
+                    float on = before >= 0.0 ? 0.0 : before / (before - after);
+                    at = mix(mix(at, leave, share), leave, on);
+                    break;
+                }
+            }
+            at = leave;
+        }
+        vec3 base = kind == CUT && striped(10.0, 1.5) ? mix(stock, hatch, 0.55) : stock;
+        vec3 seen = mix(lit(base, side_normal, 1.0), edge, below < 0.0 ? 0.0 : line_at(below));
+        if (kind == TOP || kind == WALL) seen = metal(start + at * way, square, kind == WALL);
+        colour = vec4(seen, face_of(kind, face, start.z + at * way.z - lowest));
+        gl_FragDepth = 0.5 + depth_gain * at;
     }
     if (kind == MISSED) discard;
-    vec3 base = kind == CUT && striped(10.0, 1.5) ? mix(stock, hatch, 0.55) : stock;
-    vec3 seen = mix(lit(base, side_normal, 1.0), edge, below < 0.0 ? 0.0 : line_at(below));
-    if (kind == TOP || kind == WALL) seen = metal(start + at * way, square, kind == WALL);
-    colour = vec4(seen, 1.0);
-    gl_FragDepth = 0.5 + depth_gain * at;
 }

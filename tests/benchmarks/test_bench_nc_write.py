@@ -11,7 +11,7 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from app.gcode.checks.check import CheckReference, check
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.gcode.writer.write import NcFile, write_files
 from app.model.moves import Moves, Program
 from tests.benchmarks.conftest import OURS, record

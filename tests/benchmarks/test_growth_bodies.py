@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 
-from app.verify.outer_faces import outer_faces
+from app.verify.solid_depth import outer_faces
 from tests.verify.test_outer_faces import many_balls
 
 pytestmark = pytest.mark.benchmark

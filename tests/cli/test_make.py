@@ -163,7 +163,7 @@ def test_make_imports_nothing_that_a_drawing_of_pockets_does_not_need(out: Path)
     """What takes long: pictures, masked arrays, patterns of comments and of hatches, kinds of operation."""
     unused = [
         *("cv2", "scipy", "trimesh", "pyparsing", "numpy.ma.core"),
-        *("app.gcode.interpreter.notes_tool", "app.gcode.interpreter.notes_stock"),
+        "app.gcode.interpreter.foreign_notes",
         *("app.operations.adaptive", "app.operations.vcarve", "app.operations.thread"),
     ]
     code = (

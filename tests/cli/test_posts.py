@@ -9,7 +9,7 @@ import pytest
 
 from app.cli.main import main
 from app.core.settings import config_folder
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import load_post, post_names
 
 FIG2 = Path(__file__).resolve().parents[2] / "resources/samples/fig2.dxf"
 

@@ -11,7 +11,7 @@ import pytest
 
 from app.exhibits.stage_files import png
 from app.exhibits.stages import Variant, stages
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.job import Job
 from app.raster.border import borders_of
 from app.raster.codes import PixelCode

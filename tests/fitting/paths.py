@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
+from app.geometry.outlines import polygon_contour
 from app.geometry.primitives import contour_rows, points_at
-from app.geometry.region import polygon_contour
 from app.model.part import Contour
 from app.raster.border import borders_of
 from app.raster.frame import BitmapFrame

@@ -16,8 +16,8 @@ from app.fitting.fitted import lines_between
 from app.fitting.point_curves.space_curve import SpaceCurve, curve_of_motions
 from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
 from app.geometry.offset.offset import offset_levels
+from app.geometry.outlines import nest
 from app.geometry.primitives import CX, TURN, X0, X1, R, Rows, contour_rows, lengths, pack
-from app.geometry.region import nest
 from app.model.motion import MotionKind, Plane
 from app.model.part import Contour
 from app.raster.frame import BitmapFrame

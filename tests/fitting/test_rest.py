@@ -8,7 +8,7 @@ import pytest
 from app.fitting.corner_smoothing.rest import without_bends
 from app.fitting.corner_smoothing.smooth import CornerSmoothingOptions, moved, smooth
 from app.fitting.corner_smoothing.smoothed_path import PieceKind, SmoothedPath
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.curves import Arc, Line
 from app.model.part import Contour
 from app.raster.frame import BitmapFrame

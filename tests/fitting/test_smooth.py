@@ -9,8 +9,8 @@ from scipy.spatial import cKDTree
 from app.core.errors import ParameterError
 from app.fitting.corner_smoothing.smooth import CornerSmoothingOptions, moved, smooth, without
 from app.fitting.corner_smoothing.smoothed_path import PieceKind, SmoothedPath
+from app.geometry.outlines import polygon_contour
 from app.geometry.primitives import R, lengths, points_at, row_curve, turns
-from app.geometry.region import polygon_contour
 from app.model.curves import Arc, Line
 from app.model.part import Contour
 from app.raster.frame import BitmapFrame

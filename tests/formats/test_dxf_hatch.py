@@ -7,8 +7,8 @@ import pytest
 
 from app.formats.drawing import Drawing
 from app.geometry.chaining.chain import chain
+from app.geometry.outlines import nest
 from app.geometry.primitives import contour_rows, signed_area
-from app.geometry.region import nest
 from app.model.curves import Circle, Ellipse, Line, Spline
 from tests.formats.test_dxf_text import new, read, telling
 

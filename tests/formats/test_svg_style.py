@@ -27,6 +27,17 @@ def curves(body: str) -> list[Curve]:
         '<g style="--a:no;--b:ne"><rect style="--c:none;display:var(--c)" width="9" height="9"/></g>',
         '<style>rect{display:none !important}</style><rect style="display:inline" width="9" height="9"/>',
         '<style>.a{display:none!important} rect.a{display:inline}</style><rect class="a" width="9" height="9"/>',
+        '<style>g > .a{display:none}</style><g><rect class="a" width="9" height="9"/></g>',
+        '<style>#b .a , p{display:none}</style><g id="b"><g><rect class="a" width="9" height="9"/></g></g>',
+        '<style>g>g rect.a.b{display:none}</style><g><g><a><rect class="b a" width="9" height="9"/></a></g></g>',
+        '<style>[data-x="1"]{display:none} rect{display:inline}</style><rect data-x="1" width="9" height="9"/>',
+        '<style>.b{display:none} .a{display:inline}</style><style>.b{display:none}</style><rect class="b a" width="9" '
+        'height="9"/>',
+        '<style>#c{display:none} g rect.a{display:inline}</style><g><rect id="c" class="a" width="9" height="9"/></g>',
+        '<g opacity="0"><rect width="9" height="9"/></g>',
+        '<rect style="fill-opacity:0.0" width="9" height="9"/>',
+        '<g fill="none" stroke="red" stroke-opacity="0%"><rect width="9" height="9"/></g>',
+        '<switch><g systemLanguage="ja"><rect width="9" height="9"/></g><g/></switch>',
     ],
 )
 def test_what_a_variable_or_an_important_rule_hides_is_not_read(body: str) -> None:
@@ -58,3 +69,33 @@ def test_variables_that_unfold_to_much_are_nothing_at_once() -> None:
 )
 def test_places_and_sizes_may_stand_in_a_style(body: str) -> None:
     assert curves(body) == [Circle((40, 25), 5)]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<style>g > .a{display:none}</style><g><a><rect class="a" width="9" height="9"/></a></g>',
+        '<style>.a.b{display:none} rect:hover{display:none}</style><rect class="a" width="9" height="9"/>',
+        '<style>.a{display:none} .b{display:inline}</style><rect class="b a" width="9" height="9"/>',
+        '<rect style="fill-opacity:0" stroke="red" width="9" height="9"/>',
+        '<switch><g systemLanguage="ja"><rect width="9" height="9"/></g></switch>',
+    ],
+)
+def test_what_no_rule_hides_is_read(body: str) -> None:
+    assert len(curves(body)) == 4
+
+
+def test_rules_that_cannot_be_followed_are_told() -> None:
+    styles = "<style>circle + rect, rect:nth-child(2){display:none} text:first-child{font-size:3px}</style>"
+    data = f"<svg {PAGE}>{styles}{RIM}</svg>".encode()
+    told = [each.text for each in read_drawing("a.svg", data, None, (), DrawingOptions()).findings]
+    assert told == [
+        "2 rules of the style sheet cannot be followed, the first for circle + rect; check that nothing hidden is read."
+    ]
+
+
+def test_a_selector_of_many_elements_ends_soon() -> None:
+    body = "<g>" * 90 + '<rect width="9" height="9"/>' * 50 + "</g>" * 90
+    begun = time.process_time()
+    assert len(curves(f"<style>{'g ' * 19}circle, {'g ' * 18}b rect{{display:none}}</style>{body}")) == 200
+    assert time.process_time() - begun < 2

@@ -26,7 +26,7 @@ from app.formats.tools.materials import read_materials
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import read_post
+from app.gcode.posts import read_post
 from app.geometry.typeface import outlined
 from app.raster.picture import read_picture
 from app.raster.picture_options import PictureOptions

@@ -11,7 +11,7 @@ import pytest
 
 from app.core.errors import HitofudeError
 from app.formats.job.toml import read_job
-from app.gcode.posts.posts import post_names
+from app.gcode.posts import post_names
 from app.model.finding import FindingKind
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import MakeResult, make

@@ -14,7 +14,7 @@ import pytest
 import shapely
 
 from app.cli.main import main
-from app.gcode.posts.posts import post_names
+from app.gcode.posts import post_names
 from app.model.finding import FindingKind
 from tests.fuzz.any_plate import ROUND, Plate, any_plate
 from tests.fuzz.dense_heights import DenseHeights, Shape

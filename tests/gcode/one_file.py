@@ -1,7 +1,7 @@
 """A program that is one file, written."""
 
 from app.core.progress import NO_PROGRESS, Progress
-from app.gcode.posts.post import Post
+from app.gcode.posts import Post
 from app.gcode.writer.write import NcText, write_files
 from app.model.job import Job
 from app.model.moves import Program

@@ -9,7 +9,11 @@ import math
 import numpy as np
 import pytest
 
-from app.gcode.checks.arc_distance_kernels import in_step
+from app.gcode.checks import path
+from app.gcode.checks.check_kernels import in_step
+from app.gcode.checks.path import MotionOwners, ReferencePath
+from app.model.motion import MotionKind, Motions, Plane
+from app.model.moves import MoveKind
 
 
 def points(arc: np.ndarray, t: np.ndarray) -> np.ndarray:
@@ -59,3 +63,44 @@ def test_a_whole_turn_more_is_far_away() -> None:
     found = np.empty(1)
     in_step(written, np.zeros((1, 4)), meant, np.array([[0.0, 1.0]]), found)
     assert found[0] > 5
+
+
+@pytest.mark.parametrize("portion", [1, 4, 100_000])
+def test_each_of_many_arcs_is_as_far_off_as_its_centre_whatever_is_looked_at_together(
+    monkeypatch: pytest.MonkeyPatch, portion: int
+) -> None:
+    """Half circles of 10 mm from -X to +X, written round centres that lie 0, 0.01, 0.02 .. mm too high: so far is the
+    top off, and a little more, as the radius grows. Every third one is written in two.
+    """
+    monkeypatch.setattr(path, "_AT_A_TIME", portion)
+    count = 11
+    x, off, zero = 20.0 * np.arange(count), 0.01 * np.arange(count), np.zeros(count)
+    start, end = (np.column_stack([x + side, zero, zero]) for side in (-5.0, 5.0))
+    meant = ReferencePath(
+        start,
+        end,
+        np.column_stack([x, zero]),
+        np.full(count, -np.pi),
+        np.full(count, MoveKind.ARC_CW, np.uint8),
+    )
+    pieces = np.where(np.arange(count) % 3 == 0, 2, 1)
+    move = np.repeat(np.arange(count), pieces)
+    first = np.cumsum(pieces) - pieces
+    second = np.append(False, move[1:] == move[:-1])
+    top = np.column_stack([x, off + np.hypot(5.0, off), zero])[move]
+    both = pieces[move] == 2
+    motions = Motions(
+        np.where(second[:, None], top, start[move]),
+        np.where((both & ~second)[:, None], top, end[move]),
+        np.column_stack([x, off, zero])[move],
+        np.full(len(move), MotionKind.ARC_CW, np.uint8),
+        np.full(len(move), Plane.XY, np.uint8),
+        np.ones(len(move), np.int32),
+        np.full(len(move), 100.0),
+        np.arange(1, len(move) + 1, dtype=np.int32),
+        np.zeros(len(move), np.int32),
+    )
+    owners = MotionOwners(np.arange(len(move)), move, first, pieces, first + pieces - 1)
+    found = path.distances(motions, meant, owners)
+    assert np.all(found >= off + np.hypot(5.0, off) - 5.0 - 1e-12)
+    assert np.all(found <= 1.3 * off + 1e-9)

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.errors import GeometryError
-from app.gcode.writer.arcs import ArcBlock, ArcRules, ReferenceArc, all_pieces, written_pieces
+from app.gcode.writer.work_moves import ArcBlock, ArcRules, ReferenceArc, all_pieces, written_pieces
 from tests.examples import examples
 
 MM4 = ArcRules(4, 4, 2e-4, math.radians(355), 0.002, 1e5, 0.02)

@@ -11,11 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.gcode.posts.post import ArcCentre, Numbers, Post
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import ArcCentre, Numbers, Post, load_post, post_names
 from app.gcode.writer.block_kernels import NO_FEED, UNKNOWN
-from app.gcode.writer.blocks import Blocks
-from app.gcode.writer.drilling import CycleHole
+from app.gcode.writer.blocks import Blocks, CycleHole
 from app.model.moves import MoveKind
 from app.model.part import Units
 from tests.examples import examples

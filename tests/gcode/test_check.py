@@ -18,8 +18,7 @@ from app.gcode.checks.check import Check, CheckReference, check
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import NcProgram
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.post import Coolant, Post
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import Coolant, Post, load_post, post_names
 from app.gcode.writer.write import NcFile, write_files, writing_tolerance
 from app.model.job import OriginXY, OriginZ
 from app.model.motion_path import arc_paths

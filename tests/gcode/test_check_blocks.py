@@ -12,8 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.gcode.checks import blocks as check_blocks
-from app.gcode.posts.post import Coolant
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import Coolant, load_post, post_names
 from tests.examples import examples
 from tests.gcode.programs import Path
 from tests.gcode.test_check import Written, problems

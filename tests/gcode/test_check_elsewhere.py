@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from tests.gcode.test_check import Written, problems
 
 SAFE = "G17 G21 G90 G94 G40 G49 G80"

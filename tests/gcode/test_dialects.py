@@ -10,8 +10,7 @@ import pytest
 
 from app.core.errors import ParameterError
 from app.core.resources import resource
-from app.gcode.posts.post import Post
-from app.gcode.posts.posts import read_post
+from app.gcode.posts import Post, read_post
 from tests.gcode.one_file import write_program
 from tests.gcode.programs import job, two_tools
 from tests.gcode.rs274_oracle import assert_same_motion, canonical_calls

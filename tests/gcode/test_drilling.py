@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from app.core.errors import ParameterError
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.post import Post
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import Post, load_post, post_names
 from app.gcode.writer.write import NcFile, write_files
 from app.model.moves import MoveKind, Moves, Purpose
 from app.model.part import Units

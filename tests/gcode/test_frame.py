@@ -11,7 +11,7 @@ from app.core.errors import ParameterError
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.program import EventKind
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import load_post, post_names
 from app.gcode.rework.frame import JobFrame, frame_text
 from app.gcode.timing.extent import NOWHERE, Extent
 from app.model.motion import MotionKind

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import load_post, post_names
 from app.gcode.writer.write import write_files
 from app.model.job import OriginXY
 from app.model.part import Units

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import load_post, post_names
 from app.gcode.writer.linuxcnc_biarcs import turns_all_along
 from app.gcode.writer.nurbs import nurbs_blocks
 from app.geometry.arcs.bezier import cut_at_knots

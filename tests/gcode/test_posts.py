@@ -10,8 +10,7 @@ import pytest
 from app.core.errors import InputError
 from app.core.resources import resource
 from app.gcode.interpreter.dialect import DIALECT_RULES, Dialect
-from app.gcode.posts.post import ArcCentre, Coolant
-from app.gcode.posts.posts import load_post, post_names, post_titles, read_post
+from app.gcode.posts import ArcCentre, Coolant, load_post, post_names, post_titles, read_post
 from app.model.part import Units
 
 TEXT = resource("posts", "linuxcnc.toml").read_text("utf-8")
@@ -106,7 +105,7 @@ def test_unknown_post_names_the_known_ones() -> None:
         (
             'dialect = "linuxcnc"',
             'dialect = "okuma"',
-            "mill.toml: dialect is 'okuma'; expected is 'linuxcnc' or 'grbl'",
+            "mill.toml: dialect is 'okuma'; expected is 'linuxcnc', 'grbl'",
         ),
         ("X = 4", "X = 9", "mill.toml: decimals.mm.X is 9; expected is a number from 0 to 6"),
         ("I = 4", "I = 3", "mill.toml: decimals.mm must be alike"),

@@ -11,8 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.gcode.checks.check import CheckReference, check
-from app.gcode.posts.post import Coolant, Numbers, Post
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import Coolant, Numbers, Post, load_post, post_names
 from app.gcode.writer.write import write_files
 from app.model.job import Job, OriginXY, OriginZ
 from app.model.moves import Purpose

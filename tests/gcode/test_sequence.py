@@ -7,8 +7,8 @@ import math
 import pytest
 
 from app.core.errors import ParameterError
-from app.gcode.posts.posts import load_post
-from app.gcode.writer.sequence import check_sequence
+from app.gcode.posts import load_post
+from app.gcode.writer.write import check_sequence
 from tests.gcode.one_file import write_program
 from tests.gcode.programs import Path, job, two_tools
 

@@ -9,8 +9,7 @@ from itertools import pairwise
 
 import pytest
 
-from app.gcode.posts.post import Coolant, Post
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import Coolant, Post, load_post, post_names
 from app.gcode.writer.write import blend_mm, write_files, writing_tolerance
 from app.model.job import OriginXY
 from app.model.part import Part, Units

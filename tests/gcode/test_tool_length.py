@@ -8,7 +8,7 @@ import pytest
 
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.model.part import Units
 from tests.gcode.one_file import write_program
 from tests.gcode.programs import Path, job, two_tools

@@ -20,7 +20,7 @@ from app.gcode.interpreter.dialect_guess import guess_dialect
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.program import EventKind, NcProgram
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.gcode.translate.program import translated
 from app.gcode.writer.blocks import Blocks
 from app.model.motion import MotionKind, Motions

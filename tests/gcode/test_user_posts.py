@@ -13,8 +13,7 @@ from app.core.errors import InputError
 from app.core.resources import resource
 from app.core.settings import config_folder
 from app.gcode.checks.check import CheckReference, check
-from app.gcode.posts.post import Post
-from app.gcode.posts.posts import load_post, post_names, post_titles
+from app.gcode.posts import Post, load_post, post_names, post_titles
 from app.gcode.writer.write import write_files
 from tests.gcode.programs import job, two_tools
 

@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.gcode.posts.post import ArcCentre, Numbers
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import ArcCentre, Numbers, load_post
 from app.model.job import OriginXY, OriginZ
 from app.model.part import Units
 from tests.examples import examples

@@ -11,7 +11,7 @@ import pytest
 
 from app.formats.readers import read_drawing
 from app.gcode.checks.check import CheckReference, check
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import load_post, post_names
 from app.gcode.writer.write import write_files
 from app.model.job import Job, OriginXY, OriginZ
 from app.model.part import Units

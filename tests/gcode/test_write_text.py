@@ -10,8 +10,7 @@ import pytest
 
 from app.core.errors import Cancelled, ParameterError
 from app.core.progress import Progress
-from app.gcode.posts.post import Coolant
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import Coolant, load_post
 from app.gcode.writer.header import tool_words
 from app.gcode.writer.write import NcText, blend_mm, writing_tolerance
 from app.model.contour_operation import ContourOperation

@@ -7,7 +7,7 @@ import pytest
 from app.core.errors import InputError
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.gcode.translate.program import TranslatedProgram, translated
 from tests.conftest import ROOT
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from app.geometry.outlines import polygon_contour, reversed_contour
 from app.geometry.primitives import boxes, contour_rows
-from app.geometry.region import polygon_contour, reversed_contour
 from app.model.curves import Arc, Circle, Line, Point, Primitive
 from app.model.part import Contour
 

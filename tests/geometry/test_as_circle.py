@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from app.geometry.as_circle import as_circle
-from app.geometry.region import polygon_contour, reversed_contour
+from app.geometry.outlines import polygon_contour, reversed_contour
 from app.model.part import Contour
 from tests.part_shapes import bulged, circle
 

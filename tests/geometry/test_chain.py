@@ -8,7 +8,7 @@ import pytest
 
 from app.geometry.arcs.arcs import equally_far
 from app.geometry.chaining.chain import ChainingResult, chain
-from app.geometry.chaining.pieces import within_reach
+from app.geometry.chaining.pieces import pieces_from, within_reach
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline, reversed_curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity
@@ -435,3 +435,19 @@ def test_overlapping_arcs_with_another_end_there_are_not_cut() -> None:
     assert any(f.counts and f.kind is FindingKind.OVERLAP for f in made.findings)
     made = chained([bow(0, 200), bow(180, 360, 30.01)], 0.001)
     assert not made.contours[0].closed
+
+
+def test_many_curves_become_what_each_becomes_alone_and_keep_their_order() -> None:
+    """Ninety ellipses and lines, two of which cannot be read and one of which has no length."""
+    curves: list[Curve] = [
+        Ellipse((20.0 * k, 0.0), (3.0 + 0.01 * k, 1.0), 0.4) if k % 3 else Line((20.0 * k, 5.0), (20.0 * k + 4, 6.0))
+        for k in range(120)
+    ]
+    curves[7], curves[64] = Ellipse((2e6, 0.0), (3.0, 0.0), 0.5), Ellipse((math.nan, 0.0), (3.0, 0.0), 0.5)
+    curves[99] = Line((1.0, 1.0), (1.0, 1.0))
+    entities = [Entity(k, curve) for k, curve in enumerate(curves, 1)]
+    pieces, findings = pieces_from(entities)
+    alone = [pieces_from([entity]) for entity in entities]
+    assert pieces == [piece for each in alone for piece in each.pieces]
+    assert findings == [finding for each in alone for finding in each.findings]
+    assert (len(pieces), len(findings)) == (117, 3)

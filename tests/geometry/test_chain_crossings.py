@@ -9,8 +9,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.geometry.chaining.chain import chain
-from app.geometry.chaining.crossings import crossings
+from app.geometry.chaining.chain import chain, crossings
 from app.model.curves import Arc, Circle, Curve, Line, Point, Primitive
 from app.model.finding import Finding
 from app.model.part import Contour, Entity

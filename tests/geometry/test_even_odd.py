@@ -9,8 +9,8 @@ import pytest
 import shapely
 
 from app.geometry.even_odd import even_odd
+from app.geometry.outlines import reversed_contour
 from app.geometry.primitives import contour_rows, sample
-from app.geometry.region import reversed_contour
 from app.model.curves import Arc, Line
 from app.model.part import Contour
 from tests.geometry.meeting_shapes import Pose, box, disc, rounded, slot

@@ -10,7 +10,7 @@ import pytest
 import shapely
 
 from app.geometry.even_odd import even_odd
-from app.geometry.offset.grown_lines import grown_lines
+from app.geometry.offset.offset import grown_lines
 from app.geometry.primitives import contour_rows, sample
 from app.model.curves import Arc, Circle, Line
 from app.model.part import Contour

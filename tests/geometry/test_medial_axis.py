@@ -14,8 +14,8 @@ from app.core.errors import GeometryError
 from app.geometry.distance import DistanceField
 from app.geometry.medial_axis import axis as medial_axis_module
 from app.geometry.medial_axis.axis import MedialAxis, medial_axes
+from app.geometry.outlines import nest, polygon_contour
 from app.geometry.primitives import Primitives, pack
-from app.geometry.region import nest, polygon_contour
 from app.model.curves import Arc, Circle, Line, Primitive
 from app.model.part import Contour
 
@@ -221,3 +221,16 @@ def test_a_letter_whose_last_pieces_are_tiny_is_added_up_in_no_time() -> None:
     (axis,) = medial_axes(Primitives(rows, previous, np.ones(len(rows), np.int64)))
     assert len(axis.pieces) > 100
     assert time.process_time() - begin < 2.0
+
+
+def test_regions_that_are_alike_share_their_axis_and_others_do_not() -> None:
+    """A square, the same elsewhere, and one whose corner is off by ten nanometres: axes are where each belongs."""
+    off = [(50.0, 7.0), (60.0, 7.0), (60.0, 17.00001), (50.0, 17.0)]
+    squares = [SQUARE, [(x + 20.1, y - 3.3) for x, y in SQUARE], off]
+    primitives = packed(*map(polygon_contour, squares))
+    first, second, third = medial_axes(primitives)
+    assert first.pieces is second.pieces and third.pieces is not first.pieces
+    for axis in (first, second, third):
+        rows = primitives.rows[primitives.region == axis.region]
+        discs = axis.discs(np.linspace(0.0, 1.0, 9)).reshape(-1, 3)
+        assert np.allclose(DistanceField.of(rows).nearest(discs[:, :2])[0], discs[:, 2], atol=1e-9)

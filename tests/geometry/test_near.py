@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from app.geometry.tree_queries import near
+from app.geometry.near_points import near
 
 
 def pairs_of(found: np.ndarray) -> set[tuple[int, int]]:

@@ -14,9 +14,9 @@ from app.core.errors import Cancelled
 from app.core.progress import Progress
 from app.geometry.offset import offset
 from app.geometry.offset.offset import OffsetLevel, offset_levels
+from app.geometry.outlines import nest, polygon_contour
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import lengths, pack, points_at
-from app.geometry.region import nest, polygon_contour
 from app.model.part import Contour
 from tests import plain_distance
 from tests.examples import examples

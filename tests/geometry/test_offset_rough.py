@@ -11,8 +11,8 @@ import shapely
 
 from app.core import tolerances
 from app.geometry.offset.offset import OffsetLevel, offset_levels
+from app.geometry.outlines import nest
 from app.geometry.primitives import contour_rows, pack, points_at, sample
-from app.geometry.region import nest
 from app.model.part import Contour, Region
 from tests import plain_distance
 from tests.rough_parts import KINDS, rough_part

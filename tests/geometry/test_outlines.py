@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 import shapely
 
-from app.geometry.outlines import Outlines, polygons
-from app.geometry.region import nested
+from app.geometry.outlines import Outlines, nested, polygons
 from app.model.curves import Circle
 from app.model.part import Contour
 from tests.part_shapes import square

@@ -7,12 +7,12 @@ import math
 import numpy as np
 import pytest
 
-from app.geometry.chaining.crossings import crossings
+from app.geometry.chaining.chain import crossings
 from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
+from app.geometry.outlines import nest, polygon_contour, reversed_contour
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import contour_rows, pack, signed_area
-from app.geometry.region import nest, polygon_contour, reversed_contour
 from tests import plain_distance
 from tests.part_shapes import circle, random_part, square
 

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 from app.core import tolerances
-from app.geometry.chaining.crossings import contacts, crossings
+from app.geometry.chaining.chain import contacts, crossings
 from app.geometry.even_odd import even_odd
-from app.geometry.overlay import planar_graph as overlay_net
+from app.geometry.outlines import nest, nested, polygon_contour
+from app.geometry.overlay import overlay as overlay_net
 from app.geometry.overlay.overlay import without_crossings, without_outlines
 from app.geometry.primitives import contour_rows, curve_rows, lengths, row_curve, signed_area
-from app.geometry.region import nest, nested, polygon_contour
 from app.model.curves import Arc, Line
 from app.model.part import Contour
 from tests.geometry.meeting_shapes import KINDS, OFFSETS, Pose, any_case, box, disc, lattice, side_by_side

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from app.geometry.outlines import nest, reversed_contour
 from app.geometry.primitives import contour_rows, signed_area
-from app.geometry.region import nest, reversed_contour
 from app.model.part import Contour
 from tests.part_shapes import circle, fig2, square
 

@@ -22,7 +22,7 @@ from app.formats.tools.csv import UNITS, read_tool_csv, write_tool_csv
 from app.formats.tools.library import HEADER, ToolLibrary, read_library, write_library
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.gcode.writer.header import operation_words
 from app.gcode.writer.write import write_files
 from app.model import operation_kinds as operations

@@ -21,13 +21,13 @@ from app.formats.tools.files import read_tools, write_tools
 from app.formats.tools.library import ToolLibrary
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.gcode.writer.write import write_files
 from app.model.tool import Tool, ToolKind
 from app.model.tool_kind import ToolProfile, register, tool_kind, tool_kinds, withdraw
 from app.simulation.cutter import cutter_of
 from app.surfaces.cutter_contact.drop_cutter import shape_of
-from app.toolpath.cleared_ground import flat_radius
+from app.toolpath.rest_material import flat_radius
 from app.usecases.cutting.setup_tools import _noted
 from tests.gcode.programs import job, two_tools
 

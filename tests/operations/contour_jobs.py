@@ -17,7 +17,7 @@ from app.model.moves import Moves, Program, Purpose
 from app.model.operation import CutParameters, Side
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
-from app.toolpath.coverage.flat import move_rows
+from app.toolpath.coverage.areas import move_rows
 from app.toolpath.drawn_contours import drawn_contours
 from app.toolpath.machining_areas import MachiningArea, MachiningAreas
 

@@ -12,8 +12,8 @@ import shapely
 from numpy.typing import NDArray
 
 from app.core.errors import ParameterError
+from app.geometry.outlines import nest, polygon_contour
 from app.geometry.primitives import lengths, pack, sample, within_half_turn
-from app.geometry.region import nest, polygon_contour
 from app.model.adaptive_operation import AdaptiveOperation
 from app.model.entry import Entry, EntryKind
 from app.model.finding import FindingKind
@@ -27,7 +27,7 @@ from app.operations.adaptive.plan import ClearingTask, mirrored, mirrored_part, 
 from app.operations.adaptive.plan import ConnectedPath as Cleared
 from app.operations.adaptive.spiral import spiral
 from app.operations.compute import compute
-from app.toolpath.coverage.flat import move_rows
+from app.toolpath.coverage.areas import move_rows
 from tests.operations.engaged import at, engaged, size
 from tests.part_shapes import bulged, circle, fig2, random_star, square
 

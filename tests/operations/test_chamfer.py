@@ -10,8 +10,8 @@ import shapely
 
 from app.core.errors import ParameterError
 from app.geometry.distance import DistanceField
+from app.geometry.outlines import nested, polygon_contour
 from app.geometry.primitives import pack
-from app.geometry.region import nested, polygon_contour
 from app.model.chamfer_operation import ChamferOperation
 from app.model.curve_selectors import on_layers
 from app.model.finding import FindingKind

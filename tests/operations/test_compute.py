@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.core.errors import ParameterError
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.curves import Line
 from app.model.finding import FindingKind

@@ -9,7 +9,7 @@ import math
 import pytest
 
 from app.geometry.offset.offset import offset_levels
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.job import Job
 from app.model.part import Contour
 from app.operations.contour.gaps import WallGap, gaps

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.finding import FindingKind
 from app.model.moves import Program, Purpose

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from app.core.errors import ParameterError
-from app.gcode.posts.posts import load_post
-from app.geometry.region import polygon_contour
+from app.gcode.posts import load_post
+from app.geometry.outlines import polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.curves import Arc

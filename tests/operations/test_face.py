@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from app.core.errors import ParameterError
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.face_operation import FaceOperation, FacePattern
 from app.model.finding import FindingKind
 from app.model.job import Job, OriginZ, Stock

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 
 from app.core import tolerances
 from app.core.errors import ParameterError
+from app.geometry.outlines import nest, polygon_contour
 from app.geometry.primitives import lengths, points_at
-from app.geometry.region import nest, polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
@@ -24,7 +24,7 @@ from app.model.operation import CutParameters, Direction, Operation, PocketOpera
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute
-from app.toolpath.coverage.flat import grown, lines, move_rows, region_shapes
+from app.toolpath.coverage.areas import grown, lines, move_rows, region_shapes
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, random_part, square

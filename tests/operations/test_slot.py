@@ -20,8 +20,8 @@ from app.model.part import Contour
 from app.model.slot_operation import SlotOperation
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute
-from app.toolpath.coverage.flat import lines as shapes_of
-from app.toolpath.coverage.flat import move_rows
+from app.toolpath.coverage.areas import lines as shapes_of
+from app.toolpath.coverage.areas import move_rows
 from tests.operations.contour_jobs import contour_job
 from tests.part_shapes import circle, square
 

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from app.core.errors import ParameterError
 from app.model.motion import Floats
 from app.model.tool import HolderPoint, Tool
-from app.simulation.bodies.holder import Body, HolderPart, bodies_of, holder_of
-from app.simulation.bodies.pyramid import BodyPaths, HeightPyramid, shape_rows
+from app.simulation.bodies.bodies import Body, BodyPaths, HeightPyramid, HolderPart, bodies_of, holder_of, shape_rows
 from app.simulation.cutter import Cutter
 from app.simulation.field.workpiece import Grid, Workpiece
 

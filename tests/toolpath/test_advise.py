@@ -17,21 +17,20 @@ from hypothesis import strategies as st
 from app.core.errors import Cancelled, ParameterError
 from app.core.progress import Progress
 from app.formats.readers import read_drawing
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.geometry.distance import DistanceField
+from app.geometry.outlines import nest, polygon_contour
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import pack
-from app.geometry.region import nest, polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.job import Job
 from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute, regions_of
-from app.toolpath.advice.advise import Advice, RegionAdvice, SizedPlace, advise
+from app.toolpath.advice.advise import Advice, CuttingPlan, RegionAdvice, SizedPlace, advise, distances, times
 from app.toolpath.advice.reach import FITS, centres
-from app.toolpath.advice.time import CuttingPlan, distances, times
-from app.toolpath.coverage.flat import region_shapes
+from app.toolpath.coverage.areas import region_shapes
 from app.usecases.making.written import write_and_check
 from tests.examples import examples
 from tests.part_shapes import bulged, circle, fig2, random_part, square

@@ -12,13 +12,12 @@ from hypothesis import strategies as st
 from app.core import tolerances
 from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
+from app.geometry.outlines import nest, polygon_contour
 from app.geometry.primitives import lengths, pack, points_at
-from app.geometry.region import nest, polygon_contour
 from app.model.moves import Purpose
 from app.model.part import Contour
 from app.toolpath.build import Stroke
-from app.toolpath.linking.chain_net import Corridor
-from app.toolpath.linking.chains import chains
+from app.toolpath.linking.chains import Corridor, chains
 from app.toolpath.linking.rest_runs import RingChunks, RingRun
 from app.toolpath.rest_material import CutGround
 from tests import plain_distance

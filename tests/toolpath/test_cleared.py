@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from app.geometry.primitives import contour_rows
 from app.model.tool import Tool, ToolKind
-from app.toolpath.cleared_ground import ClearedGround, flat_radius
+from app.toolpath.rest_material import ClearedGround, flat_radius
 from tests.examples import examples
 from tests.part_shapes import circle
 

@@ -8,8 +8,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.toolpath.coverage import cut_out as module
-from app.toolpath.coverage.cut_out import cut_out
+from app.toolpath.coverage import proven
+from app.toolpath.coverage.proven import cut_out
 from tests.examples import examples
 
 
@@ -28,11 +28,11 @@ def test_each_box_holds_what_lies_in_it(few_points: int, seed: int) -> None:
     shapes = shapely.get_parts(shapely.get_parts([plate, other]))
     low = rng.uniform((-12, -12), (32, 12), (15, 2))
     boxes = np.asarray(shapely.box(*low.T, *(low + rng.uniform(0.1, 9.0, (15, 2))).T), dtype=object)
-    before, module._FEW_POINTS = module._FEW_POINTS, few_points
+    before, proven._FEW_POINTS = proven._FEW_POINTS, few_points
     try:
         box, pieces = cut_out(shapes, boxes)
     finally:
-        module._FEW_POINTS = before
+        proven._FEW_POINTS = before
     assert not np.any(shapely.is_empty(pieces))
     for k, each in enumerate(boxes):
         expected = shapely.intersection(shapely.union_all(shapes), each)

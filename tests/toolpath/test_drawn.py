@@ -8,7 +8,7 @@ import pytest
 import shapely
 
 from app.core.errors import ParameterError
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.curves import Circle, Line
@@ -16,7 +16,7 @@ from app.model.finding import FindingKind
 from app.model.job import Copies, Job
 from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour, Entity
-from app.toolpath.coverage.flat import region_shapes
+from app.toolpath.coverage.areas import region_shapes
 from app.toolpath.drawn_contours import DrawnContours, drawn_contours, layers_of, outermost
 from tests.part_shapes import circle, layered_part, square
 

@@ -17,9 +17,8 @@ from app.model.job import Stock
 from app.model.moves import MoveKind, Moves, Purpose
 from app.model.operation import CutParameters, Direction, PocketOperation
 from app.toolpath.build import Stroke
-from app.toolpath.depth.depth import pass_heights
-from app.toolpath.entry.entry import EntryContext
-from app.toolpath.entry.links import keeps_off_walls
+from app.toolpath.depth import pass_heights
+from app.toolpath.entry.entry import EntryContext, keeps_off_walls
 from app.usecases.making.make import export
 from tests.examples import examples
 from tests.part_shapes import circle, square

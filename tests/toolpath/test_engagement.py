@@ -26,9 +26,9 @@ from app.model.part import Region
 from app.model.stock_box import stock_box
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute
-from app.toolpath.coverage.flat import move_rows
+from app.toolpath.coverage.areas import move_rows
+from app.toolpath.engagement import engagement as engagement_field
 from app.toolpath.engagement import engagement as engagement_module
-from app.toolpath.engagement import field as engagement_field
 from app.toolpath.engagement import places as engagement_places
 from app.toolpath.engagement.engagement import engagement, sample_engagement
 from app.toolpath.engagement.places import chain_begins, places

@@ -20,7 +20,7 @@ from app.model.moves import MoveKind, Moves, Program
 from app.model.operation import CutParameters, DrillOperation, PocketOperation
 from app.model.tool import Tool
 from app.operations.compute import compute
-from app.toolpath.coverage.flat import move_rows
+from app.toolpath.coverage.areas import move_rows
 from app.toolpath.engagement.engagement import engagement
 from app.toolpath.engagement.feed import LEAST_FEED, followed
 from tests.examples import examples

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.entry import Entry, EntryKind
 from app.model.finding import FindingKind
 from app.model.moves import MoveKind, Moves, Purpose, Tab

@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.geometry.offset.offset import offset_levels
+from app.geometry.outlines import nest
 from app.geometry.primitives import TURN, Rows, lengths, pack, sample
-from app.geometry.region import nest
 from app.model.entry import Lead, LeadKind
 from app.model.job import Job
 from app.model.moves import Purpose
@@ -24,7 +24,7 @@ from app.model.tool import Tool
 from app.operations.compute import compute
 from app.toolpath.leads.contour_path import ContourPath, ContourPaths, headings_at, keep_clear
 from app.toolpath.leads.lead import LeadContext, PathWithLeads, corners_of, lead_findings, overlap_findings, runs
-from app.toolpath.side import wall_paths
+from app.toolpath.machining_areas import wall_paths
 from tests import plain_distance
 from tests.examples import examples
 from tests.operations.contour_jobs import about, contour_job, outside, rows_of, sheet_of

@@ -13,8 +13,7 @@ from app.model.operation import CutParameters, Operation, PocketOperation, Side
 from app.model.part import Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute, drawing_findings, followed_lines, machined_regions
-from app.toolpath.drawn_contours import drawn_contours
-from app.toolpath.text_strokes import strokes_of
+from app.toolpath.drawn_contours import drawn_contours, strokes_of
 
 PLATE = Circle((5.0, 7.0), 60.0)
 

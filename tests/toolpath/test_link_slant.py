@@ -13,17 +13,16 @@ from app.core import tolerances
 from app.formats.readers import read_drawing
 from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
+from app.geometry.outlines import nest
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import lengths, pack, points_at
-from app.geometry.region import nest
 from app.model.job import Job
 from app.model.moves import Purpose
 from app.model.operation import Direction
 from app.model.part import Region
 from app.operations.compute import regions_of
 from app.operations.pocket.paths import PocketStrokes, PocketTarget, shortest
-from app.toolpath.linking.link import LinkOptions
-from app.toolpath.linking.slant import covers
+from app.toolpath.linking.link import LinkOptions, covers
 from app.toolpath.machining_areas import MachiningArea
 from tests import plain_distance
 from tests.conftest import ROOT

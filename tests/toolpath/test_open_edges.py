@@ -7,10 +7,10 @@ import pytest
 import shapely
 
 from app.geometry.even_odd import even_odd
+from app.geometry.outlines import nested, polygon_contour
 from app.geometry.primitives import contour_rows, sample
-from app.geometry.region import nested, polygon_contour
 from app.model.part import Contour, Region
-from app.toolpath.open_edges import BoxSides, opened
+from app.toolpath.machining_areas import BoxSides, opened
 from tests.examples import examples
 from tests.part_shapes import circle
 

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.curves import Point
 from app.model.job import Job
 from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Entity, Part, Region
 from app.model.tool import Tool
 from app.operations.compute import compute
+from app.toolpath.coverage.areas import CutterInArea, Fields, reached
 from app.toolpath.coverage.coverage import measure
-from app.toolpath.coverage.reachable import CutterInArea, Fields, reached
 
 
 def slot(width: float) -> tuple[Region, ...]:

@@ -21,11 +21,10 @@ from app.model.operation import CutParameters, DrillOperation, Operation, Pocket
 from app.model.part import Contour
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute
+from app.toolpath.coverage.areas import region_shapes
 from app.toolpath.coverage.coverage import measure
-from app.toolpath.coverage.flat import region_shapes
-from app.toolpath.drawn_contours import drawn_contours
+from app.toolpath.drawn_contours import drawn_contours, selected, selection_findings
 from app.toolpath.machining_areas import MachiningAreas
-from app.toolpath.selected import selected, selection_findings
 from tests.part_shapes import circle, layered_part, square
 
 PLATE = {

@@ -16,7 +16,7 @@ from app.model.job import Job
 from app.model.moves import Moves, Program
 from app.operations.compute import compute
 from app.toolpath.coverage.coverage import Coverage, measure, measure_beside_clear
-from app.toolpath.coverage.settled import one_floor, settled
+from app.toolpath.coverage.proven import one_floor, settled
 from app.usecases.job.options import MakeOptions
 from app.usecases.job.plausible import read_for
 from app.usecases.making.make import job_from_drawing

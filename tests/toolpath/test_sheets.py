@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 import shapely
 
+from app.geometry.outlines import nest, polygon_contour
 from app.geometry.overlay.overlay import without_outlines
-from app.geometry.region import nest, polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.job import Copies, Job
 from app.model.operation import CutParameters, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from app.model.part import Contour, Region
 from app.model.tool import Tool
-from app.toolpath.coverage.flat import region_shapes
+from app.toolpath.coverage.areas import region_shapes
 from app.toolpath.drawn_contours import drawn_contours
 from app.toolpath.machining_areas import MachiningArea, MachiningAreas
 from tests.part_shapes import circle, layered_part, random_part, square

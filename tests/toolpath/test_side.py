@@ -16,7 +16,7 @@ from app.model.job import Job
 from app.model.operation import CutParameters, Direction, Side
 from app.model.part import Contour
 from app.toolpath.leads.contour_path import ContourPath, headings_at, left_of
-from app.toolpath.side import ranks, wall_paths
+from app.toolpath.machining_areas import ranks, wall_paths
 from tests import plain_distance
 from tests.operations.contour_jobs import contour_job, outside, polygon, sheet_of
 from tests.part_shapes import circle, fig2, random_part, square

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.geometry.outlines import polygon_contour
 from app.geometry.primitives import lengths
-from app.geometry.region import polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.curves import Line, Primitive
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs

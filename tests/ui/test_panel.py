@@ -9,7 +9,7 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 
 from app.drafting.document import Document
-from app.gcode.posts.posts import post_titles
+from app.gcode.posts import post_titles
 from app.model.contour_operation import ContourOperation
 from app.model.entry import Lead, LeadKind, Tabs
 from app.model.job import Job, OriginXY

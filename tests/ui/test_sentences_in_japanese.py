@@ -80,6 +80,8 @@ def test_what_errors_quote_is_japanese_too() -> None:
         ("s.toml", "[[tool]]\nnumber = 1\n", "s.toml:1: diameter がこの [[tool]] にありません。diameter = … を"),
         ("s.toml", "foo = 1", "s.toml:1: foo は使えません。使えるのは name, stock, surface, passes です。"),
         ("p.ngc", "G1 X3 Q2 F100\nM30", "p.ngc:1:7: Q2: このブロックのどのコードもこのワードを使いません。"),
+        ("a.draw", "lime 0,0 1,1", "a.draw:1: 1 桁目: 'lime' というコマンドはありません。近いもの: line または spline"),
+        ("s.toml", 'units = "ft"', "s.toml:1: units が 'ft' です。mm または in を使ってください"),
         ("p.ngc", "#1=", "p.ngc:1:4: 数、#、[、関数のどれかが要ります (行末 があります)。"),
     ],
 )

@@ -284,15 +284,18 @@ def test_sentences_are_looked_up_before_an_entry_swallows_them_and_lists_name_by
             "Zoom in.": "拡大。",
             "Drill": "穴あけ",
             "Pocket": "ポケット",
-        }
+        },
+        {",": "、", "or": "または", "and": "と"},
     )
     assert words.look_up("Found: no gouge. Zoom in.") == "発見: 食込みなし。拡大。"
     assert words.look_up("Found: drill, pocket.") == "発見: 穴あけ、ポケット。"
     assert words.look_up("Found: drill, saw.") == "発見: drill, saw。", "half a list is none"
-    assert words.look_up("Found: drill or pocket.") == "発見: 穴あけ または ポケット。"
-    assert words.look_up("Found: drill, pocket and drill.") == "発見: 穴あけ、ポケット と 穴あけ。"
-    assert words.look_up("Found: .dxf, .svg or .draw.") == "発見: .dxf、.svg または .draw。"
-    assert words.look_up("Found: a big saw or drill.") == "発見: a big saw or drill。"
+    assert words.look_up("Found: drill or pocket.") == "発見: 穴あけまたはポケット。"
+    assert words.look_up("Found: pocket, drill and pocket.") == "発見: ポケット、穴あけとポケット。"
+    assert words.look_up("Found: 'mm' or 'in'.") == "発見: 'mm' または 'in'。"
+    assert words.look_up("Found: front and back.dxf.") == "発見: front and back.dxf。", "the name of a file is none"
+    assert words.look_up("Found: drill or saw.") == "発見: drill or saw。"
+    assert words.look_up("Found: .dxf, .svg or .draw.") == "発見: .dxf, .svg または .draw。"
 
 
 def test_the_badge_speaks_the_language_while_it_turns(qtbot, japanese):

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import math
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from app.core.errors import InputError
+from app.core.resources import resource
 from app.fitting.point_surfaces.surface_pieces import NO_PIECE, surface_pieces
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
@@ -21,10 +23,11 @@ from app.simulation.cutter import Cutter
 from app.usecases.better.area import PassArea
 from app.usecases.better.comparison import compared
 from app.usecases.better.improve import better
-from app.usecases.better.pieces import touched
+from app.usecases.better.pieces import PassLifter, SmoothedPieces, touched
 from app.usecases.better.report import findings, lines, report
 from app.usecases.better.result import BetterOptions, BetterProgram
 from app.usecases.better.tracks import tracks_of
+from app.usecases.tolerance_budget import Evidence
 from tests import raster_program as made
 from tests.usecases.test_better import driven
 
@@ -59,6 +62,17 @@ def valley_rows() -> list[Floats]:
     return found
 
 
+def sample() -> str:
+    """The sample `valley.ngc`."""
+    head = (
+        "(Passes of a flat cutter over a polyhedron and, where that is higher, a plane: two surfaces with an edge "
+        "between.)",
+        "(The lesson: hitofude better valley.ngc -o valley-better.ngc; the passes are lifted onto both smooth "
+        "surfaces.)",
+    )
+    return made.text(valley_rows(), "\n".join(head), tool="flat,4")
+
+
 @cache
 def bent() -> BetterProgram:
     return result(made.text(bent_rows(), tool="ball,6"))
@@ -66,7 +80,7 @@ def bent() -> BetterProgram:
 
 @cache
 def valley() -> BetterProgram:
-    return result(made.text(valley_rows(), tool="flat,4"))
+    return result(sample())
 
 
 def below(data: bytes, step: float = 0.05) -> Floats:
@@ -74,6 +88,12 @@ def below(data: bytes, step: float = 0.05) -> Floats:
     places = driven(data, step)
     way = np.linalg.norm(np.diff(places[:, :2], axis=0), axis=1) > 1e-9
     return places[1:][way]
+
+
+def test_the_sample_is_what_it_says() -> None:
+    assert resource("samples", "valley.ngc").read_text() == sample()
+    done = valley()
+    assert done.new.blocks < 0.05 * done.old.blocks and done.new.bend < 0.01 * done.old.bend
 
 
 @pytest.mark.exhaustive
@@ -99,6 +119,27 @@ def test_passes_over_two_surfaces_cross_where_both_are_as_high() -> None:
     off = np.minimum(np.abs(made.square_off(places)), np.abs(high) / math.sqrt(1 + 0.55**2 + 0.1**2))
     assert np.median(off) < 0.01 and off.max() < 0.05
     assert any("boundary points" in line for line in lines(done)) and report(done)["lifted"]
+
+
+def test_chords_of_lifted_passes_are_no_farther_from_the_surfaces_than_proven() -> None:
+    """By forty places along every chord, through the joint of both surfaces."""
+    done = valley()
+    smoothed, [chords] = done.smoothed, [each for each in done.budget.shares if each.name == "chords"]
+    assert isinstance(smoothed, SmoothedPieces) and chords.evidence is Evidence.PROVEN
+    for allowed in (0.004, 0.0005):
+        lifter, worst, crossed = PassLifter(smoothed, allowed), 0.0, 0
+        for row in smoothed.tracked.lines:
+            lifted = lifter.lifted(row)
+            assert lifted.chord_mm <= allowed
+            if not len(lifted.boundaries):
+                continue
+            crossed += 1
+            along = np.concatenate([a + np.linspace(0, 1, 41)[:, None] * (b - a) for a, b in pairwise(lifted.points)])
+            off = np.min([np.abs(each.spline.heights(along[:, :2]) - along[:, 2]) for each in smoothed.fitted], axis=0)
+            inner = (along[:, 0] > 2.1) & (along[:, 0] < 11.9)  # ends stay, and passes come down to them
+            assert off[inner].max() <= lifted.chord_mm + 1e-12
+            worst = max(worst, off[inner].max() / lifted.chord_mm)
+        assert crossed >= 12 and worst > 0.7
 
 
 def test_the_cut_of_a_flat_cutter_is_that_of_the_old_one_by_another_way_of_cutting() -> None:

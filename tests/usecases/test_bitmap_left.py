@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from app.cli.main import main
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.finding import FindingKind
 from app.model.part import Contour
 from app.usecases.making.make import MakeResult, finish

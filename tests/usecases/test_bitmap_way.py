@@ -15,7 +15,7 @@ from app.model.moves import MoveKind
 from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
-from app.toolpath.coverage.flat import move_rows
+from app.toolpath.coverage.areas import move_rows
 from app.usecases.making.bitmap_job import drawn_job
 from app.usecases.making.make import finish
 from app.usecases.pixels.part import BitmapSize

@@ -24,7 +24,7 @@ import pytest
 from app.exhibits.die_programs import PROGRAMS, finishing
 from app.gcode.interpreter.options import PATIENT, ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.gcode.writer.linuxcnc_biarcs import driven
 from app.model.stock_box import StockBox
 from app.simulation.cutter import Cutter

@@ -15,7 +15,7 @@ import pytest
 from app.core.errors import GeometryError, HitofudeError, ParameterError
 from app.core.resources import resource
 from app.formats.job.toml import read_job
-from app.gcode.posts.posts import post_names
+from app.gcode.posts import post_names
 from app.model.finding import FindingKind
 from app.model.moves import MoveKind, Purpose
 from app.operations.compute import compute
@@ -362,7 +362,7 @@ def test_a_tapping_cycle_that_is_wrong_is_found(post: str, change: tuple[str, st
 def tampered(made: MakeResult, old: str, new: str) -> str:
     """What the check says of the program's text with something else in it."""
     from app.gcode.checks.check import CheckReference, check
-    from app.gcode.posts.posts import load_post
+    from app.gcode.posts import load_post
 
     (file,) = made.files
     assert old in file.nc.text
@@ -378,7 +378,7 @@ def test_what_a_program_tells_is_read_back() -> None:
     from app.gcode.interpreter.options import ReadOptions
     from app.gcode.interpreter.reader import read_program
     from app.gcode.operation_notes import written
-    from app.gcode.posts.posts import load_post
+    from app.gcode.posts import load_post
 
     made = made_of(THREAD + TAP.removeprefix(DRILL) + CHAMFER.format("outside"))
     header = read_program(made.files[0].nc.text.encode(), ReadOptions(load_post("linuxcnc").dialect)).header

@@ -14,7 +14,7 @@ import pytest
 from app.core.errors import Cancelled, GeometryError, InputError, ParameterError
 from app.core.progress import Progress
 from app.formats.machine_toml import DEFAULT_MACHINE, load_machine
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.model.contour_operation import ContourOperation
 from app.model.finding import FindingKind
 from app.model.job import Job, OriginXY, OriginZ

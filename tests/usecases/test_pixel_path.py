@@ -24,8 +24,8 @@ from app.raster.border import borders_of
 from app.raster.frame import BitmapFrame
 from app.raster.levels import offset_area
 from app.raster.walls import free_pixels, wall_rows
+from app.toolpath.coverage.areas import move_rows
 from app.toolpath.coverage.coverage import coverage_findings, measure
-from app.toolpath.coverage.flat import move_rows
 from app.usecases.making.bitmap_job import drawn_job
 from app.usecases.making.make import finish
 from app.usecases.pixels.options import BitmapSize

@@ -22,7 +22,8 @@ from app.model.job import Copies, Job
 from app.model.operation import DrillOperation, PocketOperation, RestOperation, Side
 from app.model.stock_box import stock_box
 from app.model.tool import Tool, ToolKind
-from app.toolpath.coverage.flat import region_shapes
+from app.operations.compute import compute
+from app.toolpath.coverage.areas import region_shapes
 from app.usecases.job.machining import MachiningOptions
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import MakeResult, make
@@ -181,6 +182,22 @@ def test_equal_circles_take_the_drill_of_their_size_if_there_is_one() -> None:
     small, large = (each.operation for each in proposal.operations[1:3])
     assert isinstance(small, BoreOperation) and isinstance(large, ContourOperation)
     assert large.tabs.count == 3  # 4 mm leaves nothing in 6 mm, and a disc in 18 mm
+
+
+def test_holes_of_several_diameters_with_one_mill_are_one_operation_and_one_short_way() -> None:
+    """Closed form: no way over all places of a grid is shorter than one step to each but the first."""
+    step, columns, rows, sizes = 15.0, 6, 5, (3.15, 3.35, 3.45)
+    places = [(step * i, step * j, sizes[(i + 2 * j) % 3]) for i in range(columns) for j in range(rows)]
+    lines = "rect -10,-10 85,70; " + "; ".join(f"circle {x:g},{y:g} {size / 2:g}" for x, y, size in places)
+    proposal = proposed(lines)
+    assert words(proposal) == ["bore circles:3.15 circles:3.35 circles:3.45", "contour outer"]
+    assert "30 holes of 3.15, 3.35 and 3.45 mm" in proposal.operations[0].why
+    moves = compute(replace(proposal.job, operations=proposal.job.operations[:1])).moves
+    way = moves.end - moves.start
+    ways = np.hypot(*way[moves.start[:, 2] == proposal.job.travel_z, :2].T)
+    ways = ways[ways > 1.0]
+    assert len(ways) in (len(places) - 1, len(places))
+    assert ways[-len(places) + 1 :].sum() <= 1.05 * step * (len(places) - 1)
 
 
 def test_tools_reach_the_depth_and_fit_between_the_walls() -> None:

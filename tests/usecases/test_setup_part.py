@@ -10,7 +10,7 @@ import shapely
 from ezdxf.document import Drawing
 
 from app.formats.readers import read_drawing
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.gcode.writer.write import write_files
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
@@ -20,7 +20,7 @@ from app.model.moves import Area, DogBone, Program, Tab
 from app.model.operation import CutParameters, DrillOperation, Operation, PocketOperation, Side
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import followed_lines, machined_regions
-from app.toolpath.coverage.flat import region_shapes
+from app.toolpath.coverage.areas import region_shapes
 from app.toolpath.drawn_contours import drawn_contours
 from app.toolpath.machining_areas import MachiningAreas
 from app.usecases.cutting.ready_setup import SetupRequest, setup_of

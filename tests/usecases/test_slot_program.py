@@ -9,7 +9,7 @@ import pytest
 
 from app.core.resources import resource
 from app.formats.job.toml import read_job
-from app.gcode.posts.posts import post_names
+from app.gcode.posts import post_names
 from app.operations.compute import compute
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import MakeResult, finish, make

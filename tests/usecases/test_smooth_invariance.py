@@ -21,7 +21,7 @@ from app.fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from app.fitting.point_curves.proven_curve import SplineOptions, fit_splines
 from app.fitting.point_curves.space_curve import curve_of_motions
 from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.usecases.smoothing.result import OutputForm, SmoothOptions
 from app.usecases.smoothing.smooth import smooth
 from tests.examples import examples

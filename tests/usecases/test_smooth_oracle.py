@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.usecases.smoothing.report import report
 from app.usecases.smoothing.result import OutputForm, SmoothedProgram, SmoothOptions
 from app.usecases.smoothing.smooth import smooth

@@ -12,7 +12,7 @@ import pytest
 from app.core.errors import Cancelled, HitofudeError
 from app.core.progress import Progress
 from app.formats.scene.toml import sources_of
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import load_post, post_names
 from app.model.finding import FindingKind
 from app.model.job import OriginXY, OriginZ
 from app.model.part import Units

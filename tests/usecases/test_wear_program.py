@@ -19,7 +19,7 @@ from app.formats.job.toml import read_job
 from app.gcode.checks.check import CheckReference, check
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post
+from app.gcode.posts import load_post
 from app.gcode.rework.restart import RestartOptions, restart
 from app.model.contour_operation import ContourOperation
 from app.model.entry import Lead, LeadKind
@@ -154,7 +154,7 @@ def test_words_on_the_wrong_side_are_found(monkeypatch: pytest.MonkeyPatch, tmp_
     (tmp_path / "posts" / "wrong.toml").write_text(
         'extends = "linuxcnc"\ntitle = "Wrong"\n[compensation]\nleft = "G42 D{tool}"\nright = "G41 D{tool}"\n'
     )
-    monkeypatch.setattr("app.gcode.posts.posts.config_folder", lambda: tmp_path)
+    monkeypatch.setattr("app.gcode.posts.config_folder", lambda: tmp_path)
     result = made(post="wrong")
     found = [each for each in result.findings if each.kind is FindingKind.GOUGE]
     assert found and found[0].counts

@@ -14,8 +14,7 @@ from app.core.errors import HitofudeError
 from app.core.settings import config_folder
 from app.formats.machine_toml import load_machine
 from app.gcode.checks.check import CheckReference, check
-from app.gcode.posts.post import Decimals, WordDecimals
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import Decimals, WordDecimals, load_post, post_names
 from app.gcode.writer import write
 from app.model.finding import FindingKind
 from app.model.machine import Machine

@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from app.model.moves import MoveKind
-from app.toolpath.coverage.flat import lines, move_rows, region_shapes
+from app.toolpath.coverage.areas import lines, move_rows, region_shapes
 from app.usecases.making.make import MakeResult
 
 DOUBT = 0.01

@@ -11,7 +11,7 @@ from app.model.tool import Tool, ToolKind
 from app.simulation.field.solid import SolidStock
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.cutting.cut import CutOptions, CutProgram, CutSetup, cut
-from app.verify import fine_stock, narrow_rapids, path_hits
+from app.verify import accidents, course, plunges
 from app.verify.parts import SolidPart
 from tests.simulation.test_target import box
 from tests.verify.test_judge import program
@@ -67,8 +67,8 @@ def test_pecks_go_where_the_drill_was() -> None:
 
 
 def test_rapids_beyond_the_most_that_are_looked_at_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(narrow_rapids, "MOST", 1)
-    monkeypatch.setattr(path_hits, "MOST", 1)
+    monkeypatch.setattr(accidents, "MOST", 1)
+    monkeypatch.setattr(plunges, "MOST", 1)
     result = done("G0 Z5\nX10 Y10.25\nG1 Z-1 F200\nX20\nG0 X10\nX20\nX10\nZ5\n")
     assert [(finding.kind, finding.counts, finding.amount) for finding in result.findings] == [
         (FindingKind.TOLERANCE, False, 2.0)
@@ -82,7 +82,7 @@ def test_rapids_beyond_the_most_that_are_looked_at_are_told(monkeypatch: pytest.
 
 
 def test_long_ways_are_looked_at_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fine_stock, "LOOKS", 4)
+    monkeypatch.setattr(course, "LOOKS", 4)
     assert [hit.line for hit in rapids("G0 Z5\nX10 Y10.25\nG1 Z-1 F200\nG0 X290 Y190\nG1 Z5\n")] == [7]
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.curves import Circle, Line
 from app.model.finding import FindingKind
@@ -20,8 +20,7 @@ from app.model.tool import Tool, ToolKind
 from app.toolpath.coverage.coverage import measure
 from app.toolpath.coverage.floor_target import floor_targets
 from app.usecases.making.make import export
-from app.verify.bounds import bounds_of
-from app.verify.verdict import clamps_met, deepest_of, gouge_depths
+from app.verify.verdict import bounds_of, clamps_met, deepest_of, gouge_depths
 from tests.gcode.programs import Path, square
 from tests.verify.test_gouge import gouge
 

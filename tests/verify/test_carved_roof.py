@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from app.core.progress import NO_PROGRESS
 from app.geometry.distance import DistanceField
+from app.geometry.outlines import nested, polygon_contour
 from app.geometry.primitives import pack
-from app.geometry.region import nested
 from app.model.part import Contour
 from app.verify.carved_roof import ConePath, _Carving, _discs, _Elements, prove_roof
 from tests.part_shapes import circle, square
@@ -100,3 +100,22 @@ def test_the_best_motion_is_found_among_all(seed: int) -> None:
     assert much.sum() > 50 and (told[~much] <= 0.5).all()
     assert (told[much] <= sampled[much] + 1e-9).all() and (sampled[much] - told[much]).max() < 0.01
     assert told.max() == pytest.approx(sampled.max(), abs=0.01)
+
+
+@pytest.mark.parametrize("shallow", [0, 1, 2])
+def test_regions_that_are_alike_are_judged_each_in_its_place(shallow: int) -> None:
+    """Three pyramids, two of them alike and the third a hair off, one of them too shallow by 0.1 mm."""
+    corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]
+    squares = [polygon_contour([(x + 30 * k, y + 1e-5 * (k == 2 and x > y)) for x, y in corners]) for k in range(3)]
+    lift = [[30.0 * k, 0.0, 1.0 + 0.1 * (k == shallow)] for k in range(3)]
+    path = ConePath(
+        np.concatenate([PYRAMID.start + each for each in lift]),
+        np.concatenate([PYRAMID.end + each for each in lift]),
+        1.0,
+        1.0,
+        99.0,
+    )
+    proof = prove_roof(path, pack(nested(squares).regions), 0.005)
+    assert proof.left_mm == pytest.approx(0.1, rel=0.01) and 30 * shallow <= proof.x <= 30 * shallow + 20
+    assert proof.places / 3.5 < proof.above < proof.places / 2.8
+    assert proof.blunt_mm == pytest.approx(3 * 8.0, abs=0.3)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from app.verify.clearance import curve_distance
+from app.verify.verdict import curve_distance
 from tests.examples import examples
 
 numbers = st.floats(-10, 10).map(lambda value: round(value, 3))

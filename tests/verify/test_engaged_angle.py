@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from app.geometry.region import polygon_contour
+from app.geometry.outlines import polygon_contour
 from app.model.adaptive_operation import AdaptiveOperation
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves

@@ -13,7 +13,7 @@ from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.cutting.cut import CutOptions, CutSetup, cut
-from app.verify import path_hits
+from app.verify import plunges
 from tests.surfaces.solids import pocketed_block, stl
 from tests.verify.test_judge import program
 
@@ -86,7 +86,7 @@ def test_ways_between_the_cells_are_looked_at_closer_together_or_one_by_one(
     few: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Six descents, the last but one over a place that is cut by then and the last before that place is cut deeper."""
-    monkeypatch.setattr(path_hits, "FEW", few)
+    monkeypatch.setattr(plunges, "FEW", few)
     places = [f"G0 Z5\nX{6 * k + 3} Y{4 * k + 4}\nG1 Z-{2 + k}\n" for k in range(5)]
     again = "G0 Z5\nX3 Y4\nG1 Z-2\nG0 Z5\nX35 Y25\nG1 Z-9\nZ-9.5 F300\n"
     body = f"{SLOWLY}{SLOT}{''.join(places)}{again}"
@@ -97,8 +97,8 @@ def test_ways_between_the_cells_are_looked_at_closer_together_or_one_by_one(
 
 def test_descents_that_were_not_looked_at_to_the_end_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     """One of the five lies on a cell's centre and is seen at once, two are looked at closer, two are not."""
-    monkeypatch.setattr(path_hits, "FEW", 10**6)
-    monkeypatch.setattr(path_hits, "MOST", 2)
+    monkeypatch.setattr(plunges, "FEW", 10**6)
+    monkeypatch.setattr(plunges, "MOST", 2)
     places = "".join(f"G0 Z5\nX{6 * k + 3} Y{4 * k + 4}\nG1 Z-{2 + k} F900\n" for k in range(5))
     setup = CutSetup(
         (program(f"{BEGIN}{SLOWLY}{SLOT}{places}G0 Z5\nM2\n"),),

@@ -15,7 +15,7 @@ from app.core.progress import Progress
 from app.model.motion import Floats, MotionKind, Motions, Plane
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
-from app.simulation.bodies.holder import HolderPart, bodies_of
+from app.simulation.bodies.bodies import HolderPart, bodies_of
 from app.simulation.cutter import Cutter, cutter_of
 from app.simulation.field.workpiece import BoxStock, Grid, Workpiece
 from app.simulation.sweeps.course import Course

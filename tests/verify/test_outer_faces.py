@@ -16,8 +16,7 @@ from app.core.progress import Progress
 from app.simulation.field.solid import SolidStock, read_solid
 from app.simulation.field.triangle_tree import TriangleTree
 from app.surfaces.meshes.orientation import winding_number
-from app.verify.outer_faces import outer_faces
-from app.verify.solid_depth import CutColumns, DepthInSolid
+from app.verify.solid_depth import CutColumns, DepthInSolid, outer_faces
 from tests.simulation.test_target import box
 from tests.surfaces.solids import bossed_block, stl
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from app.geometry.distance import DistanceField
+from app.geometry.outlines import nested
 from app.geometry.primitives import pack, within_half_turn
-from app.geometry.region import nested
-from app.verify.slanted_clearance import SlantedMoves, reach_beyond
+from app.verify.verdict import SlantedMoves, reach_beyond
 from tests.part_shapes import circle, random_star, square
 
 

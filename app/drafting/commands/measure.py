@@ -87,7 +87,7 @@ def _length(curve: Curve) -> float:
 
 def _areas(loops: list[CurveChain]) -> tuple[float, Point | None]:
     """Return the area within closed chains, islands taken off, and its centroid."""
-    from ...geometry.region import nest  # not when the window opens
+    from ...geometry.outlines import nest  # not when the window opens
 
     around = [tuple(piece for curve in loop.curves for piece in simple(curve)) for loop in loops]
     contours = [Contour(pieces, entity_ids=(at,)) for at, pieces in enumerate(around)]

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 from itertools import groupby
 
+from ...core.wording import either
 from ...model.curves import Point
 
 
@@ -22,7 +23,7 @@ def point_text(point: Point) -> str:
 
 def nearest_words(word: str, known: Iterable[str]) -> str:
     """Return the one to three words that a mistyped one may stand for, as "line or spline"; "" when none is like it."""
-    return " or ".join(get_close_matches(word.lower(), known, n=3, cutoff=0.6))
+    return either(get_close_matches(word.lower(), known, n=3, cutoff=0.6))
 
 
 def ids_text(ids: Iterable[int]) -> str:

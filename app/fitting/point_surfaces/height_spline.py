@@ -87,6 +87,13 @@ class HeightSpline:
         along = np.einsum("ij,ij->i", du, _basis(v, self.knots_v).toarray())
         return np.column_stack([along, np.einsum("ij,ij->i", dv, _basis(u, self.knots_u).toarray())])
 
+    def holds(self, places: Floats) -> NDArray[np.bool_]:
+        """Tell which places (k, 2) are in the box: beyond it heights go on level, and are no part of the surface."""
+        u, v = places[:, 0], places[:, 1]
+        along = (u >= self.knots_u[3]) & (u <= self.knots_u[-4])
+        inside: NDArray[np.bool_] = along & (v >= self.knots_v[3]) & (v <= self.knots_v[-4])
+        return inside
+
 
 @dataclass(frozen=True, eq=False)
 class FittedHeights:

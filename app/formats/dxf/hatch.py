@@ -134,8 +134,7 @@ def bounding_alone(rings: Sequence[tuple[Curve, ...]], drawn: Sequence[Curve], s
 
 def _rows(curves: Sequence[Curve], to: Affine) -> Any:
     """Return curves as rows of lines and arcs, mm."""
-    from ...geometry.chaining.overlap import rows_of
-    from ...geometry.chaining.pieces import pieces_from
+    from ...geometry.chaining.pieces import pieces_from, rows_of
 
     placed = (transformed(curve, to) for curve in curves)
     pieces, _ = pieces_from([Entity(number, curve) for number, curve in enumerate(placed, 1) if curve is not None])

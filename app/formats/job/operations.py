@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...core.wording import together
 from ...model.curve_selectors import on_layers
 from ...model.fields import built, declared_of, parameters_of
 from ...model.operation import Operation
@@ -63,7 +64,7 @@ def _refuse_strange_keys(table: JobTable, kind: type[Operation], given: tuple[st
         if key not in known:
             raise table.error(
                 key,
-                f"belongs to {_listed([each.WORD for each in parameters()[key].kinds])} operations; "
+                f"belongs to {together(each.WORD for each in parameters()[key].kinds)} operations; "
                 f"remove it from this {kind.WORD} operation",
             )
 
@@ -74,7 +75,3 @@ def _refuse_idle_values(table: JobTable, operation: Operation, given: tuple[str,
         needs = placed.parameter.needs
         if key in given and needs is not None and table.taken[key] != placed.default and not needs.holds(operation):
             raise table.error(key, f"has no effect without {needs.with_}; {needs.remedy}, or take it out")
-
-
-def _listed(kinds: list[str]) -> str:
-    return " and ".join([*([", ".join(kinds[:-1])] if len(kinds) > 1 else []), kinds[-1]])

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 
 from ...core.errors import HitofudeError, InputError
 from ...core.toml_tables import QUOTED, Keyword, brief, known_words
+from ...core.wording import either
 from ...model.curve_selectors import Selector, read_selectors
 from ...model.fields import ParameterPlace, Unit
 from ...model.tool import FeedRow
@@ -112,7 +113,7 @@ def one_of(text: str, choices: Mapping[str, Value], what: str) -> Value:
     try:
         return {word.lower(): value for word, value in choices.items()}[text.strip().lower()]
     except KeyError as error:
-        raise InputError(f"'{brief(text, QUOTED)}' is no {what}; use {' or '.join(choices)}") from error
+        raise InputError(f"'{brief(text, QUOTED)}' is no {what}; use {either(choices)}") from error
 
 
 def read_number(value: Any) -> float:

@@ -13,6 +13,7 @@ from typing import Any
 from ...core.errors import HitofudeError, InputError
 from ...core.file_bytes import FileBytes
 from ...core.toml_tables import tables_of
+from ...core.wording import either
 from ...model.job import Job, OriginZ
 from ...model.part import Part
 from ...model.scene import Passes, Scene, SceneStock, Surface
@@ -84,7 +85,7 @@ def read_scene(name: str, data: bytes) -> Scene:
     text, tree = job_tree(name, data, "compound.toml")
     units = tree.pop("units", "mm")
     if not isinstance(units, str) or units not in _UNITS:
-        raise InputError(f"{name}:{text.line('', 0, 'units')}: units is {units!r}; use {' or '.join(_UNITS)}")
+        raise InputError(f"{name}:{text.line('', 0, 'units')}: units is {units!r}; use {either(_UNITS)}")
     if _UNITS[units] != 1.0:
         tree = _scaled(tree, _UNITS[units])
     shared = {key: tree.pop(key) for key in JOB_TABLES if key in tree}

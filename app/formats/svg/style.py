@@ -11,13 +11,16 @@ from typing import NamedTuple
 
 from .colours import colour
 from .lengths import MEDIUM, letter_height, size_of_font
+from .selectors import Selector, Specificity, keys_of, selector
 from .xml import Node
 
 _COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)", re.DOTALL)
-_SELECTOR = re.compile(r"(?:(\*)|(:root|[\w-]+)?(?:\.([\w-]+)|#([\w-]+))?)\Z")
 _READ = (
     "display",
     "visibility",
+    "opacity",
+    "fill-opacity",
+    "stroke-opacity",
     "fill",
     "stroke",
     "color",
@@ -32,8 +35,15 @@ _GEOMETRY = ("x", "y", "width", "height", "cx", "cy", "r", "rx", "ry")
 """Places and sizes of shapes, which a style sheet may give in the place of attributes."""
 
 _VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,([^()]*))?\)", re.IGNORECASE)
+_ZERO = re.compile(r"[+-]?0*\.?0+%?")
 _DEEPEST, _LONGEST = 10, 1000
 """Variables within variables, and letters of a value with all of them in place."""
+
+_LETTERS = ("color", "font-size", "font")
+_OF_THE_MOMENT = re.compile(
+    r"^\s*@|:(?:hover|active|focus|visited|link|target|before|after|selection)\b|::", re.IGNORECASE
+)
+"""What a drawing looks like under the mouse, on paper or in letters; it says nothing of its shapes."""
 
 _UNITS = re.compile(r"(?<=[\d.])(?:px|deg)\b")
 
@@ -45,7 +55,7 @@ class SvgStyle:
     Attributes:
         shown: False under display: none.
         visible: False under visibility: hidden or collapse.
-        fill, stroke, color: as written.
+        fill, stroke, color: as written. fill_clear, stroke_clear: they are painted with no opacity at all.
         clipped: something hides a part of it.
         transform: the element's own, as the attribute would have it; "" for none.
         origin: what that is about, if not the origin of coordinates, as written.
@@ -59,6 +69,8 @@ class SvgStyle:
     fill: str = "black"
     stroke: str = "none"
     color: str = ""
+    fill_clear: bool = False
+    stroke_clear: bool = False
     clipped: bool = False
     transform: str = ""
     origin: str = ""
@@ -70,7 +82,12 @@ class SvgStyle:
     @property
     def draws(self) -> bool:
         """True when an outline or an area is painted."""
-        return self.fill != "none" or self.stroke != "none"
+        return self.outlined or (self.fill != "none" and not self.fill_clear)
+
+    @property
+    def outlined(self) -> bool:
+        """True when an outline is painted."""
+        return self.stroke != "none" and not self.stroke_clear
 
     @property
     def ink(self) -> str:
@@ -86,46 +103,64 @@ class Declaration(NamedTuple):
     important: bool = False
 
 
+class _StyleRule(NamedTuple):
+    """What a style sheet declares for the elements of a selector; of rules alike in specificity the last one counts."""
+
+    specificity: Specificity
+    number: int
+    selector: Selector
+    declared: list[Declaration]
+
+
 class StyleSheet:
-    """The rules of all style elements of one file whose selectors are a type, a class, an id, or a type with one of
-    these.
+    """The rules of all style elements of one file.
+
+    Attributes:
+        unread: selectors of rules that could hide or show a shape, or place it, and that are not followed.
     """
 
     def __init__(self, root: Node) -> None:
-        self._rules: dict[tuple[str, str, str], list[Declaration]] = defaultdict(list)
+        self._rules: dict[str, list[_StyleRule]] = defaultdict(list)
+        self._parents: dict[int, Node] = {}
+        self.unread: list[str] = []
+        self._count = 0
         for node in root.every():
             if node.tag == "style":
                 self._add(node.text)
+        if self._count:
+            self._parents = {id(child): node for node in root.every() for child in node.children}
 
     def _add(self, text: str) -> None:
         for block in _COMMENT.sub(" ", text).split("}"):
             selectors, _, body = block.partition("{")
             declared = list(declarations(body))
-            for selector in selectors.split(",") if declared else ():
-                found = _SELECTOR.match(selector.strip())
-                if found and found[0]:
-                    tag = "svg" if found[2] == ":root" else found[2] or ""
-                    self._rules[tag, found[3] or "", found[4] or ""] += declared
+            for written in selectors.split(",") if declared else ():
+                self._count += 1
+                read = selector(written)
+                if read is not None:
+                    self._rules[read.key].append(_StyleRule(read.specificity, self._count, read, declared))
+                elif not _OF_THE_MOMENT.search(written) and any(each.name not in _LETTERS for each in declared):
+                    self.unread.append(" ".join(written.split()))
 
     def style(self, node: Node, outer: SvgStyle) -> SvgStyle:
         """Return the style of an element inside one of style `outer`."""
         declared = [Declaration(key, node.attributes[key]) for key in _READ if key in node.attributes]
         for rule in self._matching(node):
-            declared += rule
+            declared += rule.declared
         declared += declarations(node.attributes.get("style", ""))
         in_force = {
             each.name: each.value for important in (False, True) for each in declared if each.important is important
         }
         return _with(outer, {key: value for key, value in in_force.items() if value != "inherit"})
 
-    def _matching(self, node: Node) -> list[list[Declaration]]:
-        if not self._rules:
+    def _matching(self, node: Node) -> list[_StyleRule]:
+        if not self._count:
             return []
-        classes, own = node.attributes.get("class", "").split(), node.attributes.get("id", "")
-        keys = [("", "", ""), (node.tag, "", "")]
-        keys += [(tag, name, "") for tag in ("", node.tag) for name in classes]
-        keys += [(tag, "", own) for tag in ("", node.tag) if own]
-        return [self._rules[key] for key in keys if key in self._rules]
+        asked = (rule for key in dict.fromkeys(keys_of(node)) for rule in self._rules.get(key, ()))
+        return sorted((rule for rule in asked if rule.selector.takes(node, self._parent)), key=lambda rule: rule[:2])
+
+    def _parent(self, node: Node) -> Node | None:
+        return self._parents.get(id(node))
 
 
 def declarations(text: str) -> Iterator[Declaration]:
@@ -159,6 +194,14 @@ def _resolved(value: str, variables: Mapping[str, str]) -> str:
     return ""
 
 
+def _is_zero(opacity: str | None) -> bool:
+    return opacity is not None and _ZERO.fullmatch(opacity) is not None
+
+
+def _clear(opacity: str | None, outer: bool) -> bool:
+    return outer if opacity is None else _is_zero(opacity)
+
+
 def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
     """Return the style with some properties set; only what hides a whole branch is kept from the element round it."""
     variables = outer.variables
@@ -175,10 +218,12 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
     hides = any(declared.get(key, "none") != "none" for key in ("clip-path", "mask"))
     return replace(
         outer,
-        shown=outer.shown and declared.get("display") != "none",
+        shown=outer.shown and declared.get("display") != "none" and not _is_zero(declared.get("opacity")),
         visible=outer.visible if visibility is None else visibility == "visible",
         fill=declared.get("fill", outer.fill),
         stroke=declared.get("stroke", outer.stroke),
+        fill_clear=_clear(declared.get("fill-opacity"), outer.fill_clear),
+        stroke_clear=_clear(declared.get("stroke-opacity"), outer.stroke_clear),
         color=declared.get("color", outer.color),
         clipped=outer.clipped or hides,
         transform=_UNITS.sub("", declared.get("transform", "")),

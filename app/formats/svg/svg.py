@@ -128,6 +128,7 @@ def read_svg(
         *_of_fonts(content),
         *without_length(content.nothing + found.nothing),
         *_clipped(content),
+        *_unread_rules(content),
         *switched_off(part, layers),
         *all_left_out(content.left_out),
     ]
@@ -321,4 +322,14 @@ def _clipped(content: SvgContent) -> Iterator[Finding]:
             f"{content.clipped} {'curve is' if content.clipped == 1 else 'curves are'} clipped or masked in the "
             "drawing; all of it is read.",
             float(content.clipped),
+        )
+
+
+def _unread_rules(content: SvgContent) -> Iterator[Finding]:
+    if content.unread_rules:
+        count, first = len(content.unread_rules), content.unread_rules[0][:60]
+        yield remark(
+            f"{count} {'rule' if count == 1 else 'rules'} of the style sheet cannot be followed, the first for "
+            f"{first}; check that nothing hidden is read.",
+            float(count),
         )

@@ -30,6 +30,7 @@ _NOT_CURVES = ("text", "image", "foreignObject", "flowRoot", "video", "audio", "
 BLACK = "#000000"
 _TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
 _UNITS_OF_ZERO = re.compile("px|%")
+_ENGLISH = re.compile(r"(?:^|,)\s*en\b", re.IGNORECASE)
 _BREAK = re.compile(r"[\x00-\x1f]+")
 
 
@@ -69,6 +70,7 @@ class SvgContent:
         of_font: shapes with lengths that depend on what a font is like.
         clipped: shapes that are read whole although the drawing hides a part of them.
         layers: by name, in order.
+        unread_rules: selectors of style sheets that are not followed.
     """
 
     curves: list[LayeredCurve] = field(default_factory=list)
@@ -79,6 +81,7 @@ class SvgContent:
     of_font: int = 0
     clipped: int = 0
     layers: dict[str, LayerNote] = field(default_factory=dict)
+    unread_rules: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,8 +114,8 @@ class SvgWalker:
 
     def __init__(self, root: Node, name: str) -> None:
         self._root, self._name = root, name
-        self._sheet = SvgContent()
         self._styles = StyleSheet(root)
+        self._sheet = SvgContent(unread_rules=self._styles.unread)
         self._ids: dict[str, Node] = {}
         self._named_layers = False
         for node in root.every():
@@ -263,7 +266,7 @@ class SvgWalker:
             return
         try:
             drawn = shape(node, state.basis, MOST_CURVES)
-            if drawn is not None and style.stroke == "none":
+            if drawn is not None and not style.outlined:
                 drawn.runs = [_area(run) for run in drawn.runs]
             curves = self._placed(node, drawn, state.to) if drawn is not None else []
         except UnreadableError as error:
@@ -283,7 +286,7 @@ class SvgWalker:
             return
         layer = state.layer or "0"
         note = content.layers.setdefault(layer, LayerNote())
-        note.inks |= {style.ink or BLACK} if style.stroke != "none" else set()
+        note.inks |= {style.ink or BLACK} if style.outlined else set()
         content.clipped += style.clipped
         content.of_font += _of_font(node)
         content.curves += [LayeredCurve(curve, layer) for curve in curves]
@@ -337,8 +340,11 @@ def _is_layer(node: Node) -> bool:
 
 
 def _chosen(node: Node) -> list[Node]:
-    """Return the first child of a switch that needs nothing special."""
-    return next(([child] for child in node.children if not child.attributes.get("requiredExtensions")), [])
+    """Return the first child of a switch that needs nothing special, in no language or in English, else in any."""
+    plain = [child for child in node.children if not child.attributes.get("requiredExtensions")]
+    languages = (child.attributes.get("systemLanguage", "en") for child in plain)
+    meant = [child for child, language in zip(plain, languages, strict=True) if _ENGLISH.search(language)]
+    return (meant or plain)[:1]
 
 
 _CONTAINERS = ("g", "a", "switch", "svg", "use")

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 from ...core.errors import MOST_QUOTED, HitofudeError, InputError, printable
 from ...core.toml_tables import QUOTED, brief
+from ...core.wording import together
 from ...model.fields import Unit, declared_of
 from ...model.tool import FeedRow, HolderPoint, Tool, ToolMaterial
 from ...model.tool_kind import ToolKind, tool_kinds
@@ -239,7 +240,7 @@ def _feed_row(values: dict[str, Any]) -> FeedRow:
     missing = [field for field in ("surface_speed", "feed_per_tooth") if field not in values]
     if missing:
         raise InputError(
-            f"the feeds for {brief(values['material'], QUOTED)} lack {' and '.join(missing)}; fill it in, or empty the "
+            f"the feeds for {brief(values['material'], QUOTED)} lack {together(missing)}; fill it in, or empty the "
             "others."
         )
     return FeedRow(**values)

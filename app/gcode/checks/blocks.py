@@ -15,12 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.wording import together
 from ...model.job import Job
-from ..interpreter.block_fault import BlockFault
 from ..interpreter.dialect import Dialect
-from ..interpreter.program import ProgramProblem
+from ..interpreter.program import BlockFault, ProgramProblem
 from ..interpreter.text import code_of
-from ..posts.post import Post
+from ..posts import Post
 from ..writer.template_fields import Fields, program_fields, tool_fields
 from ..writer.write import blend_mm
 
@@ -203,7 +203,7 @@ def approach_problems(text: str, first: list[int]) -> Iterator[ProgramProblem]:
     for number in first:
         missing = [letter for letter in "XY" if letter not in lines[number - 1].upper()]
         if missing:
-            axes = " and ".join(missing)
+            axes = together(missing)
             yield ProgramProblem(
                 number,
                 0,

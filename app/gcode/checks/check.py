@@ -24,17 +24,12 @@ from ..interpreter.options import ReadOptions, ToolOffset
 from ..interpreter.program import Event, EventKind, NcProgram, ProgramProblem
 from ..interpreter.reader import read_program
 from ..interpreter.text import ProgramBuffer
-from ..posts.post import Post
-from ..posts.posts import comes_with_program
-from ..writer.programmed_contour import allowed_distances
+from ..posts import Post, comes_with_program
+from ..writer.compensation import allowed_distances
 from ..writer.write import NcFile, writing_tolerance
-from .beside import beside
 from .blocks import HoleBlocks, approach_problems, block_problems, blocks_of
-from .hole_pauses import HolePauses
-from .lines import MotionOwners, ReferencePath, Rows, motion_owners
-from .path import distances
-from .start_states import FRESH, StartState, foreign_start, read_from_start
-from .state import ExpectedState, wrong_states
+from .path import MotionOwners, ReferencePath, Rows, beside, distances, motion_owners
+from .state import FRESH, ExpectedState, HolePauses, StartState, foreign_start, read_from_start, wrong_states
 
 NOISE = 1e-9
 """mm; what moving a path to another zero and back may add."""

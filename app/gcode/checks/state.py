@@ -3,24 +3,35 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.progress import Progress
 from ...model.job import Job
-from ...model.moves import MoveKind, Moves
-from ..interpreter.program import FeedMode, ModalState, NcProgram, ProgramProblem
-from ..posts.post import Coolant, Post
+from ...model.motion import Plane
+from ...model.moves import MoveKind, Moves, Purpose
+from ...model.part import Units
+from ..interpreter.compensation import Compensation
+from ..interpreter.control import Control
+from ..interpreter.dialect import Dialect
+from ..interpreter.offsets import OFFSETS, ZERO, Place, taken
+from ..interpreter.options import ReadOptions
+from ..interpreter.program import Event, EventKind, FeedMode, ModalState, NcProgram, ProgramProblem
+from ..posts import Coolant, Post
 from ..writer.write import blend_mm
-from .hole_pauses import backing_out
-from .lines import MotionOwners
+from .path import MotionOwners
 
 WORK_OFFSET = re.compile(r"G54\.1 P\d+|G5[4-9](?:\.\d)?")
+
 STOP = re.compile(r"\bM0?[01]\b")
+
 BLEND = re.compile("G64.*{blend}")
+
 HOME_HEIGHT = re.compile(r"G53\b.*Z(-?[0-9.]+)")
+
 END = re.compile(r"\bM0?(?:2|30)\b")
 
 
@@ -161,3 +172,165 @@ def _feed_faults(
             "F",
             f"the feed is {feed[k]:g} mm/min where {reference[k]:g} was meant, and so in {int(np.sum(wrong))} motions.",
         )
+
+
+# Where the tool is to wait in holes, and where the spindle is to turn back: from the moves and the job alone.
+
+
+Mask = NDArray[np.bool_]
+
+_SAME = 1e-6
+
+_SECOND = 1e-3
+"""s by which a wait may be longer or shorter."""
+
+
+def backing_out(moves: Moves, job: Job) -> Mask:
+    """Return (n,) which moves lead a tap out of its hole, so that the spindle must turn the other way."""
+    taps = [k for k, each in enumerate(job.operations) if each.TAPS]
+    up = moves.end[:, 2] > moves.start[:, 2] + _SAME
+    back: Mask = np.isin(moves.operation, taps) & (moves.kind == MoveKind.LINE) & up
+    return back
+
+
+def _bottoms(moves: Moves, job: Job) -> dict[int, float]:
+    """Return how long the tool waits behind moves that end at the bottoms of holes, s, by their index."""
+    seconds = {k: each.dwell_s for k, each in enumerate(job.operations) if each.dwell_s > 0}
+    drilling = (moves.kind == MoveKind.LINE) & (moves.purpose == Purpose.DRILL)
+    lines = np.flatnonzero(drilling & np.isin(moves.operation, list(seconds)))
+    if not len(lines):
+        return {}
+    place, height = moves.end[lines, :2], moves.end[lines, 2]
+    elsewhere = np.hypot(*np.diff(place, axis=0).T) > _SAME
+    hole = np.cumsum(np.append(True, elsewhere | (np.diff(moves.operation[lines]) != 0)))
+    lowest = [lines[hole == k][np.argmin(height[hole == k])] for k in np.unique(hole)]
+    return {int(k): seconds[int(moves.operation[k])] for k in lowest}
+
+
+class HolePauses:
+    """The waits that the holes of a program are to have, ticked off as they are met."""
+
+    def __init__(self, moves: Moves, job: Job, owned: MotionOwners) -> None:
+        """Find them."""
+        self._missing = _bottoms(moves, job)
+        self._behind = {int(owned.last[k]) + 1: k for k in self._missing}
+        tapped = np.flatnonzero(backing_out(moves, job)) - 1
+        self._turning = {int(owned.last[k]) + 1 for k in tapped.tolist()}
+
+    def takes(self, event: Event) -> bool:
+        """Tell whether an event is such a wait; a tapping cycle stands still for no time before it turns back."""
+        if event.kind is not EventKind.DWELL:
+            return False
+        if event.before in self._turning and event.value <= _SECOND:
+            return True
+        move = self._behind.get(event.before)
+        if move is None or abs(self._missing.get(move, -1.0) - event.value) > _SECOND:
+            return False
+        del self._missing[move]
+        return True
+
+    def missing(self, lines: Sequence[int] | NDArray[np.int32]) -> Iterator[ProgramProblem]:
+        """Yield a wait that has not been met."""
+        for move, seconds in self._missing.items():
+            text = f"the tool does not wait for {seconds:g} s at the bottom of the hole, as it should."
+            yield ProgramProblem(int(lines[move]), 0, "", text)
+            return
+
+
+# A text read again on a machine that was left as another job left it: other zeros, other homes, other modes in force.
+#
+# A control that is switched on stands where nothing is wrong by chance: at its zero, in millimetres, at G90. What a
+# program does not say itself comes out right there, and shows here.
+
+
+CUTTER_RADIUS = 7.5
+"""mm, of the G41 that was left on."""
+
+
+@dataclass(frozen=True)
+class StartState:
+    """How a machine stands when a program begins.
+
+    Attributes:
+        zero: of the work, mm, machine coordinates. start: of the tool's tip from there.
+        homes: of G28 and G30, mm, machine coordinates.
+        units: in force; a fresh control has mm.
+    """
+
+    zero: Place = ZERO
+    start: Place = ZERO
+    homes: Mapping[str, Place] = field(default_factory=lambda: {"G28": ZERO, "G30": ZERO})
+    units: Units = Units.MM
+
+
+FRESH = StartState()
+
+
+def foreign_start(written_in: Units) -> StartState:
+    """Return another place, above the work as a machine stands, with the units in force that the program is not written
+    in.
+    """
+    return StartState(
+        (-421.5, -263.25, -387.125),
+        (137.25, 91.5, 63.75),
+        {"G28": (-11.5, -23.25, -3.5), "G30": (-211.5, -131.25, -7.25)},
+        Units.MM if written_in is Units.INCH else Units.INCH,
+    )
+
+
+def read_from_start(data: bytes, options: ReadOptions, start_state: StartState, progress: Progress) -> NcProgram:
+    """Return what a control does with a program that finds the machine so; coordinates are from the work's zero.
+
+    Args:
+        data: the file's bytes.
+        options: of the control; the length of one of its tools is in force at first.
+        start_state: where everything is.
+        progress: told of how much is read.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    from ..interpreter.run import InterpreterRun  # compiled code: loaded where it is used
+
+    run = InterpreterRun(
+        data, replace(options, start=tuple(np.add(start_state.start, start_state.zero).tolist())), progress
+    )
+    _leave_behind(run.control, options, start_state)
+    return _from_zero(run.read(), start_state.zero)
+
+
+def _leave_behind(control: Control, options: ReadOptions, start_state: StartState) -> None:
+    """Put everything in force that another job may have left so and this one should say."""
+    control.homes = dict(start_state.homes)
+    offsets = control.offsets
+    offsets.common, offsets.name = start_state.zero, "G55"
+    offsets.work = {name: (10.5 * rank, 20.25 * rank, 5.125 * rank) for rank, name in enumerate(OFFSETS[1:], start=1)}
+    control.selected, control.motion = max(options.tool_table, default=0) + 1, "G1"
+    control.change(
+        units=start_state.units,
+        plane=Plane.ZX,
+        absolute=False,
+        arc_absolute=options.dialect in WITH_ARC_DISTANCE,
+        feed_mode=FeedMode.INVERSE_TIME,
+        tool=control.selected,
+        speed=777.0,
+        spindle=-1,
+        length_offset=control.selected - 1,
+    )
+    if options.dialect is not Dialect.GRBL:
+        control.compensation = Compensation(CUTTER_RADIUS, Plane.ZX, control.at)
+    control.offsets_changed()
+
+
+WITH_ARC_DISTANCE = frozenset({Dialect.LINUXCNC, Dialect.GRBL, Dialect.MACH3})
+"""They know G90.1; the others' I and J always count from the start of the arc."""
+
+
+def _from_zero(program: NcProgram, zero: Place) -> NcProgram:
+    """Return a program with the work's zero at 0."""
+    motions = program.motions
+    shift = np.array(zero)
+    moved = replace(motions, start=motions.start - shift, end=motions.end - shift, centre=motions.centre - shift)
+    return replace(
+        program, motions=moved, states=tuple(replace(state, shift=taken(state.shift, zero)) for state in program.states)
+    )

@@ -8,10 +8,9 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import NamedTuple
 
-from .block_fault import BlockFault
 from .codes import AXES, GROUP_OF, ROTARY, TAKES, ModalGroup
-from .expression import NUMBER, Value, ValueReader, evaluated
-from .parameters import Key, Parameters
+from .expression import NUMBER, Key, Parameters, Value, ValueReader, evaluated
+from .program import BlockFault, ModalState
 
 Setting = Key | Callable[[Parameters], Key]
 """Which parameter is set."""
@@ -22,8 +21,8 @@ POLAR = "@^"
 ALWAYS = AXES + ROTARY + POLAR + "fstn"
 """Words that need no code in their block to take them."""
 
-
 _ALWAYS = frozenset(ALWAYS)
+
 _NUMBERED = re.compile(rf"([a-z])({NUMBER.pattern})")
 """A word as most are: a letter and a number."""
 
@@ -238,3 +237,34 @@ def _add_code(block: Block, code: str, word: Word) -> None:
     if group is ModalGroup.COOLANT:
         block.coolant.append(code)
     block.codes[group] = code
+
+
+# A program block by block, as the control has done each: for who writes the same program in other words.
+
+
+@dataclass(frozen=True, eq=False)
+class BlockStep:
+    """A block that was done.
+
+    Attributes:
+        line: 1-based. parsed: what stands there.
+        block: its words with the values that they had.
+        states: what was in force before and behind it.
+        motion: the G word that bare axis words obey behind it.
+        feed: behind it, mm/min, mm a revolution or 1/min, by the feed mode; NaN = not said.
+        rows: the first motion that it made, and the one behind its last.
+        requested: parameters whose values the machine tells, and the lines that read them, since the block before.
+    """
+
+    line: int
+    parsed: ParsedLine
+    block: Block
+    states: tuple[ModalState, ModalState]
+    motion: str
+    feed: float
+    rows: tuple[int, int]
+    requested: tuple[tuple[Key, int], ...] = ()
+
+
+Watch = Callable[[BlockStep], None]
+"""Told of each block when it is done."""

@@ -12,8 +12,7 @@ import math
 from dataclasses import dataclass, replace
 
 from ...model.motion import MotionKind, Plane
-from .block_fault import BlockFault
-from .columns import Motion, MotionColumns, Place
+from .program import BlockFault, Motion, MotionColumns, Place
 
 SMOOTH = 0.05
 """A corner of less, radians, is taken for none, and one of so much less than half a turn for an outer one, as LinuxCNC

@@ -10,17 +10,14 @@ from typing import NamedTuple
 from ...model.motion import MotionKind, Nurbs
 from ...model.part import Units
 from .block import Block
-from .block_fault import BlockFault
 from .codes import AXES, ModalGroup
-from .columns import Motion, MotionColumns
 from .compensation import Compensation
 from .cycles import Cycle
 from .dialect import DIALECT_RULES, Dialect
-from .offsets import OFFSETS, Place, WorkOffsets
+from .expression import Key, Parameters
+from .offsets import OFFSETS, Place, SetParameters, WorkOffsets, counts_from
 from .options import ReadOptions, ToolOffset
-from .parameters import Key, Parameters
-from .program import Event, EventKind, FeedMode, ModalState
-from .set_parameters import SetParameters, counts_from
+from .program import BlockFault, Event, EventKind, FeedMode, ModalState, Motion, MotionColumns
 from .splines import OpenFanucNurbs, OpenNurbs
 
 MOST_EVENTS = 1_000_000

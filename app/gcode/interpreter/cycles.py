@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ...model.motion import MotionKind, Plane
-from .block_fault import BlockFault
+from .program import BlockFault
 
 Point = tuple[float, float, float]
 
@@ -39,11 +39,25 @@ SAME_HEIGHT = 1e-9
 MOST_PECKS = 100_000
 """Pecks of one hole; more are a slip of the pen, or meant to hang the reader."""
 
+NO_ANGLE = "at the zero the angle (^) must be said."
+
 _NEEDS_DWELL = {"G82", "G86", "G88", "G89"}
 _PECKS = {"G73", "G83"}
 _TAPS = {"G84": 1, "G74": -1}
 _TURNING = {"G86", "G87", "G88"}
 _WAYS = {1: "clockwise (M3)", -1: "counter-clockwise (M4)"}
+
+
+class PolarStep(NamedTuple):
+    """From hole to hole, seen from the program's zero.
+
+    Attributes:
+        outwards: in units of the program.
+        turn: radians; None: not said, so the zero itself has no next hole.
+    """
+
+    outwards: float
+    turn: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +68,7 @@ class Cycle:
         code: a key of `CYCLE_WORDS`.
         plane: of the holes; the cycle drills along its normal.
         hole: words of the plane's first and second axis. depth: word of the normal. r: R word. None = not in the block.
+        polar: in the place of `hole`, words @ and ^ under G91.
         repeats: L.
         dwell: P, s. peck: Q. shift: I, J, K of G87.
         absolute: G90 rather than G91. retract_to_r: G99 rather than G98.
@@ -78,6 +93,7 @@ class Cycle:
     spindle: int = 0
     unit_mm: float = 1.0
     fanuc: bool = False
+    polar: PolarStep | None = None
 
 
 class CycleMove(NamedTuple):
@@ -274,7 +290,7 @@ def _steps(cycle: Cycle, position: Point, initial: float, heights: tuple[float, 
         yield _Hole(cycle, (r, bottom, r), first, second).rapid(r)
     clear = r if cycle.retract_to_r else initial
     for _ in range(cycle.repeats):
-        first, second = (_moved(word, at, cycle.absolute) for word, at in zip(cycle.hole, (first, second), strict=True))
+        first, second = _next_place(cycle, first, second)
         hole = _Hole(cycle, (r, bottom, clear), first, second)
         height = clear if height <= r + SAME_HEIGHT and not cycle.fanuc else height
         yield hole.rapid(height)
@@ -282,6 +298,17 @@ def _steps(cycle: Cycle, position: Point, initial: float, heights: tuple[float, 
             yield hole.rapid(r)
         yield from _BORING[cycle.code](hole)
         height = clear
+
+
+def _next_place(cycle: Cycle, first: float, second: float) -> tuple[float, float]:
+    """Return where the hole behind one is."""
+    if cycle.polar is not None:
+        radius, angle = math.hypot(first, second), math.atan2(second, first)
+        if cycle.polar.turn is None and radius < SAME_HEIGHT:
+            raise BlockFault(NO_ANGLE, "@")
+        radius, angle = radius + cycle.polar.outwards, angle + (cycle.polar.turn or 0.0)
+        return radius * math.cos(angle), radius * math.sin(angle)
+    return _moved(cycle.hole[0], first, cycle.absolute), _moved(cycle.hole[1], second, cycle.absolute)
 
 
 def _moved(word: float | None, at: float, absolute: bool) -> float:

@@ -14,6 +14,16 @@ _NAMED = r"(?:hitofude for|post|control|machine)[^)\n]{0,60}\b"
 too.
 """
 
+_OLD_UNITS = r"^\s*(?:n\d+\s*)?(?:g[\d.]+\s*)*g7[01](?![\d.])\s*(?:g[\d.]+\s*)*(?:[(;]|\r?$)"
+"""G70 and G71 among codes that set modes: units to Mach3 alone; the cycles that others have by them want words."""
+
+_CODE = r"^\s*(?:/\s*)?(?:n\s*\d+\s*)?[gmtsxyz]\s*-?[\d.]"
+_NUMBERED = r"^\s*[o:]\s*\d{1,5}\s*(?:\(|\r?$)"
+_FIRST = rf"\A(?:(?!{_CODE})[^\n]*\n)*?(?:{_NUMBERED})"
+"""A program's number before any code. To Fanuc and Haas every program begins so; where O numbers but a subroutine
+behind the program, as in Mach3, a length without a point is no count of microns.
+"""
+
 _OWN = re.compile(
     r"\(hitofude for (" + "|".join(rules.title.lower() for rules in DIALECT_RULES.values()) + r")\b", re.IGNORECASE
 )
@@ -23,7 +33,7 @@ _TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
     (dialect, re.compile(words, re.IGNORECASE | re.MULTILINE))
     for dialect, words in (
         (Dialect.GRBL, r"\bgrbl|^\s*\$[a-z0-9]"),
-        (Dialect.MACH3, r"\bmach\s?(?:2\s?/\s?)?3"),
+        (Dialect.MACH3, r"\bmach\s?(?:2\s?/\s?)?3|" + _OLD_UNITS),
         (
             Dialect.LINUXCNC,
             r"linuxcnc|^\s*(n\d+\s*)?o\s*<|#\s*<|^\s*(n\d+\s*)?o\s*\d+\s*(sub|if|while|do|repeat|call)\b|g5\.[23]|g5\.1\s*[xyij]|g64\s*p",
@@ -31,7 +41,7 @@ _TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
         (Dialect.HAAS, _NAMED + r"haas|^[^(\n]*g\s*(187|154\s*p|103\s*p)"),
         (
             Dialect.FANUC,
-            _NAMED + r"fanuc|^\s*[o:]\s*\d{1,5}\s*(\(|$)|\bif\s*\[.*goto|while\s*\[.*\]\s*do\s*\d"
+            _NAMED + r"fanuc|" + _FIRST + r"|\bif\s*\[.*goto|while\s*\[.*\]\s*do\s*\d"
             r"|g54\.1|g6\.2|g0?5\s*p1\d{4}|g0?5\.1\s*q|g10\.6",
         ),
     )

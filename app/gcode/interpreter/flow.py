@@ -5,23 +5,25 @@ in.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from .block_fault import BlockFault
+from ...core.wording import either
 from .control import Control
-from .endless_loops import never_ends
-from .expression import Value, ValueReader, evaluated, whole
-from .labels import Labels
-from .parameters import Key
+from .expression import PLAIN, Key, Value, ValueReader, evaluated, whole
 from .places import KEYWORDS, Cursor, JumpTargets, Statement, label_of
+from .program import BlockFault
 
 MOST_KEPT = 10_000
 """Lines of loops and subroutines that are kept as they were understood."""
 
 _NUMBERED = re.compile(r"/?(?:n[0-9.]+)?")
+
 _LABEL = re.compile(r"<[^<>]{1,200}>|[0-9]{1,9}")
+
 _KEYWORD = re.compile("|".join(sorted(KEYWORDS, key=len, reverse=True)))
+
 _ENDS = {"while": "endwhile", "repeat": "endrepeat", "do": "while"}
 
 
@@ -253,9 +255,7 @@ class Flow:
         """Return the statement further down that belongs to one."""
         found = self.places.next_of(statement.label, keywords, statement.at.offset)
         if found is None:
-            raise BlockFault(
-                f"O{statement.label} {statement.keyword} has no {' or '.join(keywords)} with the same number."
-            )
+            raise BlockFault(f"O{statement.label} {statement.keyword} has no {either(keywords)} with the same number.")
         return found
 
     def _sub(self, statement: Statement, values: ValueReader) -> None:
@@ -426,3 +426,183 @@ _ACTS = {
     "break": Flow._break,
     "continue": Flow._continue,
 }
+
+
+# What LinuxCNC refuses of O words beside their grammar: a label that stands for two things, a subroutine out of its
+# place.
+
+
+class Labels:
+    """The labels that were met so far.
+
+    A label is one for each subroutine and for the program, but where it begins with an underscore. Those of subroutines
+    are others, and everybody's.
+    """
+
+    def __init__(self) -> None:
+        self._defined: dict[tuple[str, str], Statement] = {}
+        self._subroutines: dict[str, Statement] = {}
+        self._met: set[str] = set()
+
+    def define(self, statement: Statement, where: str) -> None:
+        """Note what begins at a statement.
+
+        Args:
+            statement: if, while, repeat, or the while that ends a do.
+            where: the subroutine that is running, "" = none.
+
+        Raises:
+            Fault: another one of this label was met before.
+        """
+        first = self._defined.setdefault(_key(statement.label, where), statement)
+        if first.at.line != statement.at.line:
+            raise BlockFault(
+                f"O{statement.label} is the label of what begins in line {first.at.line} already; LinuxCNC takes each "
+                "once, so use another."
+            )
+
+    def begin_do(self, statement: Statement, where: str) -> None:
+        """Note where a do begins; LinuxCNC looks only at its while whether the label is free."""
+        self._defined.setdefault(_key(statement.label, where), statement)
+
+    def end_do(self, begin: Statement, where: str, line: int) -> None:
+        """Check the label of a do at the line of its while.
+
+        Raises:
+            Fault: something else of this label was met before.
+        """
+        first = self._defined[_key(begin.label, where)]
+        if first is not begin and first.at.line != begin.at.line:
+            raise BlockFault(
+                f"O{begin.label} is the label of what begins in line {first.at.line} already, so this while in line "
+                f"{line} belongs to that; use another."
+            )
+
+    def need_if(self, statement: Statement, where: str) -> None:
+        """Check that an else or endif belongs to an if.
+
+        Raises:
+            Fault: it does not.
+        """
+        first = self._defined.get(_key(statement.label, where))
+        if first is None:
+            raise BlockFault(f"O{statement.label} {statement.keyword} belongs to no if.")
+        if first.keyword != "if":
+            raise BlockFault(
+                f"O{statement.label} {statement.keyword} belongs to no if: line {first.at.line} has {first.keyword}."
+            )
+
+    def meet_subroutine(self, statement: Statement, inner: Statement | None) -> None:
+        """Note a subroutine whose lines are passed over.
+
+        Args:
+            statement: its sub.
+            inner: a sub within it, None = there is none.
+
+        Raises:
+            Fault: it was met or called before; one stands within it.
+        """
+        first = self._subroutines.setdefault(statement.label, statement)
+        if first.at.line != statement.at.line:
+            raise BlockFault(
+                f"the subroutine O{statement.label} is in line {first.at.line} already; use another label."
+            )
+        if statement.label in self._met:
+            raise BlockFault(
+                f"the program comes to the subroutine O{statement.label} again; it must stand before its first call, "
+                "and in nothing that is repeated."
+            )
+        self._met.add(statement.label)
+        if inner is not None:
+            raise BlockFault(
+                f"the subroutine O{inner.label} begins in line {inner.at.line} within another, O{statement.label}; put "
+                "it before."
+            )
+
+    def call_subroutine(self, found: Statement) -> Statement:
+        """Note a subroutine that is called, and return the one that this label stands for: the one met first."""
+        self._met.add(found.label)
+        return self._subroutines.setdefault(found.label, found)
+
+
+def _key(label: str, where: str) -> tuple[str, str]:
+    return ("", label) if label.startswith("<_") else (where, label)
+
+
+# Loops that surely never end: what their condition reads nothing in them sets, and nothing in them leaves them.
+
+
+_PARAMETER = re.compile(r"#(<[^_<>#][^<>#]*>|[0-9]+(?![.0-9]))")
+
+_SET = re.compile(r"(?<!#)#(<[^<>#]*>|[0-9]+)=")
+
+_LEAVES = re.compile(
+    r"break|continue|return|sub|call|goto|[:%]|g[0.]*6[56]|m(?![0-9]+(?![.0-9]))|m0*(?:2|30|9[6-9]|[1-9][0-9]{2,})(?![0-9])"
+)
+"""What may leave a loop, or go where parameters are set that the loop does not name."""
+
+_NESTED = re.compile(
+    r"(?:n[0-9.]+)?(?:o(?P<label><[^<>]*>|[0-9]+)(?P<word>if|elseif|else|endif|while|endwhile|repeat|endrepeat|do)(?![a-z])"
+    r"|while\[.*\]do(?P<begun>[0-9])$|end(?P<ended>[0-9])$)"
+)
+
+_FLOW = re.compile(r"(?:n[0-9.]+)?(?:o|while|end)")
+
+
+def never_ends(condition: str, body: Iterable[str]) -> bool:
+    """Tell whether a loop whose condition holds now surely holds it for ever.
+
+    Args:
+        condition: the line with the condition, as `text.code_of` gives it.
+        body: the lines between the loop's first and its last.
+
+    Returns:
+        False also where that cannot be told: a parameter with a computed number, one that is the control's own, a call,
+        jumps that are not nested.
+    """
+    read = [_parameter_key(found[1]) for found in _PARAMETER.finditer(condition)]
+    if len(read) < condition.count("#") or any(key.isdigit() and int(key) > PLAIN for key in read):
+        return False
+    opened: list[tuple[str, str]] = []
+    for line in body:
+        keys = [_parameter_key(found[1]) for found in _SET.finditer(line)]
+        if len(keys) < line.count("=") or not set(read).isdisjoint(keys) or _LEAVES.search(line) is not None:
+            return False
+        if _FLOW.match(line) is not None and not _nests(line, opened):
+            return False
+    return not opened
+
+
+def _nests(line: str, opened: list[tuple[str, str]]) -> bool:
+    """Follow a jump into or out of what it encloses; False where it is not nested in what is open."""
+    found = _NESTED.match(line)
+    if found is None:
+        return False
+    if found["begun"] is not None or found["ended"] is not None:
+        label, word = found["begun"] or found["ended"], "while" if found["begun"] else "endwhile"
+    else:
+        label, word = found["label"], found["word"]
+    inner = opened[-1] if opened else ("", "")
+    if word in ("if", "repeat", "do") or (word == "while" and inner != (label, "do")):
+        opened.append((label, word))
+        return True
+    if inner[0] != label or inner[1] not in _OPENED_BY[word]:
+        return False
+    if word not in ("else", "elseif"):
+        opened.pop()
+    return True
+
+
+_OPENED_BY = {
+    "else": ("if",),
+    "elseif": ("if",),
+    "endif": ("if",),
+    "while": ("do",),
+    "endwhile": ("while",),
+    "endrepeat": ("repeat",),
+}
+
+
+def _parameter_key(written: str) -> str:
+    """Return a parameter's name, or its number in one spelling."""
+    return written if written.startswith("<") else str(int(written))

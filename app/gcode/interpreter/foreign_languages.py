@@ -19,13 +19,17 @@ _POST_IT = "let your CAM program post it for LinuxCNC, grbl, Mach3, Haas or Fanu
 
 @dataclass(frozen=True, slots=True)
 class _Language:
-    """Attributes: title: how its users call it. telling: what no program of a control that is read holds. remedy: what
-    to do instead.
+    """Attributes: title: how its users call it. telling: what no program of a control that is read holds outside its
+    comments. remedy: what to do instead.
     """
 
     title: str
     telling: re.Pattern[str]
     remedy: str = _POST_IT
+
+
+_REMARK = re.compile(r"(?<=\()[^()\n]*(?=\))")
+"""What CAM programs write in brackets speaks of tools (CR=0.), times and other controls."""
 
 
 def _telling(words: str) -> re.Pattern[str]:
@@ -57,7 +61,7 @@ _LANGUAGES = (
     ),
     _Language(
         "a program for a 3D printer",
-        _telling(r"^\s*M(?:82|83|104|109|140|190)\b|^\s*(?:N\d+\s*)?G[01]\b[^;(\n]*\bE-?[\d.]"),
+        _telling(r"^\s*M(?:8[23]\b|(?:104|109|140|190)\s*[SR]\d)|^\s*(?:N\d+\s*)?G[01]\b[^;(\n]*\bE-?[\d.]"),
         "a mill has no extruder: open the solid itself, as STL, and make its paths here",
     ),
 )
@@ -70,7 +74,7 @@ def foreign_language(data: bytes) -> ProgramProblem | None:
     Args:
         data: the file's bytes.
     """
-    text = data[:_LOOKED_AT].decode("latin-1")
+    text = _REMARK.sub("", data[:_LOOKED_AT].decode("latin-1"))
     for language in _LANGUAGES:
         found = language.telling.search(text)
         if found is not None:

@@ -6,39 +6,162 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
-from ...model.motion import MotionKind, Plane
+import numpy as np
+
+from ...geometry.arcs.nurbs import flattened
+from ...model.motion import MotionKind, Nurbs, Plane
 from ...model.part import Units
 from .arc_kernels import centre_by_radius, radii
 from .block import Block
-from .block_fault import BlockFault
 from .codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, ModalGroup
 from .control import ArcShape, AxisWord, Control
-from .curves import drop_curve, move_along_curve
+from .cycles import Cycle, CycleMove, Dwell, Spindle, Stop, cycle_steps, taps_astray, with_sticky
 from .dialect import Dialect
 from .expression import whole
 from .foreign_codes import warn_of_rotary
-from .holes import bore
 from .offsets import Place, replaced, taken
-from .program import FeedMode
+from .polar import polar_step
+from .program import BlockFault, EventKind, FeedMode
+from .splines import OpenFanucNurbs, OpenNurbs, check_plane, cubic, first_offset, quadratic, second_offset
+
+# Splines as the control obeys them: their words out of blocks, the finished curve as one motion.
+
+
+LENGTH_MM = 0.01
+"""How near the chords lie that measure a curve's length for a feed in inverse time."""
+
+
+def move_along_curve(control: Control, block: Block) -> None:
+    """Obey G5, G5.1, G5.2, G5.3 and G6.2.
+
+    Raises:
+        Fault: the control has no such word, or a word of the curve is missing or has no sense.
+    """
+    code, family = control.motion, control.rules.splines
+    if family != ("G6.2" if code == "G6.2" else "G5"):
+        raise BlockFault(f"{control.rules.title} draws no curve with {code}.", letter="g")
+    if code in ("G5", "G5.1"):
+        _one_block(control, block, code)
+    elif code == "G5.2":
+        _control_point(control, block)
+    elif code == "G5.3":
+        _close(control, block)
+    else:
+        _fanuc_point(control, block)
+
+
+def drop_curve(control: Control) -> None:
+    """Forget the points of a curve that another motion has interrupted."""
+    if control.curve is not None:
+        control.curve = None
+        control.warn("a curve was begun and not finished; it is not driven.", "g")
+
+
+def _one_block(control: Control, block: Block, code: str) -> None:
+    check_plane(control.modal.plane)
+    end = _end(control, block)
+    if end[2] != control.program_place[2]:
+        raise BlockFault(f"{code} stays in its plane; Z cannot change with it.", letter="z")
+    i, j = control.length(block, "i"), control.length(block, "j")
+    if code == "G5":
+        first = first_offset(i, j, control.last_offset)
+        second = second_offset(control.length(block, "p"), control.length(block, "q"))
+        curve = cubic(control.program_place, end, first, second)
+        control.last_offset = second
+    else:
+        if i is None and j is None:
+            raise BlockFault("G5.1 needs its control point, I and J.", letter="g")
+        curve = quadratic(control.program_place, end, (i or 0.0, j or 0.0))
+    _drive(control, curve)
+
+
+def _end(control: Control, block: Block) -> tuple[float, float, float]:
+    """Return where the axis words lead, program coordinates."""
+    control.note_known(block)
+    place = control.program_place
+    for axis, value in control.axis_words(block):
+        place = replaced(place, axis, value if control.modal.absolute else place[axis] + value)
+    return place
+
+
+def _control_point(control: Control, block: Block) -> None:
+    check_plane(control.modal.plane)
+    if not isinstance(control.curve, OpenNurbs):
+        control.curve = OpenNurbs(control.program_place)
+    x, y = control.length(block, "x"), control.length(block, "y")
+    if not control.modal.absolute:
+        start = control.program_place
+        x, y = None if x is None else start[0] + x, None if y is None else start[1] + y
+    else:
+        control.note_known(block)
+    order = block.get("l")
+    control.curve.add(x, y, block.get("p"), None if order is None else whole(order, "L of G5.2"))
+
+
+def _close(control: Control, block: Block) -> None:
+    if not isinstance(control.curve, OpenNurbs):
+        raise BlockFault("G5.3 ends a curve, and none was begun with G5.2.", letter="g")
+    curve, control.curve = control.curve.closed(), None
+    control.motion = "G80"
+    _drive(control, curve)
+
+
+def _fanuc_point(control: Control, block: Block) -> None:
+    if ModalGroup.MOTION in block.codes or not isinstance(control.curve, OpenFanucNurbs):
+        drop_curve(control)
+        order = block.get("p")
+        control.curve = OpenFanucNurbs(control.program_place, None if order is None else whole(order, "P of G6.2"))
+    point = control.curve.place if block.has(AXES) else None
+    control.note_known(block)
+    for axis, value in control.axis_words(block):
+        assert point is not None
+        point = replaced(point, axis, value if control.modal.absolute else point[axis] + value)
+    control.curve.add(point, block.get("k"), block.get("r"))
+    if control.curve.complete:
+        curve, control.curve = control.curve.closed(), None
+        _drive(control, curve)
+
+
+def _drive(control: Control, curve: Nurbs) -> None:
+    """Add a curve, given in program coordinates, as a motion."""
+    points = np.array([control.offsets.to_table((x, y, z)) for x, y, z in curve.points.tolist()])
+    points[0] = control.at
+    curve = replace(curve, points=points)
+    length = 0.0
+    if control.modal.feed_mode is FeedMode.INVERSE_TIME:
+        length = float(np.sum(np.linalg.norm(np.diff(flattened(curve, LENGTH_MM), axis=0), axis=1)))
+    row = control.columns.count
+    x, y, z = points[-1].tolist()
+    control.move(MotionKind.SPLINE, (x, y, z), control.feed_along(length))
+    control.splines[row] = curve
+
 
 RADIUS_SLACK_MM = 0.00127
 """How much the R word of a half circle may be too small to reach the end, as LinuxCNC has it."""
 
 LEAST_RADIUS_MM = 0.00127
+
 RELATIVE_MISMATCH = 1e-3
 """The two radii of an arc may differ by so much of the larger one, whatever the control: LinuxCNC and grbl have it
 so.
 """
+
 GRBL_MISMATCH_MM = (0.005, 0.5)
+
 LINUXCNC_MISMATCH = {Units.MM: 0.02 * math.sqrt(2.0), Units.INCH: 0.002 * math.sqrt(2.0)}
 """How far the two radii may be apart whatever their size, in units of the program; measured at its interpreter."""
+
 LINUXCNC_MOST = 100.0
 """So many times that they may never be apart, be the arc as large as it may."""
+
 _REFERENCES = (1, 2, 3, 4)
 """P of G30; 1 is Mach3's word for the second one, which other controls call 2."""
+
 CURVES = ("G5.2", "G5.3", "G6.2")
 """They take several blocks for one curve."""
+
 MOST_TURNS = 100_000
 
 
@@ -330,3 +453,91 @@ _MOTIONS: dict[str, Callable[[Control, Block], None]] = {
     **dict.fromkeys(CYCLES, _cycle),
     **dict.fromkeys(("G5", "G5.1", *CURVES), move_along_curve),
 }
+
+
+# Canned cycles as the control obeys them: their words out of a block, their steps into motions and events.
+
+
+def bore(control: Control, block: Block) -> None:
+    """Do the holes of a block of a canned cycle.
+
+    Raises:
+        Fault: a word is missing or has no sense, or the holes are more than the reader takes.
+    """
+    place = _program_place(control)
+    if control.cycle is None:
+        control.initial = place[control.modal.plane.axes[2]]
+    cycle = with_sticky(_canned_cycle(control, block), control.cycle)
+    control.cycle = cycle
+    control.note_known(block)
+    if taps_astray(cycle):
+        control.warn(
+            f"LinuxCNC (2.9) feeds {cycle.code} along the wrong axes in G18 and G19; it is shown as it would move.", "g"
+        )
+    for step in cycle_steps(cycle, place, control.initial):
+        if isinstance(step, CycleMove):
+            control.unroll()
+            _move(control, step)
+        elif isinstance(step, Dwell):
+            control.event(EventKind.DWELL, step.seconds)
+        elif isinstance(step, Spindle):
+            control.change(spindle=step.turning)
+        elif isinstance(step, Stop):
+            control.event(EventKind.STOP)
+
+
+def _program_place(control: Control) -> Place:
+    """Return where the point is, in units of the program, without the noise of its way through the offsets: R may be
+    just there.
+    """
+    x, y, z = (round(coordinate / control.unit, 9) for coordinate in control.program_place)
+    return (x, y, z)
+
+
+def _move(control: Control, step: CycleMove) -> None:
+    """Do a step; where the control goes astray it believes that it stands where it was meant to."""
+    end = _table(control, step.target)
+    feed = control.feed_along(1.0) if step.kind else 0.0
+    control.move(step.kind, end, feed)
+    if step.meant is not step.target:
+        control.at = _table(control, step.meant)
+
+
+def _table(control: Control, target: Place) -> Place:
+    unit = control.unit
+    return control.offsets.to_table((target[0] * unit, target[1] * unit, target[2] * unit))
+
+
+def _canned_cycle(control: Control, block: Block) -> Cycle:
+    """Return the cycle as the block words it, in units of the program."""
+    u, v, w = control.modal.plane.axes
+    words = [_length(control, block, letter) for letter in "xyz"]
+    repeats = block.get("l")
+    fanuc = control.rules.fanuc_flow
+    if repeats is None and fanuc and control.motion != "G87":
+        repeats = block.get("k")
+    dwell = block.get("p")
+    if dwell is not None:
+        dwell *= control.rules.dwell_unit_s if "p" in block.whole else control.rules.dwell_unit_with_point_s
+    return Cycle(
+        code=control.motion,
+        plane=control.modal.plane,
+        hole=(words[u], words[v]),
+        polar=polar_step(block),
+        depth=words[w],
+        r=_length(control, block, "r"),
+        repeats=1 if repeats is None else whole(repeats, "the number of repeats"),
+        dwell=dwell,
+        peck=_length(control, block, "q"),
+        shift=(_length(control, block, "i"), _length(control, block, "j"), _length(control, block, "k")),
+        absolute=control.modal.absolute,
+        retract_to_r=control.modal.retract_to_r,
+        spindle=control.modal.spindle,
+        unit_mm=control.unit,
+        fanuc=fanuc,
+    )
+
+
+def _length(control: Control, block: Block, letter: str) -> float | None:
+    value = block.get(letter)
+    return value * control.least if value is not None and letter in block.whole else value

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
-from .notes_words import MOST_BYTES, Comments, ProgramUnits, StockBoxNote
-from .own_header import MARK, ProgramNotes, own_notes
+from .own_header import MARK, MOST_BYTES, Comments, ProgramNotes, ProgramUnits, StockBoxNote, own_notes
 from .program import StockNote, ToolNote
 from .text import ProgramBuffer
 
@@ -68,7 +67,7 @@ def _merged(same: list[ToolNote]) -> ToolNote:
 
 def _told(comments: Comments, units: ProgramUnits) -> Iterator[ToolNote]:
     """Yield what each comment tells: first those at tool changes, where a bare size will do."""
-    from .notes_tool import tool_of  # patterns that no program of our own needs
+    from .foreign_notes import tool_of  # patterns that no program of our own needs
 
     seen = set()
     for at, text, number in _at_changes(comments):
@@ -122,7 +121,7 @@ def _number_near(comments: Comments, at: int) -> int:
 
 def _stock(comments: Comments, units: ProgramUnits) -> StockNote | None:
     """Return the box, put together from what comments tell in the order of the text."""
-    from .notes_stock import bounds_of, box_of  # patterns that no program of our own needs
+    from .foreign_notes import bounds_of, box_of  # patterns that no program of our own needs
 
     box, first = StockBoxNote(), -1
     for at, text in sorted(comments.texts(_STOCK_WORDS)):

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .block_fault import BlockFault
+from .program import BlockFault
 from .text import ProgramBuffer, code_of
 
 KEYWORDS = (

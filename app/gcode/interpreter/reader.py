@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 from ...core.memory import ask, fewer
 from ...core.progress import NO_PROGRESS, Progress
+from .block import BlockStep
 from .options import ReadOptions
 from .program import NcProgram
-from .steps import BlockStep
 
 DEFAULT = ReadOptions()
 

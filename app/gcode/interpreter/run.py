@@ -2,30 +2,28 @@
 
 from __future__ import annotations
 
+import codecs
 import re
+from collections.abc import Iterator
 
 from ...core.errors import MOST_QUOTED, shortened
 from ...core.progress import Progress
-from .block import SLASH, Block, ParsedLine, block_of, parse
-from .block_fault import BlockFault
+from .block import SLASH, Block, BlockStep, ParsedLine, Watch, block_of, parse
 from .codes import CYCLES, TAKES, ModalGroup
 from .control import Control
 from .dialect import Dialect
 from .fast_lane import FastLane
 from .flow import MOST_KEPT, Flow
-from .foreign_codes import adapt, call_macro, is_leader, warn_of_numbers
+from .foreign_codes import adapt, call_macro, call_or_return, is_leader, is_macro, obey_macro, warn_of_numbers
 from .foreign_languages import foreign_language
-from .macro import call_or_return, is_macro, obey_macro
 from .moves import move
 from .notes import notes
-from .odd_bytes import warn_of_bytes
 from .options import ReadOptions
 from .own_header import register_diameters, registers_hold_wear
 from .places import Cursor, JumpTargets
 from .polar import check_polar, turn_polar_into_axes
-from .program import EventKind, NcProgram, ProgramProblem, Severity
+from .program import BlockFault, EventKind, NcProgram, ProgramProblem, Severity
 from .settings import before_motion, set_once
-from .steps import BlockStep, Watch
 from .text import ProgramBuffer, code_of, column_of
 
 LINES_A_STEP = 20_000
@@ -38,19 +36,27 @@ LEADER = 4096
 """Bytes before the per cent sign that may be something else."""
 
 _NOT_QUICK = re.compile(rb"[oO%/:]|#[ \t]*<")
+
 _NOT_QUICK_IN_MACRO_B = re.compile(rb"[oO%/:#]")
 """What a line begins with that the compiled lane does not do: of parameters it knows numbers, and where expressions
 stand in brackets.
 """
 
 _LEADER = re.compile(rb"[ \t\n\v\f\0]*%")
+
 _CLOSED = re.compile(rb"^[ \t]*%[ \t]*$", re.MULTILINE)
+
 _PERCENT = re.compile(rb"^[ \t]*%", re.MULTILINE)
+
 _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
+
 _PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
+
 _COMPUTED = re.compile(r"[#\[]")
 """What the lane computes for controls with O words alone."""
+
 _OF_ANOTHER = "take it out, or say --dialect where the program is for another control."
+
 _ENDS = ("M2", "M30")
 
 
@@ -391,3 +397,48 @@ class InterpreterRun:
         word = (named or mine)[0]
         begin, end = column_of(line, word.begin), column_of(line, word.end - 1)
         return begin, line[begin - 1 : end]
+
+
+# Bytes that a control takes otherwise than a reader of texts does: marks of encodings, carriage returns alone, NUL.
+
+
+_UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
+_SAVE = "save it as plain text, ASCII or UTF-8 without a mark, with line feeds."
+
+_OF_LINUXCNC: tuple[tuple[re.Pattern[bytes], str], ...] = (
+    (
+        re.compile(rb"\r(?!\r*(?:\n|\Z))"),
+        "a carriage return alone ends no line for LinuxCNC, which obeys what stands on both sides of it as one line",
+    ),
+    (
+        re.compile(rb"\0(?![ \t\r\0]*(?:\n|\Z))"),
+        "LinuxCNC reads a line as far as its first NUL byte, and leaves out what stands behind it",
+    ),
+    (re.compile(rb"[\v\f]"), "LinuxCNC refuses form feeds and vertical tabs"),
+)
+
+
+def warn_of_bytes(control: Control, file: bytes) -> None:
+    """Tell what in a file's bytes the control refuses, or obeys otherwise than it is read here.
+
+    Args:
+        file: as it lies on the disk.
+    """
+    for at, what in _odd(file, control.options.dialect):
+        before = file[:at].replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+        control.line = before.count(b"\n") + 1
+        control.warn(f"{what}; {_SAVE}")
+
+
+def _odd(file: bytes, dialect: Dialect) -> Iterator[tuple[int, str]]:
+    if file in (*_UTF16, codecs.BOM_UTF8):  # a mark and no line that it could be told of
+        return
+    if file.startswith(_UTF16):
+        yield 0, "the file is written in UTF-16, two bytes a letter, which controls do not read"
+        return
+    if file.startswith(codecs.BOM_UTF8) and dialect in (Dialect.LINUXCNC, Dialect.GRBL):
+        yield 0, "the file begins with a byte order mark, which the control refuses"
+    if dialect is Dialect.LINUXCNC:
+        found = ((pattern.search(file), what) for pattern, what in _OF_LINUXCNC)
+        yield from ((match.start(), what) for match, what in found if match)

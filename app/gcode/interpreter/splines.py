@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...model.motion import Nurbs, Plane
-from .block_fault import BlockFault
+from .program import BlockFault
 
 Point = tuple[float, float, float]
 Offset = tuple[float, float]

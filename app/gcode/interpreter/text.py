@@ -5,7 +5,7 @@ from __future__ import annotations
 import codecs
 import re
 
-from .block_fault import BlockFault
+from .program import BlockFault
 
 _BLANKS = {ord(c): None for c in " \t\v\f\x00\ufeff"}
 """What a control skips everywhere; NUL was the leader of paper tapes."""

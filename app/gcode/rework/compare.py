@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...core.progress import NO_PROGRESS, Progress
+from ...core.wording import together
 from ...model.motion import Floats, MotionKind, Motions
 from ...model.motion_path import lengths
 from ..checks.path_distance import LargestDistance, Polyline, PolylinePaths, farthest, leash
@@ -470,7 +471,7 @@ def _spindle(state: ModalState) -> str:
 
 
 def _coolant(state: ModalState) -> str:
-    return " and ".join(name for name, on in (("flood", state.flood), ("mist", state.mist)) if on) or "no coolant"
+    return together(name for name, on in (("flood", state.flood), ("mist", state.mist)) if on) or "no coolant"
 
 
 def _work_offset(state: ModalState) -> str:

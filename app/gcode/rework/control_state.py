@@ -16,9 +16,9 @@ from ...core.errors import InputError
 from ...core.progress import Progress
 from ..interpreter.control import Control
 from ..interpreter.dialect import Dialect
+from ..interpreter.expression import Key
 from ..interpreter.offsets import ZERO, Place, added, taken
 from ..interpreter.options import ReadOptions
-from ..interpreter.parameters import Key
 from ..interpreter.program import FeedMode
 from ..interpreter.text import ProgramBuffer
 

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 from ...core.errors import ParameterError
 from ...model.job import Job
 from ...model.moves import MoveKind
-from ..posts.post import Post
+from ..posts import Post
 from ..timing.extent import Extent
 from ..writer.blocks import Blocks
-from ..writer.grid import Position
 from ..writer.header import safe_name
-from ..writer.template_fields import Fields, program_fields
+from ..writer.template_fields import Fields, Position, program_fields
 from ..writer.write import blend_mm
 
 SPINNING = ("{speed", "{dwell", "{coolant")

@@ -5,29 +5,31 @@ written out where it has none that is known to do the same.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ...model.motion import Floats, MotionKind, Motions
-from ...model.motion_path import ArcPaths, arc_paths
+from ...fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
+from ...model.motion import Floats, MotionKind, Motions, Nurbs
+from ...model.motion_path import ArcPaths, arc_paths, fine_spline_points
+from ..interpreter.block import BlockStep
 from ..interpreter.codes import CYCLES, ModalGroup
 from ..interpreter.dialect import DIALECT_RULES
 from ..interpreter.program import EventKind, NcProgram
-from ..interpreter.steps import BlockStep
-from ..posts.post import ArcCentre
-from ..writer.arcs import ArcRules, ReferenceArc, written_pieces
+from ..posts import ArcCentre
 from ..writer.curve_blocks import BlockFormat, curve_blocks
-from ..writer.grid import Position, counts, numeral
-from .near_arcs import near_arcs
-from .taps import tapped_hole
+from ..writer.template_fields import Position, counts, numeral
+from ..writer.work_moves import ArcRules, ReferenceArc, written_pieces
 from .translatable import TAPPING
 from .translated_text import TranslatedText
 
 LARGEST_RADIUS = 10_000.0
 """mm; flatter arcs of a spline are lines."""
+
 _ARC_STEPS = 2.0
 """A written arc may be so many steps of the last decimal from the meant one."""
+
 _SAME = 1e-9
 """mm; heights that differ by less are the same."""
 
@@ -312,3 +314,123 @@ class MotionWriter:
         )
         output.cycle, output.motion, self._initial = words.drill, "", initial
         return True
+
+
+# Tapped holes as another control leaves them: at feed to R alone, where LinuxCNC feeds up to the initial height.
+
+
+_COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
+
+
+@dataclass(frozen=True, slots=True)
+class TappedHole:
+    """The motions of one tapped hole.
+
+    Attributes:
+        into, out: rows of the feeds into it and out of it.
+        beyond: whether the one out of it goes on beyond R, up the way that the tool came down at rapid rate.
+    """
+
+    into: int
+    out: int
+    beyond: bool
+
+
+def tapped_hole(motions: Motions, step: BlockStep) -> TappedHole | None:
+    """Return the hole that a block taps; None where it is left in a way that no other control knows.
+
+    Args:
+        motions: of the program. step: a block under a tapping cycle that makes motions.
+    """
+    lines = [row for row in range(*step.rows) if motions.kind[row] == MotionKind.LINE]
+    if len(lines) != 2:
+        return None
+    into, out = lines
+    r, top = float(motions.start[into, 2]), float(motions.end[out, 2])
+    if r == top:
+        return TappedHole(into, out, beyond=False)
+    came = into - 1
+    down = (
+        came >= step.rows[0]
+        and motions.kind[came] == MotionKind.RAPID
+        and bool(np.all(motions.start[came, :2] == motions.end[came, :2]))
+    )
+    return TappedHole(into, out, beyond=True) if down and r < top <= float(motions.start[came, 2]) else None
+
+
+@dataclass(frozen=True, eq=False)
+class LeftAtR:
+    """A program whose tapped holes are all left at feed to R alone.
+
+    Attributes:
+        program: it.
+        rows: (n,) of each of its motions the one of the first program that it is, -1 where it is a part of one.
+        holes: how many holes are left in another way than in the first program.
+    """
+
+    program: NcProgram
+    rows: NDArray[np.int64]
+    holes: int
+
+
+def left_at_r(program: NcProgram, steps: tuple[BlockStep, ...]) -> LeftAtR:
+    """Return a program in which the way out of each tapped hole is fed to R, and rapid from there on.
+
+    It is the way that the tool came down at rapid rate, so nothing is in it.
+
+    Args:
+        program, steps: as they were read together.
+    """
+    motions = program.motions
+    tapping = [step for step in steps if step.motion in TAPPING and step.rows[1] > step.rows[0]]
+    found = [hole for step in tapping if (hole := tapped_hole(motions, step)) is not None and hole.beyond]
+    rows = np.arange(len(motions))
+    if not found:
+        return LeftAtR(program, rows, 0)
+    into, out = np.array([hole.into for hole in found]), np.array([hole.out for hole in found])
+    count = np.ones(len(motions), np.int64)
+    count[out] = 2
+    rows = np.repeat(rows, count)
+    columns = {name: getattr(motions, name)[rows] for name in _COLUMNS}
+    behind = np.concatenate([[0], np.cumsum(count)])
+    fed = behind[out]
+    columns["end"][fed, 2] = columns["start"][fed + 1, 2] = motions.start[into, 2]
+    columns["kind"][fed + 1], columns["feed"][fed + 1] = MotionKind.RAPID, 0.0
+    columns["state"][fed + 1] = motions.state[into]  # the spindle turns again as it did before the hole
+    rows[fed] = rows[fed + 1] = -1
+    at = behind.tolist()
+    known = motions.known_from
+    cut = Motions(
+        **columns,
+        splines={at[row]: spline for row, spline in motions.splines.items()},
+        known_from=(_at(at, known[0]), _at(at, known[1]), _at(at, known[2])),
+    )
+    events = tuple(replace(event, before=at[event.before]) for event in program.events)
+    homeward = tuple(at[row] for row in program.homeward)
+    return LeftAtR(replace(program, motions=cut, events=events, homeward=homeward), rows, len(found))
+
+
+def _at(behind: list[int], row: int) -> int:
+    return row if row < 0 else behind[row]
+
+
+# A spline as lines and arcs so near to it that another control drives the same within its last decimals.
+
+
+_NEAR, _SAG = 0.6, 0.05
+"""Of the last decimal: how far lines and arcs may be from the points of a spline, and its chords from it."""
+
+_MOST = 1 << 18
+"""Chords of a spline, never more."""
+
+
+def near_arcs(spline: Nurbs, step: float, largest: float) -> Motions:
+    """Return lines and arcs along a spline.
+
+    Args:
+        step: the last decimal, mm; what is made is proven when it is read back.
+        largest: radius of an arc of the control, mm; what is flatter is a line.
+    """
+    points = fine_spline_points(spline, _SAG * step, _MOST)
+    far = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])
+    return fit_arcs(points[far], ArcOptions(_NEAR * step, math.pi / 6, largest)).motions

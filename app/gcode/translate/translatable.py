@@ -9,14 +9,13 @@ from dataclasses import dataclass
 
 from ...core.errors import InputError
 from ...model.motion import Plane
-from ..interpreter.block import ALWAYS, POLAR
+from ..interpreter.block import ALWAYS, POLAR, BlockStep
 from ..interpreter.codes import CYCLES, ROTARY, TAKES, ModalGroup
 from ..interpreter.dialect import DIALECT_RULES, Dialect
 from ..interpreter.foreign_codes import UNITS_OF_MACH3
 from ..interpreter.program import ProgramProblem
-from ..interpreter.steps import BlockStep
 from ..interpreter.text import column_of
-from ..posts.post import Post
+from ..posts import Post
 
 ARC_MODES = (Dialect.LINUXCNC, Dialect.GRBL, Dialect.MACH3)
 """They know G91.1 and G92.1."""

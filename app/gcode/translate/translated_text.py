@@ -8,12 +8,12 @@ from dataclasses import replace
 
 from ...model.motion import Plane
 from ...model.part import Units
+from ..interpreter.block import BlockStep
 from ..interpreter.codes import ModalGroup
 from ..interpreter.dialect import DIALECT_RULES, Dialect
 from ..interpreter.program import FeedMode, ModalState
-from ..interpreter.steps import BlockStep
 from ..writer.blocks import Blocks
-from ..writer.grid import spelled
+from ..writer.template_fields import spelled
 from .translatable import TAPPING, TranslationSource
 
 PLANES = {Plane.XY: "G17", Plane.ZX: "G18", Plane.YZ: "G19"}

@@ -12,10 +12,10 @@ import numpy as np
 from ...model.motion import Floats, MotionKind, Motions, Plane
 from ...model.motion_path import ArcPaths, arc_paths
 from ..interpreter.program import ModalState
-from ..posts.post import Post
-from .arcs import ArcRules, ReferenceArc, written_pieces
-from .grid import Position, counts, numeral
+from ..posts import Post
 from .nurbs import nurbs_blocks
+from .template_fields import Position, counts, numeral
+from .work_moves import ArcRules, ReferenceArc, written_pieces
 
 _PLANE_WORDS = {Plane.XY: "G17", Plane.ZX: "G18", Plane.YZ: "G19"}
 _CENTRE = "IJK"

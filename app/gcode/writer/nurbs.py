@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from ...geometry.arcs.bezier import cut_at_knots, elevated
 from ...model.motion import MotionKind, Nurbs
 from ...model.part import Units
-from ..posts.post import NurbsForm, Post
-from .grid import counts, numeral
+from ..posts import NurbsForm, Post
 from .linuxcnc_biarcs import turns_all_along
+from .template_fields import counts, numeral
 
 Floats = NDArray[np.float64]
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ...model.job import Job
 from ...model.part import Units
-from ..posts.post import Coolant, Post
-from .grid import spelled
+from ..posts import Coolant, Post
 
 Fields = dict[str, str | int]
 
@@ -59,3 +61,32 @@ def tool_fields(job: Job, number: int, post: Post, next_tool: int) -> Fields:
         "coolant_off": coolant.off if on else "",
         "preselect": f"T{next_tool}" if next_tool != tool.number else "",
     }
+
+
+# Numbers as a control reads them: whole counts of the last decimal, so that nothing is rounded twice.
+
+
+Position = tuple[int, int, int]
+"""X, Y and Z as counts of their last decimal."""
+
+
+def whole(values: NDArray[np.float64], decimals: int) -> NDArray[np.int64]:
+    """Return values as counts of their last decimal, the nearest ones."""
+    return np.rint(values * 10.0**decimals).astype(np.int64)
+
+
+def counts(values: NDArray[np.float64], decimals: int) -> list[int]:
+    """Return the same as a list."""
+    rounded: list[int] = whole(values, decimals).tolist()
+    return rounded
+
+
+def spelled(count: int, decimals: int) -> str:
+    """Return a count of the last decimal as text with all its decimals; zero has no sign."""
+    return f"{count / 10**decimals:.{decimals}f}"
+
+
+def numeral(count: int, decimals: int, zeros: bool) -> str:
+    """Return a count of the last decimal as the number of an axis word; without `zeros` only with those that count."""
+    text = spelled(count, decimals)
+    return text if zeros or "." not in text else text.rstrip("0")

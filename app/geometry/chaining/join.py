@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -11,11 +13,12 @@ from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...model.curves import Arc, Line, Point
-from ..near_points import all_within, groups, pairs_within
-from .findings import ClosedGap
-from .near_duplicates import merge_near_duplicates, reach_of
-from .overlap import repeated
-from .pieces import ChainPiece, length_of, with_ends
+from ...model.finding import Finding, FindingKind
+from ...model.job import LARGEST_JOIN
+from ...model.part import Contour
+from ..near_points import all_within, groups, nearest, pairs_within
+from .findings import ClosedGap, at, limited, named, rounded_up, size_of
+from .pieces import ChainPiece, length_of, repeated, same, with_ends
 
 Nodes = NDArray[np.int64]
 
@@ -155,3 +158,250 @@ def _mean(points: list[Point]) -> Point:
     if len(set(points)) == 1:
         return points[0]
     return sum(p[0] for p in points) / len(points), sum(p[1] for p in points) / len(points)
+
+
+# Curves drawn twice a little apart: their ends become one point, so that one of them can go.
+
+
+_LONG = 4.0
+"""Pieces not this many times longer than the reach are too short to tell a copy from a neighbour."""
+
+
+def reach_of(join_tolerance: float) -> float:
+    """Return how far apart two drawings of one curve may lie, mm.
+
+    A tolerance above the default is meant for gaps; it must not take the two walls of a thin feature for one.
+    """
+    return max(min(join_tolerance, tolerances.JOIN), tolerances.WELD)
+
+
+def merge_near_duplicates(pieces: Sequence[ChainPiece], ends: NDArray[np.float64], nodes: Nodes, reach: float) -> Nodes:
+    """Return the nodes with the ends of pieces that lie within `reach` of one another all along made one.
+
+    Outlines that are closed as they are keep to themselves: they are compared as wholes when they are chained. So do
+    the walls of two neighbours: a chain of curves is a copy only if all of it lies on others.
+
+    Args:
+        pieces: what was drawn.
+        ends: (2 n, 2) start and end of each, mm.
+        nodes: (2 n,) number of the point of each end, -1 for circles.
+        reach: mm.
+    """
+    if len(pieces) < 2:
+        return nodes
+    pairs = [pair for pair in _candidates(ends, nodes, reach) if same(pieces[pair[0]], pieces[pair[1]], reach)]
+    pairs = _copies(pieces, nodes.reshape(-1, 2), [pair for pair in pairs if _met(pieces, nodes, pair, reach)], reach)
+    found = [_met(pieces, nodes, pair, reach) for pair in pairs]
+    thin = _thin(pieces, nodes, reach) if pairs else set()
+    couples = [couple for met in found if not thin.intersection(met) for couple in met]
+    if not couples:
+        return nodes
+    merged = groups(int(nodes.max()) + 1, np.array(couples))
+    return np.where(nodes >= 0, merged[np.maximum(nodes, 0)], -1).astype(np.int64)
+
+
+def _candidates(ends: NDArray[np.float64], nodes: Nodes, reach: float) -> list[tuple[int, int]]:
+    """Return pairs of pieces, not both of closed outlines, whose ends lie within reach and are not the same already."""
+    pairs = nodes.reshape(-1, 2)
+    loose = np.flatnonzero((pairs[:, 0] >= 0) & ~_in_simple_loop(pairs))
+    if len(loose) == 0:
+        return []
+    able = np.flatnonzero(pairs[:, 0] >= 0)
+    whole = ends.reshape(-1, 4)
+    found = set()
+    for turned in (whole[loose], whole[loose][:, [2, 3, 0, 1]]):
+        # of four numbers, none of which differs by more than reach
+        place, other = all_within(whole[able], turned, 2 * reach)
+        near = np.abs(turned[place] - whole[able[other]]).max(axis=1, initial=0.0) <= reach
+        couples = zip(loose[place[near]].tolist(), able[other[near]].tolist(), strict=True)
+        found |= {(min(j, k), max(j, k)) for j, k in couples if j != k}
+    return sorted((j, k) for j, k in found if set(pairs[j].tolist()) != set(pairs[k].tolist()))
+
+
+def _in_simple_loop(pairs: Nodes) -> NDArray[np.bool_]:
+    """Return which pieces belong to an outline at each of whose points two ends meet."""
+    group = _groups(pairs)
+    meeting = np.bincount(pairs[pairs >= 0], minlength=1)
+    broken = np.zeros(int(group.max()) + 1, dtype=bool)
+    broken[group[(pairs[:, 0] >= 0) & (meeting[pairs] != 2).any(axis=1)]] = True
+    result: NDArray[np.bool_] = ~broken[group]
+    return result
+
+
+def _groups(pairs: Nodes) -> Nodes:
+    """Return for each piece the number of the chain of touching pieces that it is in; 0 for circles too."""
+    group = groups(max(int(pairs.max()) + 1, 1), pairs[pairs[:, 0] >= 0])
+    return np.where(pairs[:, 0] >= 0, group[np.maximum(pairs[:, 0], 0)], 0).astype(np.int64)
+
+
+def _copies(
+    pieces: Sequence[ChainPiece], nodes: Nodes, pairs: list[tuple[int, int]], reach: float
+) -> list[tuple[int, int]]:
+    """Return the pairs of which one piece is in a chain whose pieces, but for short ones, are all in some pair."""
+    paired = {k for pair in pairs for k in pair}
+    group = _groups(nodes)
+    concerned = {int(group[k]) for k in paired}
+    own = {
+        int(group[k])
+        for k, piece in enumerate(pieces)
+        if k not in paired
+        and int(group[k]) in concerned
+        and nodes[k, 0] >= 0
+        and sum(map(length_of, piece.primitives)) > _LONG * reach
+    }
+    return [(j, k) for j, k in pairs if int(group[j]) not in own or int(group[k]) not in own]
+
+
+def _met(pieces: Sequence[ChainPiece], nodes: Nodes, pair: tuple[int, int], reach: float) -> list[tuple[int, int]]:
+    """Return the two pairs of nodes (lower first) that become one when two pieces are the same curve; none if they are
+    short.
+    """
+    j, k = pair
+    a, b = pieces[j], pieces[k]
+    if min(sum(map(length_of, p.primitives)) for p in (a, b)) <= _LONG * reach:
+        return []
+    choices = [
+        (max(math.dist(a.start, b.start), math.dist(a.end, b.end)), 2 * k, 2 * k + 1),
+        (max(math.dist(a.start, b.end), math.dist(a.end, b.start)), 2 * k + 1, 2 * k),
+    ]
+    apart, *other = min(choices)
+    couples = [(int(nodes[2 * j + side]), int(nodes[end])) for side, end in enumerate(other)]
+    return [(min(c), max(c)) for c in couples] if apart <= reach else []
+
+
+def _thin(pieces: Sequence[ChainPiece], nodes: Nodes, reach: float) -> set[tuple[int, int]]:
+    """Return the pairs of nodes (lower first) that mark the end of a thin feature: a short cap, or the tip of a
+    spike.
+    """
+    caps = {
+        (int(min(nodes[2 * k : 2 * k + 2])), int(max(nodes[2 * k : 2 * k + 2])))
+        for k, piece in enumerate(pieces)
+        if sum(map(length_of, piece.primitives)) <= _LONG * reach
+    }
+    tips = np.flatnonzero(np.bincount(nodes[nodes >= 0], minlength=1) == 2).tolist()
+    return caps | {(tip, tip) for tip in tips}
+
+
+# Sentences about open contours: which end nearly meets which, what joins them, and whole layers of lines in one line.
+
+
+_SHORT, _SHORT_BETWEEN = 0.1, 0.02
+"""A gap of less than this share of a contour's length was not meant: between its own ends, and to another's, as lines
+side by side have.
+"""
+
+_MANY = 4
+"""So many contours of a layer that no end comes near are lines that bound nothing, and one line names them."""
+
+
+@dataclass(frozen=True, slots=True)
+class _End:
+    """A loose end, the nearest other one, and how far apart they are, mm; `own`: that is the contour's own."""
+
+    place: Point
+    other: Point
+    gap: float
+    own: bool
+
+
+def open_findings(contours: Sequence[Contour], join_tolerance: float = 0.0) -> list[Finding]:
+    """Return findings on all open contours: where their loose ends are, what is nearest to them, what to do.
+
+    Args:
+        contours: closed ones are passed over.
+        join_tolerance: that was used, mm; no greater one than the largest that is allowed is ever advised.
+    """
+    loose = [contour for contour in contours if not contour.closed]
+    near = [_joinable(contour, ends, join_tolerance) for contour, ends in zip(loose, _ends(loose), strict=True)]
+    alone = defaultdict(list)
+    for contour, ends in zip(loose, near, strict=True):
+        if not ends:
+            alone[contour.layer].append(contour)
+    bounding = {contour.layer for contour in contours if contour.closed}
+    found = [
+        _nearly_closed(contour, ends) if ends else _unfinished(contour, bounding)
+        for contour, ends in zip(loose, near, strict=True)
+        if ends or len(alone[contour.layer]) < _MANY
+    ]
+    lines = [_bounding_nothing(alone[layer], bounding) for layer in alone if len(alone[layer]) >= _MANY]
+    return [*limited(found, "open contours"), *lines]
+
+
+def _ends(loose: Sequence[Contour]) -> list[list[_End]]:
+    """Return both ends of each contour with the nearest other end."""
+    if not loose:
+        return []
+    places = [place for contour in loose for place in (contour.primitives[0].start, contour.primitives[-1].end)]
+    points = np.array(places)
+    count = min(3, len(points))
+    _, index = nearest(points, points, count)
+    found = []
+    for k, place in enumerate(places):
+        other = min((int(j) for j in index[k] if j != k), key=lambda j: math.dist(place, places[j]))
+        found.append(_End(place, places[other], math.dist(place, places[other]), other == (k ^ 1)))
+    return [found[k : k + 2] for k in range(0, len(found), 2)]
+
+
+def _joinable(contour: Contour, ends: list[_End], join_tolerance: float) -> list[_End]:
+    """Return the ends that a greater tolerance would join."""
+    length = sum(length_of(primitive) for primitive in contour.primitives)
+    least = max(join_tolerance, tolerances.WELD)
+    return [
+        end
+        for end in ends
+        if least < end.gap < length * (_SHORT if end.own else _SHORT_BETWEEN)
+        and float(rounded_up(end.gap)) <= LARGEST_JOIN
+    ]
+
+
+def _nearly_closed(contour: Contour, ends: list[_End]) -> Finding:
+    widest = max(ends, key=lambda end: end.gap)
+    if widest.own:
+        start, end = contour.primitives[0].start, contour.primitives[-1].end
+        where = f"is open by {widest.gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}"
+    else:
+        where = (
+            f"is open: its loose end at {at(widest.place)} is {widest.gap:.3g} mm from that of another at "
+            f"{at(widest.other)}"
+        )
+    text = f"{named(contour)} {where}. Join with tolerance {rounded_up(widest.gap)} or edit the ends."
+    return Finding(FindingKind.OPEN_CONTOUR, text, *widest.place, True, contour.entity_ids, widest.gap)
+
+
+def _unfinished(contour: Contour, bounding: set[str]) -> Finding:
+    start, end = contour.primitives[0].start, contour.primitives[-1].end
+    gap = math.dist(start, end)
+    text = (
+        f"{named(contour)} is open by {gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}. "
+        f"Complete it, or {_leaving('it', contour.layer, bounding)}."
+    )
+    return Finding(
+        FindingKind.OPEN_CONTOUR, text, *start, True, contour.entity_ids, gap, layer=_spare(contour.layer, bounding)
+    )
+
+
+def _bounding_nothing(lines: Sequence[Contour], bounding: set[str]) -> Finding:
+    """Return one finding on the lines of a layer that bound nothing, such as centre and section lines."""
+    longest = max(lines, key=lambda contour: sum(length_of(primitive) for primitive in contour.primitives))
+    start, end = longest.primitives[0].start, longest.primitives[-1].end
+    text = (
+        f"Layer {longest.layer} has {len(lines)} lines that bound nothing, the longest {size_of(longest)} at "
+        f"{at(start)}. Complete them, or {_leaving('them', longest.layer, bounding)}."
+    )
+    ids = tuple(dict.fromkeys(number for contour in lines for number in contour.entity_ids))
+    return Finding(
+        FindingKind.OPEN_CONTOUR, text, *start, True, ids, math.dist(start, end), layer=_spare(longest.layer, bounding)
+    )
+
+
+def _spare(layer: str, bounding: set[str]) -> str:
+    """Return a layer that may be left out as a whole, or ""; `bounding` are those that must stay."""
+    return "" if layer in bounding else layer
+
+
+def _leaving(what: str, layer: str, bounding: set[str]) -> str:
+    """Return how to leave lines out; `bounding` are the layers that must stay, for closed contours lie on them."""
+    if layer in bounding:
+        return f"draw {what} on a layer of {'its' if what == 'it' else 'their'} own, which --skip-layer leaves out"
+    quoted = layer if layer.isalnum() else f'"{layer}"'
+    return f"leave the layer out: --skip-layer {quoted}"

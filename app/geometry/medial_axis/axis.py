@@ -5,13 +5,18 @@ at a foot touches another site. Its radius is a closed form of the foot, for lin
 arcs, so a cell is the envelope of a few closed forms (`cell_kernels`). Each piece of the axis is found from both of its
 sides.
 
+Regions that a translation brings onto one another, as equal letters are, have one axis, which is found and proven once:
+all that is measured of it is measured about the middle of the region.
+
 Nothing is believed that is not proven by other means: the areas of the cells add up to the area of the region, and the
 distance field, which knows nothing of cells, is as large at points of every piece as the piece says.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Hashable
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +41,11 @@ _FIELD = 1e-6
 
 _PROBES = np.array([0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98])
 
+_ALIKE = 1e-9
+"""mm; regions whose rows lie so near to one another about their middles have one axis. A distance from walls that are
+moved by so much changes by no more, so what is proven of one holds for the other but for that: a thousandth of _FIELD.
+"""
+
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 _HALVINGS = 24
@@ -53,6 +63,8 @@ class MedialAxis:
         pieces: (m, 4) element, site, from and to as fractions of the element. Element and site below n are rows, n + i
             is the vertex at which row i starts; a counter-clockwise arc that is its own site ends at its centre.
         middle: (2,) mm.
+
+    Of regions that are alike all but `region` and `middle` is the same, not just equal.
     """
 
     region: int
@@ -83,26 +95,58 @@ def medial_axes(primitives: Primitives, progress: Progress = NO_PROGRESS) -> tup
         GeometryError: the axis of a region is not proven right; names a place.
         Cancelled: by progress.
     """
-    numbers = np.unique(primitives.region)
+    order = np.argsort(primitives.region, kind="stable")
+    numbers, begins = np.unique(primitives.region[order], return_index=True)
+    place = np.empty(len(order), np.int64)
     found: list[MedialAxis] = []
-    for k, number in enumerate(numbers.tolist()):
+    alike: dict[Hashable, list[_KnownAxis]] = {}
+    for k, (number, here) in enumerate(zip(numbers.tolist(), np.split(order, begins[1:]), strict=True)):
         progress.step(k / len(numbers), "Medial axis")
-        found.append(_axis_of(primitives, number))
+        place[here] = np.arange(len(here))
+        found.append(_axis_of(_region(primitives, here, place), number, alike))
     return tuple(found)
 
 
-def _axis_of(primitives: Primitives, number: int) -> MedialAxis:
-    here = np.flatnonzero(primitives.region == number)
-    place = np.full(len(primitives.rows), -1)
-    place[here] = np.arange(len(here))
+class _RegionRows(NamedTuple):
+    """The rows of one region about its middle, mm, and (2, n) which come before and after each."""
+
+    rows: Rows
+    links: Indices
+    middle: Floats
+
+
+class _KnownAxis(NamedTuple):
+    rows: Rows
+    axis: MedialAxis
+
+
+def _region(primitives: Primitives, here: Indices, place: Indices) -> _RegionRows:
+    """Return the rows `here`; `place` tells of each what number it has among them."""
     rows, previous = primitives.rows[here].copy(), place[primitives.previous[here]]
     ends = rows[:, :4].reshape(-1, 2)
     middle = (ends.min(axis=0) + ends.max(axis=0)) / 2
     rows[:, X0:CX] -= np.tile(middle, 2)
     rows[rows[:, TURN] != 0, CX:R] -= middle
-    links = np.stack([previous, np.argsort(previous)])
+    return _RegionRows(rows, np.stack([previous, np.argsort(previous)]), middle)
+
+
+def _axis_of(region: _RegionRows, number: int, alike: dict[Hashable, list[_KnownAxis]]) -> MedialAxis:
+    """Return the axis of a region: that of one which is alike, moved, or one that is found and proven here."""
+    rows, links, middle = region
+    size = tuple(np.round(rows[:, :2].max(axis=0), 6).tolist())  # or all shapes would be compared with all others
+    known = alike.setdefault((links.tobytes(), rows[:, TURN].tobytes(), size), [])
+    for each in known:
+        if np.abs(each.rows - rows).max() <= _ALIKE:
+            return replace(each.axis, region=number, middle=middle)
+    axis = _found(region, number)
+    known.append(_KnownAxis(rows, axis))
+    return axis
+
+
+def _found(region: _RegionRows, number: int) -> MedialAxis:
+    rows, links, middle = region
     angles, turns = np.empty((2 * len(rows), 2)), np.empty(len(rows))
-    offset_kernels.element_angles(rows, previous, angles)
+    offset_kernels.element_angles(rows, links[0], angles)
     cell_kernels.vertex_turns(rows, links, turns)
     contours, firsts = _contours(links[1])
     pieces, failed = cell_kernels.cells(

@@ -20,26 +20,33 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+import shapely
+from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
+from ...model.part import Contour
 from ..distance import DistanceField
-from ..primitives import CX, TURN, Indices, Primitives, Rows, lengths, points_at, signed_area
-from . import (
-    clearance_kernels as offset_clearance_kernels,
+from ..offset import clearance_kernels as offset_clearance_kernels
+from ..offset import offset_kernels, ring_kernels
+from ..offset import tree_kernels as offset_tree_kernels
+from ..offset import trim_kernels as offset_trim_kernels
+from ..primitives import (
+    CX,
+    TURN,
+    Indices,
+    Primitives,
+    Rows,
+    contour_rows,
+    lengths,
+    points_at,
+    reversed_rows,
+    row_curve,
+    sample,
+    signed_area,
+    within_half_turn,
 )
-from . import (
-    offset_kernels,
-    ring_kernels,
-)
-from . import (
-    tree_kernels as offset_tree_kernels,
-)
-from . import (
-    trim_kernels as offset_trim_kernels,
-)
-from .polyline import polyline_loops
 
 _WORTH_TWO_CORES = 2000
 """Pieces from which a second core is worth its start."""
@@ -48,6 +55,7 @@ _FEW = 64
 """Rows among which it is not worth looking for those that can still block."""
 
 _BANDS = 4
+
 _BAND = 10_000
 """Pieces that are cut in less than a fifth of a second."""
 
@@ -60,6 +68,7 @@ else closes.
 """
 
 _NUDGES = (0.0, 1e-7, 3.3e-7, 7.1e-7, -1.3e-7)
+
 _ATTEMPTS = tuple((nudge, limit) for limit in (_EXACT, tolerances.LEVEL / 2) for nudge in _NUDGES)
 
 
@@ -321,3 +330,136 @@ def _bay_is_lost(wide: Sequence[Ring], exact: Sequence[Ring], apart: float) -> b
 def _on_a_ridge(ring: Ring) -> bool:
     """Tell whether the field rises above the ring's level by less than the ridge tolerance inside it."""
     return ring.length < 4 * tolerances.RIDGE or 0 <= ring.area < ring.length * tolerances.RIDGE
+
+
+# The last resort of the exact offset: a ring as a fine polyline that still measures right.
+
+
+_STEP = 0.05  # mm between points; the chord of a 0.3 mm arc then sags by 1 um
+
+_CHORD = 1e-4
+
+_SMALL = 1e-6  # mm; step of the numeric slope
+
+
+def polyline_loops(
+    field: DistanceField, rows: Rows, primitives: Primitives, distance: float
+) -> list[tuple[NDArray[np.float64], int]]:
+    """Return (points (m, 2), region number) of the rings at a distance, found by buffering polygons with shapely.
+
+    Every point is then moved along the line from its nearest point on the drawing until it measures `distance`; a
+    ring of which any point or middle still comes nearer than the tolerance is left out, and so shows as metal left.
+    """
+    loops = []
+    for number in np.unique(primitives.region):
+        area = _beyond(rows, primitives, int(number), distance)
+        for polygon in getattr(area, "geoms", [area]):
+            for hole, line in enumerate((polygon.exterior, *polygon.interiors) if not polygon.is_empty else ()):
+                points = _on_level(field, shapely.get_coordinates(shapely.segmentize(line, _STEP))[:-1], distance)
+                if len(points) > 2 and _measures_right(field, points, distance):
+                    ahead = shapely.LinearRing(points).is_ccw == (hole == 0)
+                    loops.append((points if ahead else points[::-1], int(number)))
+    return loops
+
+
+def _beyond(rows: Rows, primitives: Primitives, number: int, distance: float) -> shapely.Geometry:
+    """Return what of one region is farther than a distance from its outlines, some of which may go there and back."""
+    area: shapely.Geometry = shapely.Polygon()
+    ways = []
+    starts = np.flatnonzero((primitives.region == number) & (primitives.previous >= np.arange(len(rows))))
+    for first in starts:
+        last = int(primitives.previous[first])
+        points = sample(rows[first : last + 1], _CHORD)
+        ways.append(shapely.LineString(np.concatenate([points, points[:1]])))
+        if len(points) > 2:  # else a line there and back, which has no area
+            area = area.symmetric_difference(shapely.make_valid(shapely.Polygon(points)))
+    return shapely.difference(area, shapely.union_all(shapely.buffer(ways, distance, quad_segs=32)))
+
+
+def _on_level(field: DistanceField, points: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
+    """Move points (m, 2) to the given distance from the drawing by Newton steps along the field's slope."""
+    for _ in range(3):
+        found, _ = field.nearest(points)
+        right, up = (field.nearest(points + step)[0] for step in np.eye(2) * _SMALL)
+        slope = np.stack([right - found, up - found], 1) / _SMALL
+        size = np.maximum(np.hypot(slope[:, 0], slope[:, 1]), 0.5)
+        points = points + slope / size[:, None] ** 2 * (distance - found)[:, None]
+    return points
+
+
+def _measures_right(field: DistanceField, points: NDArray[np.float64], distance: float) -> bool:
+    both = np.concatenate([points, (points + np.roll(points, -1, axis=0)) / 2])
+    return bool(np.all(field.nearest(both)[0] >= distance - tolerances.LEVEL))
+
+
+# What lies within a distance of drawn lines: the outlines of lines that are grown, as exact lines and arcs.
+#
+# A line is a wall that one can go round: its rows there and back bound no area, and the level of the distance round
+# them is the outline of what lies within. Round ends come out of the half turn at each end. Lines may cross, touch and
+# end on one another: the level is that of the distance from all of them.
+
+
+_ROOM = 2.0
+"""Times the distance, between the lines and the frame round them."""
+
+_SAME = 1e-9
+"""mm; lines of which all rows are this near to those of another one are drawn twice."""
+
+
+def grown_lines(lines: Sequence[Contour], distance: float, progress: Progress = NO_PROGRESS) -> tuple[Contour, ...]:
+    """Return the outlines of all that lies within a distance of some lines: the area is even-odd.
+
+    Args:
+        lines: open and closed ones; they may cross one another and themselves.
+        distance: mm, > 0.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    drawn = _once([contour_rows(line) for line in lines])
+    if not drawn:
+        return ()
+    loops = [_frame(np.concatenate(drawn), _ROOM * distance)]
+    for rows in drawn:
+        back = reversed_rows(rows)
+        closed = bool((rows[0, :2] == rows[-1, 2:4]).all())
+        loops.extend((rows, back) if closed else (np.concatenate([rows, back]),))
+    (level,) = offset_levels(_packed(loops), [distance], progress)
+    ids = tuple(dict.fromkeys(number for line in lines for number in line.entity_ids))
+    rings = sorted(level.rings, key=lambda ring: -ring.area)[1:]  # the largest one is that along the frame
+    return tuple(_contour(ring, lines[0].layer, ids) for ring in rings)
+
+
+def _once(lines: Sequence[Rows]) -> list[Rows]:
+    """Return lines without those that are drawn as another one is, from either end."""
+    kept: list[Rows] = []
+    for rows in lines:
+        ways = rows, reversed_rows(rows)
+        if not any(
+            each.shape == rows.shape and any(np.abs(each[:, :4] - way[:, :4]).max() < _SAME for way in ways)
+            for each in kept
+        ):
+            kept.append(rows)
+    return kept
+
+
+def _frame(rows: Rows, room: float) -> Rows:
+    """Return a box with room round rows, mm, counter-clockwise."""
+    wide = rows[:, 6].max() + 2 * room  # of an arc no point is farther from its ends than two radii
+    low, high = rows[:, :4].reshape(-1, 2).min(axis=0) - 2 * wide, rows[:, :4].reshape(-1, 2).max(axis=0) + 2 * wide
+    corners = np.array([low, (high[0], low[1]), high, (low[0], high[1])])
+    return np.hstack([corners, np.roll(corners, -1, axis=0), np.zeros((4, 4))])
+
+
+def _packed(loops: Sequence[Rows]) -> Primitives:
+    """Return closed runs of rows as one region."""
+    previous, first = [], 0
+    for rows in loops:
+        previous.append(first + (np.arange(len(rows)) - 1) % len(rows))
+        first += len(rows)
+    return Primitives(np.concatenate(loops), np.concatenate(previous), np.zeros(first, np.int64))
+
+
+def _contour(ring: Ring, layer: str, ids: tuple[int, ...]) -> Contour:
+    rows = within_half_turn(ring.rows)
+    return Contour(tuple(row_curve(row) for row in rows), True, layer, ids)

@@ -8,7 +8,8 @@ same area.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -19,13 +20,14 @@ from ...core import tolerances
 from ...model.finding import Finding, FindingKind
 from ...model.part import Contour
 from ..chaining.findings import at
+from ..distance import DistanceField
 from ..even_odd import EvenOddMeasure, even_odd
-from ..primitives import Rows, contour_rows, reversed_rows, signed_area
-from .nodes import RowPieces, edges_of, pieces_of, settled
-from .planar_graph import PlanarGraph
-from .sides import CountSteps, counted
+from ..near_points import groups
+from ..primitives import R, Rows, boxes, contour_rows, lengths, reversed_rows, row_curve, signed_area, sweeps
+from .nodes import NodeOrder, PlanarEdges, RowPieces, edges_of, pieces_of, settled, turn_of
 
 Indices = NDArray[np.int64]
+
 Flags = NDArray[np.bool_]
 
 _SPECK = tolerances.LEVEL**2
@@ -198,3 +200,280 @@ def _meeting(pieces: RowPieces, count: int) -> Flags:
     busy = np.bincount(node, minlength=len(pieces.nodes)) > 1
     meet[pieces.contour[kept][busy[node]]] = True
     return meet
+
+
+# Connected nets of edges: whose contours they are of, what lies round them, and the contours that are made of them.
+
+
+_SLIVER = tolerances.WELD / 4
+"""mm; loops whose area is less than this times their length are what merging leaves of edges that nearly coincide."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlanarGraph:
+    """Pieces as edges, their order round the nodes, and the faces between them; several connected nets as a rule.
+
+    Attributes:
+        members: contours of each connected net, rising.
+    """
+
+    pieces: RowPieces
+    edges: PlanarEdges
+    turn: NodeOrder
+    faces: Faces
+    members: tuple[tuple[int, ...], ...]
+
+    @staticmethod
+    def of(pieces: RowPieces) -> PlanarGraph:
+        """Return the net of some pieces, one or more."""
+        edges = edges_of(pieces)
+        turn = turn_of(edges)
+        faces = faces_of(edges, turn)
+        pairs = np.unique(np.stack([faces.net[edges.of], pieces.contour], 1), axis=0)
+        stops = np.searchsorted(pairs[:, 0], np.arange(len(faces.outer)), side="right")[:-1]
+        members = tuple(tuple(each.tolist()) for each in np.split(pairs[:, 1], stops))
+        return PlanarGraph(pieces, edges, turn, faces, members)
+
+    def loops(self, odd: Flags, counts: FaceCounts) -> list[list[list[int]]]:
+        """Return for each connected net the loops of ends that bound its area; see `loops`.
+
+        Args:
+            odd: (n,) True for edges along which an odd number of contours runs.
+        """
+        inside = (counts.odd & (counts.held == 0))[self.faces.left]
+        left, right = inside[::2], inside[1::2]
+        wall = left & right & (self.faces.left[::2] != self.faces.left[1::2]) & ~odd
+        whole = ~counts.torn[self.faces.net]
+        kept = np.empty(2 * len(odd), np.bool_)
+        kept[::2], kept[1::2] = (left & ~right | wall) & whole, (right & ~left | wall) & whole
+        found = loops_along(self.edges, self.turn, kept)
+        if not whole.all():
+            found += loops_in_pairs(self.edges, self.turn, np.repeat(odd & ~whole, 2))
+        loops: list[list[list[int]]] = [[] for _ in self.members]
+        for loop in found:
+            loops[int(self.faces.net[loop[0] // 2])].append(loop)
+        return loops
+
+    def contours(self, loops: Sequence[Sequence[int]], members: Sequence[Contour]) -> list[Contour]:
+        """Return loops as contours that name all entities of some contours; slivers are left out."""
+        ids = tuple(dict.fromkeys(number for contour in members for number in contour.entity_ids))
+        deviation = max((contour.deviation for contour in members), default=0.0)
+        made = []
+        for loop in loops:
+            rows = self._rows(np.array(loop))
+            if abs(signed_area(rows)) > _SLIVER * float(lengths(rows).sum()):
+                made.append(Contour(tuple(map(row_curve, rows)), True, members[0].layer, ids, deviation))
+        return made
+
+    def _rows(self, ends: Indices) -> Rows:
+        """Return the rows along some ends."""
+        rows = self.edges.rows[ends // 2].copy()
+        back = ends % 2 == 1
+        rows[back] = reversed_rows(rows[back])[::-1]
+        return rows
+
+    def held_by(self, rows: Sequence[Rows]) -> tuple[Indices, Indices]:
+        """Return (net, contour), each (m,), of contours that go round nets of which they are no part.
+
+        Args:
+            rows: of each contour.
+        """
+        first = np.unique(self.faces.net, return_index=True)[1]
+        points = self.edges.rows[first, :2]
+        own = np.full(len(rows), -1)
+        for number, members in enumerate(self.members):
+            own[list(members)] = number
+        nets, held = [], []
+        for k, each in enumerate(rows):
+            around = boxes(each)
+            low, high = around[:, :2].min(axis=0), around[:, 2:].max(axis=0)
+            near = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
+            near = near[near != own[k]]
+            if len(near):
+                nets.append(near[DistanceField.of(each).inside(points[near])])
+                held.append(np.full(len(nets[-1]), k))
+        none = [np.zeros(0, np.int64)]
+        return np.concatenate(none + nets), np.concatenate(none + held)
+
+
+# Closed loops of edges that bound an area: no loop passes a node twice.
+
+
+def loops_along(edges: PlanarEdges, turn: NodeOrder, kept: Flags) -> list[list[int]]:
+    """Return loops of ends (2 k: along edge k, 2 k + 1: back along it) that have the same area to their left all along.
+
+    Args:
+        kept: (2 n,) True for the ends that leave with the area to their left.
+    """
+    return _simple(edges, _next_clockwise(turn, kept), np.flatnonzero(kept).tolist())
+
+
+def loops_in_pairs(edges: PlanarEdges, turn: NodeOrder, kept: Flags) -> list[list[int]]:
+    """Return loops in which all edges are used once, whatever lies beside them; there is an even number at each node.
+
+    Args:
+        kept: (2 n,) True for both ends of these edges.
+    """
+    chosen = turn.ends[kept[turn.ends]]
+    partner = np.full(len(kept), -1, np.int64)
+    partner[chosen[::2]], partner[chosen[1::2]] = chosen[1::2], chosen[::2]
+    following = np.full(len(kept), -1, np.int64)
+    ends = np.flatnonzero(kept)
+    following[ends] = partner[ends ^ 1]
+    return _simple(edges, following, ends.tolist(), either_way=True)
+
+
+def _next_clockwise(turn: NodeOrder, kept: Flags) -> Indices:
+    """Return for each end which kept one goes on from where it leads: the next clockwise from the way back; -1 where
+    none does.
+    """
+    place = np.arange(len(turn.ends))
+    there = kept[turn.ends]
+    first, stop = turn.first[turn.ends], turn.stop[turn.ends]
+    last = np.maximum.accumulate(np.where(there, place, -1))
+    before = np.concatenate([[-1], last[:-1]])
+    before = np.where(before >= first, before, last[stop - 1])
+    before = np.where(before >= first, before, -1)
+    following = np.where(before >= 0, turn.ends[before], -1)
+    back = np.arange(len(turn.ends)) ^ 1
+    onward: Indices = following[turn.at[back]]
+    return onward
+
+
+def _simple(edges: PlanarEdges, following: Indices, begins: Iterable[int], either_way: bool = False) -> list[list[int]]:
+    """Return the loops that `following` makes, parted where they come back to a node; what does not close is no loop.
+
+    Args:
+        either_way: an edge that was used one way is not used the other way too.
+    """
+    onward, node = following.tolist(), np.stack([edges.start, edges.end], 1).ravel().tolist()
+    used = [False] * len(onward)
+    loops: list[list[int]] = []
+    for begin in begins:
+        way: list[int] = []
+        seen: dict[int, int] = {}
+        end = begin
+        while end >= 0 and not used[end]:
+            used[end] = True
+            used[end ^ 1] |= either_way
+            seen[node[end]] = len(way)
+            way.append(end)
+            reached = seen.get(node[end ^ 1])
+            if reached is not None:
+                loop, way = way[reached:], way[:reached]
+                loops.append(loop)
+                for each in loop[1:]:
+                    del seen[node[each]]
+            end = onward[end]
+    return loops
+
+
+# What lies on either side of every edge: counted from face to face, never probed.
+#
+# Across an edge the count changes by what runs along it: even and odd change places where an odd number of contours
+# does; the number of outlines that hold the place changes with their direction. One face of each connected net is its
+# outer one, which is that with a negative area; what is counted there comes from the nets round it.
+
+
+@dataclass(frozen=True, eq=False)
+class Faces:
+    """The faces between edges.
+
+    Attributes:
+        left: (2 n,) face to the left of each end as it leaves.
+        net: (n,) number of the connected net of each edge, by its first one.
+        net_of: (f,) net of each face.
+        outer: (c,) outer face of each net.
+    """
+
+    left: Indices
+    net: Indices
+    net_of: Indices
+    outer: Indices
+
+
+@dataclass(frozen=True, eq=False)
+class FaceCounts:
+    """What is counted in each face.
+
+    Attributes:
+        odd: (f,) True where an odd number of contours goes round it.
+        held: (f,) how many outlines hold it.
+        torn: (c,) True for nets in which ways from face to face tell different counts.
+    """
+
+    odd: Flags
+    held: Indices
+    torn: Flags
+
+
+@dataclass(frozen=True, eq=False)
+class CountSteps:
+    """How counts differ across each edge, from its right to its left: odd (n,), held (n,)."""
+
+    odd: Flags
+    held: Indices
+
+
+def faces_of(edges: PlanarEdges, turn: NodeOrder) -> Faces:
+    """Return the faces of some edges with their order round the nodes."""
+    count = len(edges.rows)
+    ends = np.arange(2 * count)
+    left = groups(2 * count, np.stack([ends, turn.following() ^ 1], 1))
+    nodes = int(max(edges.start.max(), edges.end.max())) + 1
+    by_node = groups(nodes, np.stack([edges.start, edges.end], 1))
+    net = np.unique(by_node[edges.start], return_index=True, return_inverse=True)
+    rank = np.empty(len(net[0]), np.int64)
+    rank[np.argsort(net[1])] = np.arange(len(net[0]))
+    number = rank[net[2]]
+    net_of = np.zeros(int(left.max()) + 1, np.int64)
+    net_of[left] = number[ends // 2]
+    areas = _areas(edges, left, number)
+    order = np.lexsort((areas, net_of))
+    outer = order[np.unique(net_of[order], return_index=True)[1]]
+    return Faces(left, number, net_of, outer)
+
+
+def _areas(edges: PlanarEdges, left: Indices, net: Indices) -> NDArray[np.float64]:
+    """Return the area that the edges of each face run round, mm2; negative for outer ones."""
+    first = np.unique(net, return_index=True)[1]
+    origin = edges.rows[first, :2][net]
+    a, b = edges.rows[:, :2] - origin, edges.rows[:, 2:4] - origin
+    sweep = sweeps(edges.rows)
+    part = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] + edges.rows[:, R] ** 2 * (sweep - np.sin(sweep))) / 2
+    total = int(left.max()) + 1
+    areas = np.bincount(left[::2], part, total) - np.bincount(left[1::2], part, total)
+    return areas.astype(np.float64)
+
+
+class _WayAcross(NamedTuple):
+    """A way across an edge: to which face, whether the contours' count flips, and by how much the outlines' rises."""
+
+    face: int
+    flips: bool
+    more: int
+
+
+def counted(faces: Faces, steps: CountSteps, odd: Flags, held: Indices) -> FaceCounts:
+    """Return the counts of all faces from those of the outer ones, odd (c,) and held (c,)."""
+    total = len(faces.net_of)
+    right, left = faces.left[1::2], faces.left[::2]
+    ways: list[list[_WayAcross]] = [[] for _ in range(total)]
+    for a, b, flips, more in zip(right.tolist(), left.tolist(), steps.odd.tolist(), steps.held.tolist(), strict=True):
+        ways[a].append(_WayAcross(b, flips, more))
+        ways[b].append(_WayAcross(a, flips, -more))
+    parity, number, known = [False] * total, [0] * total, [False] * total
+    for face, begins, holds in zip(faces.outer.tolist(), odd.tolist(), held.tolist(), strict=True):
+        parity[face], number[face], known[face] = begins, holds, True
+        waiting = deque([face])
+        while waiting:
+            here = waiting.popleft()
+            for there, flips, more in ways[here]:
+                if not known[there]:
+                    parity[there], number[there], known[there] = parity[here] ^ flips, number[here] + more, True
+                    waiting.append(there)
+    odds, helds = np.array(parity, np.bool_), np.array(number, np.int64)
+    wrong = (odds[left] ^ odds[right] != steps.odd) | (helds[left] - helds[right] != steps.held)
+    torn = np.zeros(len(faces.outer), np.bool_)
+    torn[faces.net[wrong]] = True
+    return FaceCounts(odds, helds, torn)

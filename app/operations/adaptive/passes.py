@@ -12,9 +12,8 @@ from ...core.progress import Progress
 from ...geometry.primitives import lengths, within_half_turn
 from ...model.moves import Purpose
 from ...toolpath.build import MovesBuilder, Stroke, StrokeLabel
-from ...toolpath.depth.depth import DepthLevels
-from ...toolpath.entry.entry import EntryContext, descent
-from ...toolpath.entry.entry_findings import EntryFallbacks
+from ...toolpath.depth import DepthLevels
+from ...toolpath.entry.entry import EntryContext, EntryFallbacks, descent
 from .path_builder import CutRun
 from .plan import ConnectedPath
 

@@ -13,7 +13,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ...geometry.primitives import Primitives, Rows, sample
-from ...toolpath.open_edges import BoxSides
+from ...toolpath.machining_areas import BoxSides
 from .axis import RoughAxis, rough_axis
 from .cleared_discs import ClearedDiscs, Point, WallClearance
 from .limit import EngagementLimit

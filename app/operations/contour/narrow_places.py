@@ -15,7 +15,7 @@ from ...geometry.primitives import boxes, contour_rows, sample
 from ...model.finding import Finding, FindingKind
 from ...model.part import Contour, Region
 from ...model.tool import Tool
-from ...toolpath.coverage.flat import region_shapes
+from ...toolpath.coverage.areas import region_shapes
 from ...toolpath.leads.contour_path import ContourPath, Floats, left_of
 from ...toolpath.machining_areas import MachiningArea
 from ...toolpath.narrow_regions import ToolRoom

@@ -21,8 +21,8 @@ from ...model.moves import Purpose
 from ...model.operation import Direction, Side
 from ...model.stock_box import stock_box
 from ...model.tool import Tool
-from ...toolpath.bitmap_check import check_on_bitmap
 from ...toolpath.build import Stroke, started_at
+from ...toolpath.drawn_contours import selected
 from ...toolpath.leads.contour_path import ContourPath
 from ...toolpath.leads.lead import LeadContext, PathWithLeads, lead_findings, overlap_findings, runs, straight_way
 from ...toolpath.leads.tab import (
@@ -35,11 +35,9 @@ from ...toolpath.leads.tab import (
     tabs_at,
     unheld_findings,
 )
-from ...toolpath.machining_areas import MachiningArea, MachiningAreas
+from ...toolpath.machining_areas import MachiningArea, MachiningAreas, wall_paths
 from ...toolpath.narrow_regions import finest, too_small
-from ...toolpath.operation_context import OperationContext, PreparedStrokes, passes_of
-from ...toolpath.selected import selected
-from ...toolpath.side import wall_paths
+from ...toolpath.operation_context import OperationContext, PreparedStrokes, check_on_bitmap, passes_of
 from ..engrave.open_line import line_paths
 from ..from_outside import emit_prepared, open_stock
 from .dogbone import CornerRelief, corner_reliefs, recorded, refused_relief_findings

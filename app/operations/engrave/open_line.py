@@ -15,8 +15,7 @@ from ...model.finding import Finding, FindingKind
 from ...model.operation import Direction
 from ...model.tool import Tool
 from ...toolpath.leads.contour_path import ContourPath, Floats
-from ...toolpath.machining_areas import MachiningArea
-from ...toolpath.side import ranks
+from ...toolpath.machining_areas import MachiningArea, ranks
 
 _FINEST = tolerances.LEVEL
 """mm; how exactly the place is found where a clamp cuts a line off, on the safe side."""

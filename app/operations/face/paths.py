@@ -23,7 +23,7 @@ from ...model.moves import Purpose
 from ...model.stock_box import StockBox, stock_box
 from ...model.tool import Tool
 from ...toolpath.build import Stroke, StrokeLabel
-from ...toolpath.depth.depth import pass_heights
+from ...toolpath.depth import pass_heights
 from ...toolpath.operation_context import OperationContext
 
 Points = NDArray[np.float64]

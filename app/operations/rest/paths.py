@@ -14,10 +14,8 @@ from ...model.job import Job
 from ...model.moves import MoveKind, Purpose
 from ...model.operation import CutParameters, RestOperation, Side
 from ...model.tool import Tool
-from ...toolpath.cleared_ground import flat_radius
-from ...toolpath.coverage.flat import move_rows
-from ...toolpath.linking.chain_net import Corridor
-from ...toolpath.linking.chains import chains
+from ...toolpath.coverage.areas import move_rows
+from ...toolpath.linking.chains import Corridor, chains
 from ...toolpath.linking.rest_runs import RestCells, RingChunks, RingRun, all_runs, runs
 from ...toolpath.machining_areas import MachiningArea
 from ...toolpath.operation_context import OperationContext, emit
@@ -27,6 +25,7 @@ from ...toolpath.rest_material import (
     CutGround,
     Floats,
     core_cells,
+    flat_radius,
     left_of,
     rim_cells,
     suspects,

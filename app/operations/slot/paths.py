@@ -20,13 +20,13 @@ from ...model.job import Job
 from ...model.operation import Direction
 from ...model.slot_operation import SlotOperation
 from ...model.tool import Tool
-from ...toolpath.coverage.flat import region_shapes
+from ...toolpath.coverage.areas import region_shapes
+from ...toolpath.drawn_contours import selected
 from ...toolpath.leads.lead import LeadContext, runs
 from ...toolpath.linking.link import LinkOptions
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ...toolpath.narrow_regions import too_small
 from ...toolpath.operation_context import OperationContext, emit, passes_of
-from ...toolpath.selected import selected
 from ..adaptive.paths import adaptive, room_needed
 from ..contour.stroke import StrokeExtras, strokes_of
 from ..engrave.open_line import line_paths

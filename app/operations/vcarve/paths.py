@@ -13,7 +13,7 @@ from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...geometry.buffer import buffered
 from ...geometry.distance import DistanceField
-from ...geometry.medial_axis.axis import medial_axes
+from ...geometry.medial_axis.axis import MedialAxis, medial_axes
 from ...geometry.offset.offset import Ring, offset_levels
 from ...geometry.primitives import CX, TURN, Primitives, R, Rows, sample, within_half_turn
 from ...model.finding import Finding, FindingKind
@@ -22,7 +22,7 @@ from ...model.moves import Purpose
 from ...model.operation import Operation
 from ...model.tool import Tool
 from ...toolpath.build import MovesBuilder, Stroke, StrokeLabel
-from ...toolpath.depth.depth import DepthLevels
+from ...toolpath.depth import DepthLevels
 from ...toolpath.operation_context import OperationContext, check_depth, levels_of
 from ..engrave.open_line import clear_parts, runs_of_parts
 from .branches import AxisBranch, Floats, branches
@@ -129,12 +129,7 @@ def carved(primitives: Primitives, cone: VCutter, heights: Sequence[float], prog
         GeometryError: the medial axis is not proven right.
         Cancelled: by progress.
     """
-    whole: list[AxisBranch] = []
-    lone: list[Floats] = []
-    for axis in medial_axes(primitives, progress.part(0.0, 0.6)):
-        graph = graph_of(branches(axis))
-        lone += prune(graph)
-        whole += [graph.branches[k] for k in sorted({k for own in graph.at for k in own})]
+    whole, lone = _followed(medial_axes(primitives, progress.part(0.0, 0.6)))
     lone += _round_ones(primitives)
     radii = [cone.radius(-z) for z in heights]
     rings = offset_levels(primitives, radii, progress.part(0.6, 1.0))
@@ -144,6 +139,27 @@ def carved(primitives: Primitives, cone: VCutter, heights: Sequence[float], prog
         points = [AxisBranch(disc[None]) for disc in lone if low - _SLACK <= disc[2] <= high]
         yield CarvedPass(z, (*trails(graph_of(parts)), *points), level.rings)
         low = high
+
+
+def _followed(axes: Sequence[MedialAxis]) -> tuple[list[AxisBranch], list[Floats]]:
+    """Return the branches of axes that are worth going, and the discs (3,) of nodes that nothing else leads to: once
+    for all regions that are alike, and moved to each.
+    """
+    whole: list[AxisBranch] = []
+    lone: list[Floats] = []
+    known: dict[int, tuple[list[AxisBranch], list[Floats]]] = {}
+    for axis in axes:
+        # the axes keep their pieces alive, so that no other ones get the same id
+        if id(axis.pieces) not in known:
+            graph = graph_of(branches(replace(axis, middle=np.zeros(2))))
+            single = prune(graph)
+            kept = sorted({k for own in graph.at for k in own})
+            known[id(axis.pieces)] = [graph.branches[k] for k in kept], single
+        ways, single = known[id(axis.pieces)]
+        there = np.append(axis.middle, 0.0)
+        whole += [AxisBranch(way.discs + there) for way in ways]
+        lone += [disc + there for disc in single]
+    return whole, lone
 
 
 def flat_tool_of(job: Job, operation: Operation) -> Tool | None:
@@ -157,7 +173,8 @@ def floor_corners(primitives: Primitives, cone: VCutter, depth: float, flat: flo
     it is narrow.
 
     Rings inside the one from which the cone touches the walls, so near to one another that no ridge between them is
-    higher than `RIDGE`, where they are farther from the flat tool's centre than it is wide; and the medial axis there.
+    higher than `RIDGE`, where they are farther from the flat tool's centre than it is wide, or nearer by half a step,
+    so that what stands beside the flat tool's edge has them as near as elsewhere; and the medial axis there.
 
     Args:
         depth: greatest, mm. flat: radius of the flat tool, mm.
@@ -172,14 +189,15 @@ def floor_corners(primitives: Primitives, cone: VCutter, depth: float, flat: flo
     made = offset_levels(primitives, levels, progress.part(0.0, 0.4), frame=False)
     reached = [ring.rows for ring in made[-1].rings]
     field = DistanceField.of(within_half_turn(np.concatenate(reached))) if reached else None
-    rings = tuple(piece for level in made[:-1] for ring in level.rings for piece in _beyond_flat(ring, field, flat))
+    edge = flat - step / 2
+    rings = tuple(piece for level in made[:-1] for ring in level.rings for piece in _beyond_flat(ring, field, edge))
     whole = [branch for axis in medial_axes(primitives, progress.part(0.4, 1.0)) for branch in branches(axis)]
     parts = [part for branch in whole for part in branch.between(wall - _SLACK, inner)]
     return CarvedPass(-depth, tuple(trails(graph_of(parts))), rings)
 
 
 def _beyond_flat(ring: Ring, field: DistanceField | None, flat: float) -> Iterator[Ring]:
-    """Yield what of a ring is farther than a flat tool's radius, mm, from all places of its centre."""
+    """Yield what of a ring is farther than so many mm from all places of a flat tool's centre."""
     if field is None:
         yield ring
         return

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import GeometryError, HitofudeError, InputError
 from ...core.progress import NO_PROGRESS, Progress
-from ...geometry.region import nest, polygon_contour
+from ...geometry.outlines import nest, polygon_contour
 from ...model.curves import Circle
 from ...model.part import Contour, Region
 from ...model.scene import KeptSide, Scene, SceneOutline, Surface

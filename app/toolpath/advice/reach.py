@@ -18,7 +18,7 @@ from shapely import Geometry as Shape
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ...geometry.primitives import Primitives, sample
-from ..coverage.flat import grown
+from ..coverage.areas import grown
 
 FITS = 2e-3
 """mm by which a gap may be narrower than a cutter that still counts as fitting."""

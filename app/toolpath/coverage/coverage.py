@@ -22,17 +22,14 @@ from shapely import Geometry as Shape
 
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
+from ...geometry.near_points import near
 from ...geometry.primitives import CX, TURN, R, Rows
-from ...geometry.tree_queries import near
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import MoveKind, Moves, Program
-from .areas import common, opened, united, without
-from .flat import flattened, grown, lines, move_rows
+from .areas import Fields, common, flattened, grown, lines, move_rows, opened, reached, united, without
 from .floor_target import CHORD, FloorTarget, floor_targets
-from .proven import uncertain
-from .reachable import Fields, reached
-from .settled import SingleFloor, one_floor, settled
+from .proven import SingleFloor, one_floor, settled, uncertain
 
 STRIP = 0.01
 """mm; what is narrower than this is no material but the chords' own error."""

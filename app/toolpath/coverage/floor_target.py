@@ -22,9 +22,7 @@ from ...model.job import Job
 from ...model.moves import Area, DogBone, Program, Tab
 from ...model.operation import Operation, Side
 from ...model.part import Contour
-from .areas import common, united, without
-from .flat import grown, region_shapes
-from .reachable import CutterInArea
+from .areas import CutterInArea, common, grown, region_shapes, united, without
 
 CHORD = 1e-3
 """mm; arcs are measured as chords that stay within this of them."""

@@ -10,8 +10,9 @@ of it is wanted (`swath_kernels`). At joints of a path, where no one stretch doe
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import shapely
@@ -22,7 +23,13 @@ from ...core.memory import portion
 from ...core.pool import in_bands
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
+from ...geometry.near_points import groups
 from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, R, Rows, sweeps, within_half_turn
+from ...model.job import Job
+from ...model.moves import Area, Program
+from ...model.operation import Side
+from .areas import CutterInArea, Shapes, each_with_each, gathered, grown, region_shapes, unions, united
+from .floor_target import CHORD, FITS, FloorTarget, areas_of_operations, cutters_of
 
 _FINEST = 8
 """The smallest squares' half side on a wall goes so many times into the smallest cutter's radius."""
@@ -52,6 +59,7 @@ _EDGES_AT_A_TIME, _EDGE_BYTES = 400_000, 160
 """Edges of an area that are looked at together, and what one takes with its tree."""
 
 Floats = NDArray[np.float64]
+
 States = NDArray[np.uint8]
 
 
@@ -315,3 +323,177 @@ def quarters(centres: Floats, half: float) -> Floats:
     corners = np.array([[-half, -half], [half, -half], [-half, half], [half, half]])
     parts: Floats = (centres[:, None] + corners).reshape(-1, 2)
     return parts
+
+
+# Floor that needs no polygons: what is proven cleared by cutters that keep off the walls is within reach, too.
+#
+# What a cutter covers whose centre stays its radius from the walls is within its reach by definition. So squares that
+# such moves alone cover have nothing left and nothing out of reach; polygons are made round the other squares only.
+
+
+_SAME_FLOOR = 1e-9
+"""mm between floors that are one."""
+
+_SPARE = 0.1
+"""mm of floor more than can have a say in what is reached."""
+
+
+@dataclass(frozen=True, eq=False)
+class SingleFloor:
+    """The one floor of a job.
+
+    Attributes:
+        open: what is wanted in the boxes; None where there are none.
+        all: what is wanted on all of the floor.
+        tiles: boxes that hold every point of the floor that is not proven covered.
+    """
+
+    open: FloorTarget | None
+    all: FloorTarget
+    tiles: NDArray[np.object_]
+
+
+def one_floor(program: Program, job: Job) -> Area | None:
+    """Return the area of a job that clears all of one area down to one floor and its walls, by flat tools; None for any
+    other job.
+    """
+    areas = areas_of_operations(program, job)
+    works = [
+        (each, area) for each, area in zip(job.operations, areas, strict=True) if each.cut.enabled and area.regions
+    ]
+    if not works or program.tabs or program.dog_bones or program.allowance_mm:
+        return None
+    operation, first = works[0]
+    for each, area in works:
+        cut, outside = each.cut, each.wall_side is not Side.INSIDE
+        elsewhere = (
+            area.regions is not first.regions
+            or area.lines
+            or area.bare
+            or abs(cut.floor - operation.cut.floor) >= _SAME_FLOOR
+        )
+        other = not job.tool(cut.tool).kind.square
+        if elsewhere or outside or other or cut.stock_to_leave:
+            return None
+    return first if any(each.COARSE for each, _ in works) else None
+
+
+def settled(program: Program, job: Job, paths: Sequence[tuple[Rows, float]], progress: Progress) -> SingleFloor | None:
+    """Return the floor of a job that has but one (`one_floor`), with what of it is in doubt told apart; None where all
+    is.
+
+    Args:
+        paths: (rows, radius, mm) of moves as deep as the floor that keep off the walls by at least their radius.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    area = one_floor(program, job)
+    shapes = region_shapes(area.regions, CHORD) if area else np.zeros(0, dtype=object)
+    if not len(shapes) or not any(len(rows) for rows, _ in paths):
+        return None
+    floor = gathered(shapes)
+    tiles = uncertain(floor, paths, progress)
+    depth, cutters = cutters_of(program, job)
+    known = FloorTarget(depth, floor, floor, floor, True, cutters, shapely.Polygon())
+    if not len(tiles):
+        return SingleFloor(None, known, tiles)
+    near, reach = _around(shapes, tiles, cutters)
+    some = FloorTarget(depth, near, reach, reach, True, cutters)
+    return SingleFloor(some, replace(known, out_of_reach=some.beyond), tiles)
+
+
+def _around(shapes: Shapes, tiles: Shapes, cutters: Sequence[CutterInArea]) -> tuple[Shape, Shape]:
+    """Return what of a floor lies in boxes, and what of that cutters reach: their openings of the floor.
+
+    Boxes that touch are asked together, and as much of the floor round them as can have a say in it. It is cut off
+    there as if by walls, which are too far away to keep a cutter from the boxes.
+
+    Args:
+        shapes: (n,) polygons of the floor's regions. tiles: (m,) boxes that do not overlap.
+    """
+    number = groups(len(tiles), np.column_stack(shapely.STRtree(tiles).query(tiles, predicate="intersects")))
+    order = np.argsort(number, kind="stable")
+    lumps = unions(np.split(tiles[order], np.flatnonzero(np.diff(number[order])) + 1))
+    far = max(each.wall for each in cutters) + max(each.radius for each in cutters) + _SPARE
+    x0, y0, x1, y1 = shapely.bounds(lumps).T
+    lump, pieces = cut_out(shapes, np.asarray(shapely.box(x0 - far, y0 - far, x1 + far, y1 + far), dtype=object))
+    floors = each_with_each(shapely.intersection, pieces, lumps[lump])
+    reached = [each_with_each(partial(_reached, each), pieces, floors) for each in cutters]
+    return gathered(floors), united([gathered(each) for each in reached])
+
+
+def _reached(cutter: CutterInArea, pieces: Shapes, floors: Shapes, grid_size: float | None = None) -> Shapes:
+    """Return what a cutter reaches of floors (n,) that stays in pieces (n,) of an area; on a grid where it is asked for
+    so.
+    """
+    opened = grown(grown(pieces, FITS - cutter.wall, CHORD), cutter.radius - FITS, CHORD)
+    return np.asarray(shapely.intersection(opened, floors, grid_size=grid_size), dtype=object)
+
+
+# What of polygons lies in each of many boxes: each box is brought to the library with the rings that come near it
+# alone.
+#
+# A plate with thousands of holes is one polygon. To intersect it with as many boxes, one after the other, takes as
+# long as both numbers multiplied.
+
+
+_FEW_POINTS = 1000
+"""Of a ring; one of more points is cut in halves before boxes are cut out of it, until few boxes are left."""
+
+_FEW_BOXES = 4
+
+
+def cut_out(shapes: Shapes, boxes: Shapes) -> tuple[Indices, Shapes]:
+    """Return (box (k,), what of one polygon lies in it (k,)), nothing of polygons that have no part in a box.
+
+    Args:
+        shapes: (n,) polygons. boxes: (m,) rectangles along the axes; they may overlap.
+    """
+    rings, owner = shapely.get_rings(shapes, return_index=True)
+    filled = np.asarray(shapely.polygons(rings), dtype=object)
+    hole = owner[1:] == owner[:-1]  # a polygon's outline comes first
+    hole = np.concatenate([[False], hole])
+    box, ring = shapely.STRtree(filled).query(boxes)
+    pieces = _pieces(filled, boxes, ring, box)
+    there = ~shapely.is_empty(pieces)
+    box, ring, pieces = box[there], ring[there], pieces[there]
+    key, inner = box * len(shapes) + owner[ring], hole[ring]
+    outer = np.flatnonzero(~inner)
+    of, which = np.unique(key[outer], return_inverse=True)  # one outline a box and a polygon
+    kept = outer[np.argsort(which, kind="stable")]
+    within = np.flatnonzero(inner)[np.isin(key[inner], of)]
+    holes = np.full(len(of), shapely.Polygon(), dtype=object)
+    at, first = np.unique(np.searchsorted(of, np.sort(key[within])), return_index=True)
+    order = within[np.argsort(key[within], kind="stable")]
+    holes[at] = unions([pieces[some] for some in np.split(order, first[1:])]) if len(at) else []
+    left = each_with_each(shapely.difference, pieces[kept], holes)
+    some = ~shapely.is_empty(left)
+    return box[kept][some], left[some]
+
+
+def _pieces(filled: Shapes, boxes: Shapes, ring: Indices, box: Indices) -> Shapes:
+    """Return what of rings (k,), filled, lies in a box (k,) of its own each."""
+    pieces = np.empty(len(ring), dtype=object)
+    long = shapely.get_num_coordinates(filled)[ring] > _FEW_POINTS
+    pieces[~long] = each_with_each(shapely.intersection, filled[ring[~long]], boxes[box[~long]])
+    requested = np.flatnonzero(long)
+    requested = requested[np.argsort(ring[requested], kind="stable")]
+    for some in np.split(requested, np.flatnonzero(np.diff(ring[requested])) + 1):
+        if len(some):
+            for part, number in _halved(filled[ring[some[0]]], boxes[box[some]], some):
+                pieces[number] = shapely.intersection(part, boxes[box[number]])
+    return pieces
+
+
+def _halved(shape: Shape, boxes: Shapes, numbers: Indices) -> Iterator[tuple[Shape, Indices]]:
+    """Yield (what of a shape is round some of the boxes, their numbers): few boxes, or few points."""
+    if len(numbers) <= _FEW_BOXES or shapely.get_num_coordinates(shape) <= _FEW_POINTS:
+        yield shape, numbers
+        return
+    bounds = shapely.bounds(boxes)
+    middle = bounds[:, :2] + bounds[:, 2:]
+    order = np.argsort(middle[:, int(np.ptp(middle[:, 1]) > np.ptp(middle[:, 0]))], kind="stable")
+    for half in (order[: len(order) // 2], order[len(order) // 2 :]):
+        round_it = shapely.box(*bounds[half, :2].min(axis=0), *bounds[half, 2:].max(axis=0))
+        yield from _halved(shapely.intersection(shape, round_it), boxes[half], numbers[half])

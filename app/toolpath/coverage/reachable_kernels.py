@@ -1,4 +1,4 @@
-"""Compiled: can a cutter's centre be near a place? See `app.toolpath.coverage.reachable`."""
+"""Compiled: can a cutter's centre be near a place? See `app.toolpath.coverage.areas`."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from ...geometry.primitives import points_at
 from ...model.job import Job
 from ...model.moves import MoveKind, Moves, Program
 from ...model.tool import LEAST_RATE
-from ..coverage.flat import move_rows
+from ..coverage.areas import move_rows
 from .engagement import EngagementSamples, sample_engagement, spans
 from .places import BLOCK, Floats, Indices
 

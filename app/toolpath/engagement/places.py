@@ -20,7 +20,7 @@ from ...geometry.primitives import CX, CY, TURN, Rows, lengths, points_at
 from ...model.moves import MoveKind, Moves
 from ...model.tool import Tool
 from ...model.tool_kind import ToolKind
-from ..coverage.flat import move_rows
+from ..coverage.areas import move_rows
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -14,9 +14,23 @@ from ...geometry import kernels
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring
 from ...geometry.outlines import Outlines
-from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, Rows, fraction_on, points_at
+from ...geometry.primitives import (
+    CX,
+    CY,
+    TURN,
+    X0,
+    X1,
+    Y0,
+    Y1,
+    Indices,
+    Rows,
+    fraction_on,
+    lengths,
+    point_on,
+    points_at,
+)
 from ...geometry.triangulation import neighbours
-from .rows import RingPlace
+from ..build import split_row
 
 _LONGEST = 64
 """Rows of a ring from whose middles a bridge to the level outside it is looked for, the longest ones."""
@@ -347,3 +361,158 @@ def is_clear(field: DistanceField, a: np.ndarray, b: np.ndarray, distance: float
     """
     way = np.array([*a, *b], np.float64)
     return bool(kernels.stays_clear(field.rows, field.order, field.nodes, way, distance, tolerances.LEVEL))
+
+
+# Pieces of closed paths: places on them, and the rows from one place to another.
+
+
+_SAME = 1e-9  # fraction of a row
+
+
+@dataclass(frozen=True)
+class RingPlace:
+    """A point of a ring: fraction in [0, 1] of one of its rows."""
+
+    ring: int
+    row: int
+    fraction: float
+
+
+def point_of(rows: Rows, place: RingPlace) -> Rows:
+    """Return the point (2,) at a place of a ring's rows."""
+    return np.array(point_on(rows[place.row].tolist(), place.fraction))
+
+
+def position(place: RingPlace, count: int, forward: bool) -> float:
+    """Return where a place is along a ring of `count` rows, in rows from its beginning."""
+    at = place.row + place.fraction
+    return at if forward else count - at
+
+
+def point_at(rows: Rows, at: float) -> Rows:
+    """Return the point (2,) at a position along a closed ring, in rows from its beginning or past it."""
+    row = math.floor(at)
+    return point_of(rows, RingPlace(0, row % len(rows), at - row))
+
+
+def along(rows: Rows, start: float, distance: float) -> float:
+    """Return the position so many mm on from another one along a closed ring, or back if less than 0; at most once
+    round.
+    """
+    ends = np.append(0.0, np.cumsum(lengths(rows)))
+    row = math.floor(start)
+    lap = row // len(rows)
+    k = row - lap * len(rows)
+    total = float(ends[-1])
+    where = float(ends[k] + (start - row) * (ends[k + 1] - ends[k])) + distance
+    turns = math.floor(where / total)
+    rest = where - turns * total
+    at = min(int(np.searchsorted(ends, rest, "right")) - 1, len(rows) - 1)
+    return (lap + turns) * len(rows) + at + (rest - float(ends[at])) / float(ends[at + 1] - ends[at])
+
+
+def span(rows: Rows, start: float, end: float) -> Rows:
+    """Return a closed ring's rows from one position to another, going on past its beginning."""
+    first, last = math.floor(start), math.ceil(end) - 1
+    if last < first:
+        return rows[:0]
+    if last == first:
+        return part_of(rows[first % len(rows)], start - first, end - first)
+    whole = rows[np.arange(first, last + 1) % len(rows)]
+    if start == first and end == last + 1:
+        return whole
+    head, tail = part_of(whole[0], start - first, 1.0), part_of(whole[-1], 0.0, end - last)
+    return np.concatenate([head, whole[1:-1], tail])
+
+
+def part_of(row: Rows, start: float, end: float) -> Rows:
+    """Return a row from one fraction to another as (1, 8), or nothing where they are the same."""
+    if end - start < _SAME:
+        return row[None][:0]
+    if end < 1:
+        row = split_row(row, end)[0]
+    if start > 0:
+        row = split_row(row, start / end)[1]
+    return row[None]
+
+
+def straight(a: Rows, b: Rows) -> Rows:
+    """Return the line from one point (2,) to another as (1, 8)."""
+    return np.array([[*a, *b, 0.0, 0.0, 0.0, 0.0]])
+
+
+def joined(rows: Rows) -> Rows:
+    """Make each row begin exactly where the one before ends (bridges meet rings within rounding)."""
+    rows = rows.copy()
+    rows[1:, :2] = rows[:-1, 2:4]
+    return rows
+
+
+# Which rings are joined by which bridges: a forest, grown by bridges that join what was apart (Kruskal).
+
+
+Edge = tuple[RingPlace, RingPlace, float]
+"""A bridge as seen from one of its rings: place on this ring, place on the other one, length, mm."""
+
+
+class BridgeForest:
+    """A forest over rings numbered from 0."""
+
+    def __init__(self, count: int) -> None:
+        self._parent = list(range(count))
+        self.neighbours: list[list[Edge]] = [[] for _ in range(count)]
+
+    def group(self, ring: int) -> int:
+        """Return the number of the group that a ring is in."""
+        while self._parent[ring] != ring:
+            self._parent[ring] = self._parent[self._parent[ring]]
+            ring = self._parent[ring]
+        return ring
+
+    def joined(self, bridge: RingBridge) -> bool:
+        """Tell whether both ends are in one group already."""
+        return self.group(bridge.a.ring) == self.group(bridge.b.ring)
+
+    def add(self, bridge: RingBridge) -> None:
+        """Take a bridge unless it would close a loop."""
+        if self.joined(bridge):
+            return
+        self._parent[self.group(bridge.a.ring)] = self.group(bridge.b.ring)
+        self.neighbours[bridge.a.ring].append((bridge.a, bridge.b, bridge.length))
+        self.neighbours[bridge.b.ring].append((bridge.b, bridge.a, bridge.length))
+
+    def roots(self, depth: Sequence[float]) -> list[int]:
+        """Return the innermost ring of each group.
+
+        Args:
+            depth: how far inside each ring is.
+        """
+        best: dict[int, int] = {}
+        for ring in range(len(depth)):
+            group = self.group(ring)
+            if group not in best or depth[ring] > depth[best[group]]:
+                best[group] = ring
+        return list(best.values())
+
+    def longest_way(self, root: int) -> list[tuple[int, Edge | None]]:
+        """Return the rings from a root to the one farthest from it over bridges, each with the bridge to the next; the
+        last with none.
+        """
+        before: dict[int, tuple[int, Edge] | None] = {root: None}
+        far = {root: 0.0}
+        waiting = [root]
+        while waiting:
+            ring = waiting.pop()
+            for edge in self.neighbours[ring]:
+                if edge[1].ring not in before:
+                    before[edge[1].ring] = ring, edge
+                    far[edge[1].ring] = far[ring] + edge[2]
+                    waiting.append(edge[1].ring)
+        way: list[tuple[int, Edge | None]] = []
+        at, step = max(far, key=lambda ring: far[ring]), None
+        while True:
+            way.append((at, step))
+            previous = before[at]
+            if previous is None:
+                return way[::-1]
+            at, step = previous

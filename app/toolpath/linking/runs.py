@@ -32,8 +32,7 @@ from ...geometry.outlines import Outlines
 from ...geometry.primitives import Indices, Rows, lengths, path_length, points_at, reversed_rows, samples
 from ..coverage import uncut_kernels
 from . import runs_kernels
-from .bridge import RingField, is_clear
-from .rows import RingPlace, part_of, straight
+from .bridge import RingField, RingPlace, is_clear, part_of, straight
 
 TOUCH = 1e-6
 """mm by which a point may be farther from a ring than the tool's radius and still counts as cut by it."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +23,8 @@ from ...core.errors import ParameterError
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.near_points import nearest
 from ...geometry.primitives import Indices, reversed_rows
+from ...model.curves import Point
 from ..build import Stroke
-
-Point = tuple[float, float]
 
 _FEW = 9
 """Strokes whose shortest order is found by trying all."""
@@ -118,13 +118,13 @@ class _Tour:
     @property
     def travel(self) -> float:
         """The whole of it, mm."""
-        from . import tour_kernels
+        from ..ordering import tour_kernels
 
         return float(tour_kernels.travel(self._ends, self.order))
 
     def begin_greedily(self, progress: Progress) -> None:
         """Always go on to the stroke that begins nearest of those that may be cut."""
-        from . import tour_kernels
+        from ..ordering import tour_kernels
 
         waiting = np.bincount(self._pairs[:, 1], minlength=self._count).astype(np.int64)
         waiting[0] = -1
@@ -138,7 +138,7 @@ class _Tour:
 
     def shorten_few(self) -> None:
         """Find the shortest order."""
-        from . import tour_kernels
+        from ..ordering import tour_kernels
 
         needed = np.zeros(self._count, np.int64)
         np.bitwise_or.at(needed, self._pairs[:, 1], 1 << (self._pairs[:, 0] - 1))
@@ -147,7 +147,7 @@ class _Tour:
 
     def shorten(self, progress: Progress) -> None:
         """Settle, and then kick."""
-        from . import tour_kernels
+        from ..ordering import tour_kernels
 
         place = np.empty(self._count, np.int64)
         place[self.order] = np.arange(self._count)
@@ -212,3 +212,44 @@ def _lists(pairs: NDArray[np.int64], count: int) -> tuple[Indices, Indices]:
     sorted_pairs = pairs[np.argsort(pairs[:, 0], kind="stable")]
     first = np.searchsorted(sorted_pairs[:, 0], np.arange(count + 1))
     return first.astype(np.int64), np.ascontiguousarray(sorted_pairs[:, 1])
+
+
+# In which order the strokes of an operation are cut.
+
+
+def in_order(strokes: Sequence[Stroke], start: Point, progress: Progress = NO_PROGRESS) -> list[list[Stroke]]:
+    """Return strokes in groups that stay together, those of lower rank first, otherwise with short travel between them.
+
+    Args:
+        start: where the tool is before, mm.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    groups: list[list[Stroke]] = []
+    for stroke in strokes:
+        if not len(stroke.rows):
+            continue
+        if stroke.follows and groups:
+            groups[-1].append(stroke)
+        else:
+            groups.append([stroke])
+    ordered: list[list[Stroke]] = []
+    for _, some in groupby(sorted(groups, key=_rank), _rank):
+        members = list(some)
+        whole = [_as_one(group) for group in members]
+        place = {id(one): group for one, group in zip(whole, members, strict=True)}
+        ordered.extend(
+            place[id(one)] for one in in_short_order(whole, ordered[-1][-1].end if ordered else start, progress)
+        )
+    return ordered
+
+
+def _rank(group: list[Stroke]) -> int:
+    return group[0].rank
+
+
+def _as_one(group: list[Stroke]) -> Stroke:
+    """Return a stroke that begins where a group does and ends where it does, for the sake of its ends."""
+    rows = np.array([[*group[0].start, *group[-1].end, 0.0, 0.0, 0.0, 0.0]])
+    return replace(group[0], rows=rows, purpose=group[0].purpose[:1], least_z=None)

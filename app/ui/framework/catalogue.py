@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
@@ -20,14 +20,13 @@ _REMEMBERED = 4096
 _MNEMONIC = re.compile(r"&(\w)")
 _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
 _BETWEEN_SENTENCES = re.compile(r"(?<=[.?!]) (?=[A-Z])")
-_LISTED = re.compile(r",? (or|and) |, ")
-_JOINTS = {"or": " または ", "and": " と ", None: "、"}
-"""What stands between the names of a list, by the word for it in English."""
-
+_IN_A_LIST = re.compile(r", | (?:or|and) ")
+_AS_TYPED = re.compile(r"""'[^']*'|"[^"]*"|[.#-]\S+|[A-Z]{1,2}\d*|[-+.\d]+""")
+"""Of a list: what is the same in every language: what is quoted, suffixes, options, words of programs, numbers."""
 _LETTER = re.compile(r"[A-Za-z]")
-_COLON, _BLANK = re.compile(": "), re.compile(r"\s")
-_TYPED = re.compile(r"(?:one of|expected|expected are) $")
-"""What stands before words to choose one of, which have to be typed as they are."""
+_COLON = re.compile(": ")
+_TYPED, _OFFERED = re.compile(r"(?:one of|expected|expected are) $"), re.compile(r"(?:choose|try|use|write) $")
+"""What stands before words to choose one of, which have to be typed as they are; the second, where it is a list."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,12 +46,14 @@ class Catalogue:
     An entry stands for the text in a menu (`&Open…`), in a tip (`Open (Ctrl+O)`) and on a button alike: the letter to
     press, dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything, side by side
     also for nothing, `{n}` for a number; what it stood for is looked up too. In the translation they may be numbered,
-    `{1} {0}`, to stand in another order, and it may be a list of names, each of them an entry. Of several sentences
+    `{1} {0}`, to stand in another order, and it may be a list of names, each of them an entry, whose commas, "or" and
+    "and" are the language's. Of several sentences
     each may be an entry, and a sentence may stand behind a place, as in `part.dxf:7: …`. Of several entries that would
     do, that with the most letters of its own is taken; last comes what has no word of its own, such as `{}: {}`.
     """
 
-    def __init__(self, entries: dict[str, str]) -> None:
+    def __init__(self, entries: dict[str, str], lists: Mapping[str, str] | None = None) -> None:
+        self._lists = lists or {}
         self._entries = {text: other for text, other in entries.items() if not _HOLE.search(text)}
         holed = {text: other for text, other in entries.items() if _HOLE.search(text)}
         most_said_first = sorted(holed, key=_letters, reverse=True)
@@ -124,20 +125,27 @@ class Catalogue:
         Args:
             before: the text as far as the hole.
         """
-        if _TYPED.search(before):
-            return part
+        names, joints = _IN_A_LIST.split(part), _IN_A_LIST.findall(part)
+        plain = not any(" " in name for name in names)
+        if _TYPED.search(before) or (_OFFERED.search(before) and joints and plain):
+            return self._joined(names, joints)
         if (whole := self.look_up(part)) is not None:
             return whole
-        pieces = _LISTED.split(part)
-        names, joints = pieces[::2], pieces[1::2]
-        told = [self.look_up(name) or self.look_up(name.capitalize()) for name in names]
-        words_alone = any(joints) and not any(map(_BLANK.search, names))  # a file's suffix, say, is no entry
-        if len(names) == 1 or (None in told and not words_alone):
+        if not joints or before.endswith(("'", '"')):  # a name that somebody gave
             return part
-        listed = (
-            f"{_JOINTS[joint]}{other or name}" for joint, other, name in zip([None, *joints], told, names, strict=True)
-        )
-        return "".join(listed).removeprefix(_JOINTS[None])
+        known = [self.look_up(name) or self.look_up(name.capitalize()) for name in names]
+        told = [other or (name if _AS_TYPED.fullmatch(name) else "") for name, other in zip(names, known, strict=True)]
+        only_typed = not any(known) and not {*joints} - {", "}
+        return part if only_typed or not all(told) else self._joined(told, joints)
+
+    def _joined(self, names: Sequence[str], joints: Sequence[str]) -> str:
+        """Return a list with this language's joints; words of English stand apart from these."""
+        text = names[0]
+        for joint, name in zip(joints, names[1:], strict=True):
+            word, comma = self._lists.get(joint.strip(), joint.strip()), joint == ", "
+            english = text[-1:].isascii() and name[:1].isascii()
+            text += (joint if comma else f" {word} ") + name if english else word + name
+        return text
 
     def _sentences(self, words: str) -> str | None:
         """Return several lines, or sentences one behind the other, if each of them is known."""
@@ -174,9 +182,12 @@ def catalogue(code: str) -> Catalogue:
     if code == "en":
         return Catalogue({})
     entries: dict[str, str] = {}
+    lists: dict[str, str] = {}
     for path in catalogue_files(code):
-        entries |= tomllib.loads(path.read_text("utf-8"))["words"]
-    return Catalogue(entries)
+        tables = tomllib.loads(path.read_text("utf-8"))
+        entries |= tables["words"]
+        lists |= tables.get("lists", {})
+    return Catalogue(entries, lists)
 
 
 def catalogue_files(code: str) -> tuple[Path, ...]:

@@ -38,6 +38,14 @@ def hairline() -> QFrame:
     return made
 
 
+def upright_hairline() -> QFrame:
+    """Return a separator, 1 px wide."""
+    made = QFrame()
+    made.setObjectName("hairline")
+    made.setFixedWidth(1)
+    return made
+
+
 def theme_children(parent: QWidget, theme: Theme) -> None:
     """Give a theme to every part of a widget that takes one."""
     for child in parent.findChildren(QWidget):

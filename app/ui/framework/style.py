@@ -26,10 +26,11 @@ QWidget#topBar, QWidget#statusBar, QWidget#toolStrip, QWidget#sidePanel, QWidget
 QWidget#topBar { border-bottom: 1px solid $hairline; }
 QFrame#variants { background: $raised; border: 1px solid $edge; border-radius: 4px; }
 QWidget#toolStrip { border-right: 1px solid $hairline; }
-QWidget#sideTabs { background: $paper; border-left: 1px solid $hairline; }
+QWidget#sideTabs { background: $paper; }
 QWidget#logArea, QWidget#commandRow, QWidget#statusBar { border-top: 1px solid $hairline; }
 QFrame#startCard { background: $raised; border: 1px solid $hairline; border-radius: 6px; }
 QFrame#hairline { background: $hairline; border: 0; }
+QWidget#cutView { background: $canvas; }
 QWidget#ncBar { background: $paper; border-bottom: 1px solid $hairline; }
 QWidget#ncPlaces { background: $paper; border-top: 1px solid $hairline; }
 QAbstractScrollArea::corner { background: transparent; border: 0; }

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
-from PySide6.QtGui import QColor, QFont, QFontDatabase
+from PySide6.QtGui import QColor, QFont, QFontDatabase, QFontInfo
 
 TEXT_PX = 13
 HEADING_PX = 15
+
+_WIDE_FALLBACK = "DejaVu Sans"
+_QUIETER = ("Inter", "Noto Sans", "Liberation Sans")
+"""Before the fallback, where they are installed: narrower, so that panels and tables have fewer words cut off."""
 
 
 @dataclass(frozen=True)
@@ -22,6 +26,7 @@ class Theme:
         ink, muted: text; both reach a contrast of 4.5 on paper, canvas and raised.
         hairline, grid, grid_major: separators and raster.
         accent: the bitmap's phosphor green; accent_ink: text on it; accent_text: green that can be read on paper.
+        selection: the accent as a line: selected, or being drawn; a contrast of 3 on the canvas.
         pocket … unreachable: tool paths and findings; region_fill: the area to machine.
         error, warning, ok: verdicts, readable as text on paper. parameter: parameters and O words of NC text, splines.
         regions: cycle of eight for colouring by region; none is taken for plunge, contour, gouge or left material.
@@ -101,7 +106,7 @@ LIGHT = Theme(
     accent=QColor("#2BD47D"),
     accent_ink=QColor("#08301B"),
     accent_text=QColor("#0B7A43"),
-    selection=QColor("#2BD47D"),
+    selection=QColor("#10A45E"),
     pocket=QColor("#009E73"),
     contour=QColor("#E69F00"),
     rest=QColor("#CC79A7"),
@@ -160,11 +165,23 @@ def mixed(a: QColor, b: QColor, part: float) -> QColor:
 def text_font(pixels: int = TEXT_PX, semibold: bool = False) -> QFont:
     """Return the system's font with tabular figures, so that numbers line up.
 
+    A system that has chosen none answers with its fallback, which is wide and loud; a quieter one stands in its place.
+
     Args:
         pixels: height, 13 for text and 15 for headings.
         semibold: True for headings.
     """
-    return _sized(QFontDatabase.systemFont(QFontDatabase.SystemFont.GeneralFont), pixels, semibold)
+    return _sized(QFont(_system_font()), pixels, semibold)
+
+
+@cache
+def _system_font() -> QFont:
+    """Return the font of the desktop, or what stands in for it where the desktop has none."""
+    font = QFontDatabase.systemFont(QFontDatabase.SystemFont.GeneralFont)
+    found = QFontInfo(font).family()
+    if found == _WIDE_FALLBACK:
+        font.setFamilies([*_QUIETER, found])
+    return font
 
 
 def mono_font(pixels: int = TEXT_PX) -> QFont:

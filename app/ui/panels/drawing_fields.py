@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QWidget
 
 from ...model.curves import Point
 from ..framework.fields import LABEL_WIDTH, NumberField, NumberSpec, reason_label
@@ -60,16 +60,17 @@ class PointField(QWidget):
 class Figure(QWidget):
     """A measure that is only read, and can be copied."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, wraps: bool = False) -> None:
         super().__init__()
-        self.value = Elided()
+        self.value = QLabel() if wraps else Elided()
+        self.value.setWordWrap(wraps)
         self.value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 3, 0, 3)
         row.setSpacing(8)
         label = muted(name)
         label.setFixedWidth(LABEL_WIDTH)
-        row.addWidget(label)
+        row.addWidget(label, 0, Qt.AlignmentFlag.AlignTop)
         row.addWidget(self.value, 1)
         self.setAccessibleName(name)
 

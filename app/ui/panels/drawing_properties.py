@@ -23,6 +23,7 @@ from ...geometry.sample import Box
 from ...model.curves import Arc, Circle, Curve, Ellipse, Spline
 from ...model.notes import Dimension, Shape
 from ...model.part import Units
+from ..framework.catalogue import tr
 from ..framework.display_unit import clean, display_unit_name, display_unit_size
 from ..framework.fields import ListField, NumberField, NumberSpec
 from ..framework.figures import TIMES, counted, grouped
@@ -34,7 +35,7 @@ from .totals import TotalsCalculator
 VARIOUS = "various"
 """What a field shows while what is selected differs in it."""
 
-TOTAL, EXTENT = "Total length", "Extent"
+TOTAL, EXTENT, KINDS = "Total length", "Extent", "Kinds"
 _NOT_SHOWN = ("middle",)
 _FIRST_KINDS = 3
 _FARTHEST = 1e7
@@ -104,6 +105,7 @@ class PropertiesSection(PanelSection):
         self.head.addWidget(self.remark)
         self.head.addSpacing(4)
         self.layer = ListField("Layer", [])
+        self.layer.box.setPlaceholderText(tr(VARIOUS))
         self.layer.chosen.connect(self._ask_layer)
         self.fields: dict[str, NumberField | PointField] = {}
         self.figures: dict[str, Figure] = {}
@@ -158,7 +160,7 @@ class PropertiesSection(PanelSection):
             old.hide()
             old.deleteLater()
         self.fields = {word: self._field(word, each) for word, each in properties.items()}
-        self.figures = {name: Figure(name) for name in figures}
+        self.figures = {name: Figure(name, wraps=name == KINDS) for name in figures}
         for new in (*self.fields.values(), *self.figures.values()):
             self._column.addWidget(new)
 
@@ -233,7 +235,7 @@ def _figures(selected: SelectedEntities) -> dict[str, str]:
     )
     if len(selected.ids) == 1:
         return (_of_curve(curves[0]) if curves else _of_note(selected.shapes[0])) | closed
-    return {"Kinds": _kinds(selected)} | ({TOTAL: "", EXTENT: ""} if curves else {}) | closed
+    return {KINDS: _kinds(selected)} | ({TOTAL: "", EXTENT: ""} if curves else {}) | closed
 
 
 def _of_curve(curve: Curve) -> dict[str, str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, replace
 
-from ...gcode.posts.posts import post_titles
+from ...gcode.posts import post_titles
 from ...model.job import LARGEST_JOIN, Copies, Job, OriginXY, OriginZ
 from ...model.operation import Order
 from ...model.part import Units

@@ -31,7 +31,7 @@ class SideTabs(QWidget):
         self._row.setSpacing(4)
         self._row.addStretch(1)
         column = QVBoxLayout(self)
-        column.setContentsMargins(1, 0, 0, 0)
+        column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addLayout(self._row)
         column.addWidget(hairline())

@@ -223,6 +223,7 @@ class DisplayController(QObject):
         for widget in window.sides:
             if widget is not beside:
                 widget.hide()
+        window.side_line.setVisible(beside is not None)
         if beside is not None:
             beside.show()
         self.show_log()

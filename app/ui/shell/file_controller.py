@@ -14,7 +14,7 @@ from ...drafting.document import DocumentChange
 from ...formats.project.project import Project, SavedView
 from ...formats.readers import offered_suffixes
 from ...formats.tools.at_path import holds_tools, tool_suffixes
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import load_post
 from ...model.job import Job
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions

@@ -22,6 +22,7 @@ from ..framework.computation import Computation
 from ..framework.log import Log
 from ..framework.notice import Notice
 from ..framework.preferences import Preferences
+from ..framework.section import upright_hairline
 from ..framework.theme import DARK, LIGHT, Theme
 from ..framework.view import View, ViewPage
 from ..framework.worker import Worker
@@ -117,6 +118,7 @@ class MainWindow(QMainWindow):
             self.plot_panel,
             self.views.nc.beside,
         ]
+        self.side_line = upright_hairline()
         self.notice, self.card, self.command_line, self.status = (
             Notice(),
             QuestionCard(self.canvas),
@@ -153,6 +155,7 @@ class MainWindow(QMainWindow):
         middle.setSpacing(0)
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
+        middle.addWidget(self.side_line)
         middle.addWidget(self.side)
         for widget in self.sides[1:]:
             self._middle.addWidget(widget)

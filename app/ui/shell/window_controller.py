@@ -7,6 +7,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt
 
+from ...core.resources import resource
 from ...core.settings import ThemeChoice
 from ...drafting.document import DocumentChange
 from ...model.operation_kinds import OPERATION_KINDS
@@ -56,6 +57,7 @@ from .drawing.template_controller import TemplateController
 from .drawing.unseen_controller import UnseenController
 from .file_controller import FileController, Openers
 from .files.drawing_export_controller import DrawingExportController
+from .files.open_controller import SAMPLE_PROGRAMS
 from .files.own_film_files import OwnFilmFiles
 from .files.sheet_export_controller import SheetExportController
 from .files.tool_exchange import ToolExchange
@@ -287,6 +289,8 @@ class WindowController(QObject):
         self._on("new", files.ask_new)
         self._on("open", files.choose_file)
         self._on("sample", files.open_sample)
+        for name in SAMPLE_PROGRAMS:
+            self._on(f"program_{name}", partial(files.open_file, resource("samples", f"{name}.ngc")))
         on_trigger(
             self.window_.actions_,
             "save",

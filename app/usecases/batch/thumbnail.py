@@ -14,7 +14,7 @@ from ...geometry.primitives import Rows, boxes, contour_rows, samples
 from ...model.motion import MotionKind, Motions
 from ...model.motion_path import motion_rows, spline_points
 from ...model.moves import MoveKind, Program
-from ...toolpath.coverage.flat import move_rows
+from ...toolpath.coverage.areas import move_rows
 
 WIDTH, HEIGHT = 160, 110
 """Pixels of a whole picture."""

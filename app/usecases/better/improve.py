@@ -21,8 +21,7 @@ from ...formats.scene.toml import sources_of
 from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.dialect_guess import guess_dialect
 from ...gcode.interpreter.program import NcProgram
-from ...gcode.posts.post import Post
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import Post, load_post
 from ...model.motion import MotionKind
 from ...model.motion_path import lengths
 from ...model.scene import Scene
@@ -277,8 +276,8 @@ def _lifted(context: _BetterContext, smoothed: SmoothedPieces, progress: Progres
         "chords",
         context.shares.chords,
         lifted.chord_mm,
-        Evidence.MEASURED,
-        "middles of chords of the lifted passes beside the surfaces",
+        Evidence.PROVEN,
+        "each chord of lifted passes beside its surface, by the greatest second derivative between both ends",
     )
     figures = replace(
         smoothed.figures, boundaries=len(lifted.boundaries), apart_mm=float(lifted.apart.max(initial=0.0))

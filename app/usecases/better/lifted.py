@@ -13,9 +13,8 @@ from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.options import PATIENT, ReadOptions
 from ...gcode.interpreter.reader import read_program
 from ...gcode.interpreter.text import ProgramBuffer
-from ...gcode.posts.posts import load_post
-from ...gcode.rework.rewrite import rewrite
-from ...gcode.rework.stretches import find_stretches
+from ...gcode.posts import load_post
+from ...gcode.rework.stretches import find_stretches, rewrite
 from ...gcode.writer.curve_blocks import BlockFormat, curve_blocks
 from ...model.motion import Floats
 from ..smoothing.source import usual_post
@@ -29,7 +28,7 @@ class LiftedText:
     Attributes:
         data: its bytes. boundaries: (b, 3) places where passes go from one surface to the next, mm. apart: (b,) by how
             much the two differ in height there, mm.
-        chord_mm: how far chords of the lifted passes are from the surfaces at most.
+        chord_mm: how far chords of the lifted passes are from the surfaces at most, proven.
     """
 
     data: bytes

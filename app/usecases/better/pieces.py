@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import InputError
 from ...core.progress import Progress
+from ...fitting.point_surfaces.chord_bounds import chord_bounds
 from ...fitting.point_surfaces.facet_corners import FacetCorners
 from ...fitting.point_surfaces.height_spline import FittedHeights, HoldingPoints, fit_heights
 from ...fitting.point_surfaces.surface_pieces import NO_PIECE, surface_pieces
@@ -39,8 +40,6 @@ _SAME = 1e-9
 """mm; a place of the program is the one that was looked at."""
 _SHARE = 4 * np.finfo(float).eps
 """Of a chord: so near a crossing is found."""
-_LOOKS = 9
-"""Places along a chord that say how much the surface below it is bent."""
 _MOST_PARTS = 64
 
 
@@ -166,6 +165,8 @@ def _with_loose_places(rows: tuple[Floats, ...], piece: Ints, fitted: list[Fitte
         trial = np.full(len(piece), NO_PIECE)
         trial[there] = piece[other[there]]
         away = np.abs(_square_off(points, trial, fitted))
+        for k, each in enumerate(fitted):
+            away[(trial == k) & ~each.spline.holds(points[:, :2])] = np.inf
         better = (trial != NO_PIECE) & (away <= nearest)
         made[better], nearest[better] = trial[better], away[better]
     return made
@@ -216,7 +217,7 @@ class LiftedPolyline:
         points: (m, 3) mm, its ends where they were.
         boundaries: (b, 3) places where the passes go from one surface to the next. apart: (b,) by how much the two
             surfaces differ in height there, mm.
-        chord_mm: how far chords are from the surfaces at most, where that was looked at.
+        chord_mm: how far chords are from the surfaces at most, proven.
         lifted_mm: by how much a place was lifted or lowered at most, mm.
     """
 
@@ -255,7 +256,11 @@ class PassLifter:
         self._tree = KDTree(np.concatenate(smoothed.rows))
 
     def lifted(self, points: Floats) -> LiftedPolyline:
-        """Return a polyline (n, 3) of the program, lifted; its two ends stay, and it leaves them smoothly."""
+        """Return a polyline (n, 3) of the program, lifted; its two ends stay, and it leaves them smoothly.
+
+        Beside its ends a place lies between the old pass and the surface, and so do chords but for what they may be
+        from the surface: between two places the old pass is straight.
+        """
         places = filled_places(points, self._pitch)
         away, at = self._tree.query(places)
         piece = np.where(away <= _SAME, self._smoothed.piece[at], NO_PIECE)
@@ -267,13 +272,12 @@ class PassLifter:
         share = np.clip(near, 0.0, 1.0) ** 2 * (3 - 2 * np.clip(near, 0.0, 1.0))
         new = own.copy()
         new[known, 2] += (share * (heights - own[:, 2]))[known]
-        chord = self._chord_error(own, labels)
         once = np.append(True, np.any(np.abs(np.diff(own, axis=0)) > _SAME, axis=1))
         return LiftedPolyline(
             new[once],
             crossed.boundaries,
             crossed.apart,
-            chord,
+            float(self._chord_bounds(own, labels).max(initial=0.0)),
             float(np.abs(new[:, 2] - own[:, 2]).max(initial=0.0)),
         )
 
@@ -304,7 +308,9 @@ class PassLifter:
         return _CrossedPieces(np.insert(places, twice, own, axis=0), np.insert(piece, twice, both), boundaries, apart)
 
     def _crossing(self, a: Floats, b: Floats, pieces: tuple[int, int]) -> _Crossing | None:
-        """Return where between two places both surfaces are as high; None where they are nowhere as high."""
+        """Return where between two places both surfaces are as high; None where they are nowhere as high, or not both
+        surfaces are there.
+        """
         from scipy.optimize import brentq
 
         one, other = (self._smoothed.fitted[k].spline for k in pieces)
@@ -317,22 +323,15 @@ class PassLifter:
             return None
         share = float(brentq(apart, 0.0, 1.0, xtol=_SHARE, rtol=_SHARE))
         place = a + share * (b - a)
+        if not (one.holds(place[None])[0] and other.holds(place[None])[0]):
+            return None
         return _Crossing(place, float(one.heights(place[None, :2])[0]), abs(apart(share)))
 
     def _refined(self, places: Floats, piece: Ints) -> tuple[Floats, Ints]:
         """Return places and pieces with so many between that chords keep to the surfaces."""
         inside = self._between(piece)
-        parts = np.ones(len(places) - 1, np.int64)
-        shares = np.linspace(0, 1, _LOOKS)
-        for k, each in enumerate(self._smoothed.fitted):
-            on = np.flatnonzero(inside == k)
-            if not len(on):
-                continue
-            ways = places[on + 1] - places[on]
-            looked = places[on][:, None] + shares[:, None] * ways[:, None]
-            heights = each.spline.heights(looked.reshape(-1, 3)[:, :2]).reshape(len(on), _LOOKS)
-            bent = np.abs(np.diff(heights, 2, axis=1)).max(axis=1) * (_LOOKS - 1) ** 2
-            parts[on] = np.clip(np.ceil(np.sqrt(bent / (8 * self._chord))), 1, _MOST_PARTS).astype(np.int64)
+        far = self._chord_bounds(places, piece)
+        parts = np.clip(np.ceil(np.sqrt(far / self._chord)), 1, _MOST_PARTS).astype(np.int64)
         chord = np.repeat(np.arange(len(parts)), parts)
         share = (np.arange(len(chord)) - np.repeat(np.cumsum(parts) - parts, parts)) / parts[chord]
         between = places[chord] + share[:, None] * (places[chord + 1] - places[chord])
@@ -343,13 +342,12 @@ class PassLifter:
         """Return of each chord (n - 1,) the surface that it is over, NO_PIECE: of none, or of two."""
         return np.where(piece[1:] == piece[:-1], piece[1:], NO_PIECE)
 
-    def _chord_error(self, places: Floats, piece: Ints) -> float:
-        """Return how far chords of the lifted places are from the surfaces in their middles at most, along Z, mm."""
-        inside, worst = self._between(piece), 0.0
+    def _chord_bounds(self, places: Floats, piece: Ints) -> Floats:
+        """Return of each chord of lifted places (n - 1,) how far it may be from the surface that it is over, along Z,
+        mm; 0 of those over none, which are moved as their ends are.
+        """
+        inside, bounds = self._between(piece), np.zeros(len(places) - 1)
         for k, each in enumerate(self._smoothed.fitted):
             on = np.flatnonzero(inside == k)
-            if len(on):
-                ends = [each.spline.heights(places[on + step, :2]) for step in (0, 1)]
-                middles = each.spline.heights((places[on, :2] + places[on + 1, :2]) / 2)
-                worst = max(worst, float(np.abs(middles - (ends[0] + ends[1]) / 2).max()))
-        return worst
+            bounds[on] = chord_bounds(each.spline, places[on, :2], places[on + 1, :2])
+        return bounds

@@ -14,11 +14,10 @@ from ...simulation.field.workpiece import Heights, Workpiece
 from ...simulation.sweeps.course import TrimOptions
 from ...simulation.sweeps.trim import CutResult, trim
 from ...verify.accidents import ProgramStage, accidents
-from ...verify.certify import HeightBounds, bounded, certify
+from ...verify.course import FineStock
 from ...verify.exact import ExactDeviations, exact_of
-from ...verify.fine_stock import FineStock
 from ...verify.holder_contacts import HolderReport
-from ...verify.judge import JudgementInput, judge, part_target
+from ...verify.judge import HeightBounds, JudgementInput, bounded, certify, judge, part_target
 from ...verify.judgement import Judgement
 from ...verify.parts import FlatPart, SolidPart
 from ...verify.wall_probe import WallProbe

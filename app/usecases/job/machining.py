@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from ...core.errors import ParameterError
+from ...core.toml_tables import known_words
+from ...core.wording import either
 from ...model.fields import ParameterPlace, parameters_of, with_values
 from ...model.job import Copies, Job
 from ...model.operation import CutParameters, DrillOperation, Operation, Order
@@ -99,13 +101,17 @@ def with_machining(job: Job, machining: MachiningOptions) -> Job:
     Raises:
         ParameterError: something is out of its range, does not go with something else, or has no effect on this job.
     """
-    known = {key: parameters()[key] for key in machining.values}
+    if strange := [key for key in machining.values if key not in parameters()]:
+        raise ParameterError(
+            f"No operation has a parameter '{strange[0]}'; use {known_words(strange[0], [*parameters()])}."
+        )
+    concerned = {key: parameters()[key] for key in machining.values}
     operations = job.operations
     for later in (False, True):  # what depends on something else comes behind it
-        names = [key for key, (placed, _) in known.items() if (placed.parameter.needs is not None) is later]
+        names = [key for key, (placed, _) in concerned.items() if (placed.parameter.needs is not None) is later]
         operations = tuple(_with_values(each, {key: machining.values[key] for key in names}) for each in operations)
         for key in names:
-            placed, kinds = known[key]
+            placed, kinds = concerned[key]
             if not any(_concerned(each, placed, kinds) for each in operations):
                 raise no_effect(option_of(key), f"the job has {_lacking(placed, kinds)}")
     keep_out = machining.keep_out or job.keep_out_layers
@@ -142,7 +148,7 @@ def _lacking(placed: ParameterPlace, kinds: tuple[type[Operation], ...]) -> str:
     """Return what a job lacks that a parameter has no effect on."""
     needs = placed.parameter.needs
     mills = {kind for kind in OPERATION_KINDS.values() if kind.LEVELS and not kind.HOLES}
-    what = "operation that mills" if mills <= set(kinds) else f"{' or '.join(kind.WORD for kind in kinds)} operation"
+    what = "operation that mills" if mills <= set(kinds) else f"{either(kind.WORD for kind in kinds)} operation"
     added = "; --drill D adds one" if DrillOperation in kinds and all(kind.HOLES for kind in kinds) else ""
     with_ = f" with {needs.with_}{'; ' * bool(needs.option)}{needs.option}" if needs else ""
     return f"no {what}{with_}{added}"

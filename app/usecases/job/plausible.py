@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import PurePath
 
 from ...core.errors import InputError
+from ...core.wording import either
 from ...formats.drawing import Drawing
 from ...formats.drawing_account import size_of
 from ...formats.readers import format_of, read_drawing
@@ -164,7 +165,7 @@ def _doubt(found: Size, diameters: tuple[float, ...]) -> str:
 def _options(drawing: Drawing) -> str:
     """Return what to say on the command line."""
     word = _UNITS[drawing.part.units]
-    others = " or ".join(f"--units {each}" for each in ("mm", "in", "m") if each != word)
+    others = either(f"--units {each}" for each in ("mm", "in", "m") if each != word)
     per_inch = drawing.contents.per_inch
     if per_inch is not None:
         return (

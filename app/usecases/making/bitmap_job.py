@@ -9,7 +9,7 @@ from pathlib import PurePath
 import numpy as np
 
 from ...core.errors import GeometryError, InputError, ParameterError
-from ...geometry.region import nest
+from ...geometry.outlines import nest
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.part import Entity, Part, Region

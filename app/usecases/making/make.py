@@ -19,8 +19,7 @@ from ...core.memory import give_back
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.tolerances import LEVEL
 from ...formats.drawing import Drawing
-from ...gcode.posts.post import Post
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import Post, load_post
 from ...gcode.timing.extent import Extent
 from ...gcode.writer.write import NcFile, NcText
 from ...model.finding import Finding, FindingKind, worst_first
@@ -369,6 +368,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
 def _measured(program: Program, job: Job, progress: Progress) -> MeasuredMoves:
     """Return what closed forms say of computed moves; nothing of it needs their text."""
     progress.step(0.0, "Checking clearance")
+    give_back()
     depths = gouge_depths(program, job, progress=progress.part(0.0, 0.2))
     clear = clear_moves(program.moves, depths, CHORD)
     measured = MeasuredMoves(depths, measure_beside_clear(program, job, clear, progress.part(0.2, 1.0)))

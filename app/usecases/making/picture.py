@@ -7,8 +7,8 @@ import numpy as np
 from ...formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, PathPicture, Points, StyledPath
 from ...geometry.primitives import contour_rows
 from ...model.moves import MoveKind, Moves, Program, Purpose
+from ...toolpath.coverage.areas import move_rows
 from ...toolpath.coverage.coverage import Coverage
-from ...toolpath.coverage.flat import move_rows
 
 _STYLES = {
     Purpose.RAPID: RAPID,

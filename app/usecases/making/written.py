@@ -15,7 +15,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...formats.machine_toml import DEFAULT_MACHINE, load_machine
 from ...gcode.checks.check import Check, CheckReference, check
 from ...gcode.interpreter.program import NcProgram
-from ...gcode.posts.post import Post
+from ...gcode.posts import Post
 from ...gcode.timing.duration import Duration, duration
 from ...gcode.timing.extent import NOWHERE, Extent, extent, misfits
 from ...gcode.writer.write import NcFile, write_files

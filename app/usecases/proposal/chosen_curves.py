@@ -90,7 +90,7 @@ def with_chosen(
     work = ProposalWork(seen, SortedContours(), rack, thickness, min(CutParameters(1).depth, thickness))
     made = [
         replace(each, operation=_of(each.operation, some, requested))
-        for some in _groups(contours, way)
+        for some in _groups(work, contours, way)
         for each in _made(work, some, way, progress.part(0.1, 1.0))
     ]
     place = _place(job, way)
@@ -171,8 +171,17 @@ def _tools(job: Job) -> tuple[Tool, ...]:
     return tuple(found)
 
 
-def _groups(contours: Sequence[Contour], way: CurvePurpose) -> list[Sequence[Contour]]:
-    return [some for _, some in by_diameter(contours)] if way in _OF_CIRCLES else [contours]
+def _groups(work: ProposalWork, contours: Sequence[Contour], way: CurvePurpose) -> list[Sequence[Contour]]:
+    """Return what goes into an operation each: circles of one diameter, of all diameters that one mill bores."""
+    if way not in _OF_CIRCLES:
+        return [contours]
+    sizes = by_diameter(contours)
+    if way is not CurvePurpose.BORE:
+        return [some for _, some in sizes]
+    by_tool: dict[int, list[Contour]] = {}
+    for size, some in sizes:
+        by_tool.setdefault(work.rack.take(work.rack.boring(size, work.thickness)).number, []).extend(some)
+    return list(by_tool.values())
 
 
 def _made(
@@ -215,17 +224,18 @@ def _made(
 
 
 def _bored(work: ProposalWork, contours: Sequence[Contour]) -> ProposedOperation:
-    """Return a bore through the stock, of holes of one size."""
-    ((size, circles), *_) = by_diameter(contours)
-    tool = work.rack.boring(size, work.thickness)
+    """Return a bore through the stock, of holes that one mill bores."""
+    sizes = [size for size, _ in by_diameter(contours)]
+    tool = work.rack.boring(sizes[0], work.thickness)
     operation = BoreOperation(work.cut(tool, work.thickness, ()))
-    if not operation.takes(size, tool):
+    if not operation.takes(sizes[0], tool):
         raise GeometryError(
-            f"There is no mill for a bore of {size:g} mm in the library: the thinnest is {tool.diameter:g} mm; choose "
-            "drill, or add a mill."
+            f"There is no mill for a bore of {sizes[0]:g} mm in the library: the thinnest is {tool.diameter:g} mm; "
+            "choose drill, or add a mill."
         )
-    many = f"{len(circles)} holes" if len(circles) > 1 else "hole"
-    return ProposedOperation(operation, f"{many} of {size:g} mm bored on a helix, through, with {tool.diameter:g} mm")
+    many = f"{len(contours)} holes" if len(contours) > 1 else "hole"
+    wide = f"{sizes[0]:g}" if len(sizes) == 1 else f"{sizes[0]:g} to {sizes[-1]:g}"
+    return ProposedOperation(operation, f"{many} of {wide} mm bored on a helix, through, with {tool.diameter:g} mm")
 
 
 def _edged(work: ProposalWork, contours: Sequence[Contour], way: CurvePurpose) -> ProposedOperation:

@@ -16,14 +16,13 @@ from enum import Enum
 import numpy as np
 
 from ...geometry.as_circle import as_circle
+from ...geometry.outlines import holders
 from ...geometry.primitives import CX, CY, TURN, R, contour_rows, lengths, signed_area, sweeps
-from ...geometry.region import holders
 from ...model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer, Selector
 from ...model.curves import Line
 from ...model.finding import Finding, FindingKind
 from ...model.part import Contour, Part
-from ...toolpath.drawn_contours import DrawnContours
-from ...toolpath.selected import SAME_DIAMETER, selected
+from ...toolpath.drawn_contours import SAME_DIAMETER, DrawnContours, selected
 
 _GAP = 0.05
 """Of a line's length; an open line whose ends are nearer to one another is taken for an outline with a gap in it."""

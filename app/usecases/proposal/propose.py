@@ -15,10 +15,11 @@ from typing import Any
 from ...core.errors import GeometryError
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.resources import resource
+from ...core.wording import together
 from ...formats.tools.library import read_library
+from ...geometry.outlines import nest, polygon_contour
 from ...geometry.overlay.overlay import without_crossings
 from ...geometry.primitives import contour_rows, lengths, signed_area
-from ...geometry.region import nest, polygon_contour
 from ...model.contour_operation import ContourOperation
 from ...model.curve_selectors import Selector
 from ...model.entry import Entry, EntryKind, Lead, Tabs
@@ -29,8 +30,7 @@ from ...model.operation import CutParameters, DrillOperation, Operation, PocketO
 from ...model.part import Contour, Region
 from ...model.stock_box import extent
 from ...model.tool import Tool
-from ...toolpath.advice.advise import advise
-from ...toolpath.advice.time import CuttingPlan
+from ...toolpath.advice.advise import CuttingPlan, advise
 from ...toolpath.drawn_contours import DrawnContours, drawn_contours
 from ...toolpath.drill_holes import tip_length
 from .contour_sorts import SortedContours, selectors_for, sorted_contours
@@ -201,6 +201,14 @@ def propose(job: Job, options: ProposalOptions | None = None, progress: Progress
     )
 
 
+@dataclass(frozen=True)
+class HolesOfSize:
+    """Circles of one diameter, mm."""
+
+    size: float
+    circles: tuple[Contour, ...]
+
+
 @dataclass
 class ProposalWork:
     """What is proposed for each sort of contour.
@@ -252,24 +260,44 @@ class ProposalWork:
         return made
 
     def milled_holes(self) -> list[ProposedOperation]:
-        """Return the holes for which there is no drill: milled along their walls, down on a helix."""
-        made = []
+        """Return the holes for which there is no drill, milled along their walls, down on a helix: those that differ in
+        their diameter alone in one operation, so that the tool crosses the part once.
+        """
+        groups: dict[Operation, list[HolesOfSize]] = {}
         for size, circles in self.found.holes:
-            if self.rack.drill(size) is not None:
-                continue
-            tool = self.rack.boring(size, self.thickness)
-            loose = size > 2 * tool.diameter
-            tabs = tabs_for(circles, math.pi * tool.diameter) if loose else Tabs()
-            why = (
-                f"{_counted(len(circles), 'hole')} of {size:g} mm, through: the library has no drill of that size, so "
-                f"{self._named(tool)} mills {'them' if len(circles) > 1 else 'it'}"
-                + (f", with {tabs.count} tabs to hold what falls out" if loose else "")
-            )
-            cut = self.cut(tool, self.thickness, selectors_for(circles, self.seen, as_circles=True))
-            bores = BoreOperation(cut).takes(size, tool) and not loose
-            operation = BoreOperation(cut) if bores else ContourOperation(cut, Side.INSIDE, tabs=tabs)
-            made.append(ProposedOperation(operation, why))
-        return made
+            if self.rack.drill(size) is None:
+                groups.setdefault(self._milled(size), []).append(HolesOfSize(size, circles))
+        return [self._holes_milled(operation, sizes) for operation, sizes in groups.items()]
+
+    def _milled(self, size: float) -> Operation:
+        """Return what mills holes of one size, the curves not yet named, nor the tabs where something falls out."""
+        tool = self.rack.boring(size, self.thickness)
+        cut = self.cut(tool, self.thickness, ())
+        loose = size > 2 * tool.diameter
+        if BoreOperation(cut).takes(size, tool) and not loose:
+            return BoreOperation(cut)
+        return ContourOperation(cut, Side.INSIDE, tabs=Tabs(int(loose)))
+
+    def _holes_milled(self, operation: Operation, sizes: Sequence[HolesOfSize]) -> ProposedOperation:
+        """Return an operation that mills holes of some sizes."""
+        circles = [circle for each in sizes for circle in each.circles]
+        curves = [curve for each in sizes for curve in selectors_for(each.circles, self.seen, as_circles=True)]
+        (tool,) = (each for each in self.rack.taken if each.number == operation.cut.tool)
+        named = [f"{each.size:g}" for each in sizes]
+        listed = " and ".join(filter(None, (", ".join(named[:-1]), named[-1])))
+        why = (
+            f"{_counted(len(circles), 'hole')} of {listed} mm, through: the library has no "
+            f"{'drills of these sizes' if len(sizes) > 1 else 'drill of that size'}, so {self._named(tool)} mills "
+            f"{'them' if len(circles) > 1 else 'it'}"
+        )
+        if len(sizes) > 1:
+            why += ", by short ways over all diameters"
+        if isinstance(operation, ContourOperation) and operation.tabs.count:
+            tabs = tabs_for(circles, math.pi * tool.diameter)
+            operation = replace(operation, tabs=tabs)
+            why += f", with {tabs.count} tabs to hold what falls out"
+        cut = replace(operation.cut, curves=tuple(dict.fromkeys(curves)))
+        return ProposedOperation(replace(operation, cut=cut), why)
 
     def pockets(self, progress: Progress) -> list[ProposedOperation]:
         """Return the pockets with their islands."""
@@ -321,7 +349,7 @@ class ProposalWork:
             if some
         ]
         cut = self.cut(tool, depth, self._curves(lines))
-        why = f"{' and '.join(parts)}: engraved {depth:g} mm deep with {self._named(tool)}"
+        why = f"{together(parts)}: engraved {depth:g} mm deep with {self._named(tool)}"
         return [ProposedOperation(ContourOperation(cut, Side.ON), why)]
 
     def outlines(self) -> list[ProposedOperation]:

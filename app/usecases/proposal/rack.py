@@ -11,8 +11,7 @@ from ...geometry.primitives import pack
 from ...model.part import Region
 from ...model.tool import Tool, ToolKind
 from ...toolpath.advice.reach import FITS
-from ...toolpath.advice.walls import Walls
-from ...toolpath.advice.width import widths
+from ...toolpath.advice.width import Walls, widths
 
 _EXACT = 0.01
 """mm by which a drill may be wider or narrower than the holes that it is proposed for."""

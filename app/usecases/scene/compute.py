@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...core.effort import announce
 from ...core.errors import GeometryError, ParameterError
 from ...core.progress import NO_PROGRESS, Progress
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import load_post
 from ...geometry.buffer import buffered
 from ...model.finding import Finding
 from ...model.job import Job, OriginXY, OriginZ

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.finding import Finding, FindingKind
 from ...simulation.field.workpiece import Grid, Workpiece
+from ...verify.judgement import places_of
 from ...verify.parts import TOLERANCE
-from ...verify.places import places_of
 from .reach import FamilyReach, Floats, Heights, SurfaceGrid, reached, slopes
 from .ridges import MOST, ridges
 

@@ -15,12 +15,10 @@ from ...formats.machine_toml import DEFAULT_MACHINE, load_machine
 from ...gcode.interpreter.options import ReadOptions
 from ...gcode.interpreter.program import NcProgram
 from ...gcode.interpreter.reader import read_program
-from ...gcode.note_texts import plain_numbers, spelled
-from ...gcode.posts.post import Post
-from ...gcode.posts.posts import load_post
+from ...gcode.operation_notes import plain_numbers, spelled
+from ...gcode.posts import Post, load_post
 from ...gcode.timing.duration import duration
-from ...gcode.writer.header import safe_name, tool_words, unit_sign
-from ...gcode.writer.header_notes import shape_numbers
+from ...gcode.writer.header import safe_name, shape_numbers, tool_words, unit_sign
 from ...gcode.writer.write import NcFile, Remarks, write_moves
 from ...model.finding import Finding, FindingKind
 from ...model.motion import MotionKind, Motions

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ...core.errors import InputError
 from ...core.progress import NO_PROGRESS, Progress
 from ...fitting.point_curves.space_curve import SpaceCurve
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import load_post
 from ...model.finding import Finding, FindingKind
 from ...model.scene import Passes, Scene
 from ...model.scene_shapes import StepShape

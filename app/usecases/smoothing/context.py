@@ -15,7 +15,7 @@ from ...fitting.point_curves.effective_method import states_across, without_repe
 from ...fitting.point_curves.tube import ToleranceTube
 from ...gcode.interpreter.program import ModalState, NcProgram
 from ...gcode.interpreter.text import ProgramBuffer
-from ...gcode.posts.post import NurbsForm, Post
+from ...gcode.posts import NurbsForm, Post
 from ...gcode.rework.stretches import FoundStretches, find_stretches
 from ...model.motion import Floats
 from .result import REACH, SmoothOptions

@@ -15,7 +15,7 @@ from ...fitting.point_curves.effective_method import EffectiveMethod, PointClass
 from ...fitting.point_curves.proven_curve import SplineOptions, fit_splines
 from ...fitting.point_curves.through_points import through_points
 from ...fitting.point_curves.tube import ToleranceTube
-from ...gcode.posts.post import NurbsForm
+from ...gcode.posts import NurbsForm
 from ...gcode.writer.curve_blocks import BlockFormat, curve_blocks
 from ...model.motion import Floats, Nurbs
 from .context import SmoothContext

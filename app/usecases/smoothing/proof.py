@@ -14,8 +14,8 @@ from ...fitting.point_curves.region_profile import judge_in_profile
 from ...fitting.point_curves.space_curve import SpaceCurve, curve_of_motions, joined
 from ...fitting.point_curves.tube import ToleranceTube, TubeAnswer, TubeJudgement, judge
 from ...gcode.interpreter.program import NcProgram
-from ...gcode.posts.post import NurbsForm
-from ...gcode.rework.rewrite import RewrittenText
+from ...gcode.posts import NurbsForm
+from ...gcode.rework.stretches import RewrittenText
 from ...gcode.writer.linuxcnc_biarcs import driven
 from ...geometry.coincident_points import near
 from ...model.motion import Floats, MotionKind, Motions

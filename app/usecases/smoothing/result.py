@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
+from ...core.wording import together
 from ...fitting.fitted import SplineRefusal
 from ...fitting.line_arcs.arc_fit import BEND
 from ...fitting.point_curves.bspline import FitRound
@@ -21,7 +22,7 @@ from ...fitting.point_curves.space_curve import SpaceCurve
 from ...fitting.point_curves.tube import TubeJudgement
 from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.program import NcProgram
-from ...gcode.posts.post import Post
+from ...gcode.posts import Post
 from ...gcode.rework.stretches import FeedStretch, FoundStretches
 from ...model.motion import Floats
 
@@ -121,7 +122,7 @@ class WrittenKinds:
         """As people are told: "10 arcs and 3 lines"."""
         named = ((self.splines, "spline"), (self.arcs, "arc"), (self.lines, "line"))
         told = [f"{count} {name}" + ("" if count == 1 else "s") for count, name in named if count]
-        return " and ".join(([", ".join(told[:-1])] if len(told) > 1 else []) + told[-1:]) or "nothing"
+        return together(told) or "nothing"
 
 
 @dataclass(frozen=True, slots=True)

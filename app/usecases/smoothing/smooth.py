@@ -18,7 +18,7 @@ from ...fitting.point_curves.smoothness import of_curve, of_points
 from ...gcode.interpreter.options import PATIENT, ReadOptions
 from ...gcode.interpreter.program import NcProgram
 from ...gcode.interpreter.reader import read_program
-from ...gcode.rework.rewrite import RewrittenText, rewrite
+from ...gcode.rework.stretches import RewrittenText, rewrite
 from ...gcode.writer.blocks import Blocks
 from .context import SmoothContext, resolved
 from .effort import smooth_effort

@@ -18,8 +18,7 @@ from ...gcode.interpreter.dialect_guess import guess_dialect
 from ...gcode.interpreter.options import PATIENT, ReadOptions
 from ...gcode.interpreter.program import NcProgram
 from ...gcode.interpreter.reader import read_program
-from ...gcode.posts.post import Post
-from ...gcode.posts.posts import load_post
+from ...gcode.posts import Post, load_post
 from ...gcode.rework.stretches import FeedStretch
 from ...gcode.translate.program import translated
 from ...model.motion import Floats

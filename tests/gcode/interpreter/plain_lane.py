@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from app.gcode.interpreter.columns import MotionColumns
 from app.gcode.interpreter.fast_lane import LONGEST
 from app.gcode.interpreter.plain_kernels import run_plain
+from app.gcode.interpreter.program import MotionColumns
 
 _PORTION = 8192
 

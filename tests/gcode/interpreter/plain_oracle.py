@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from app.gcode.interpreter.arc_kernels import centre_by_radius
-from app.gcode.interpreter.columns import MotionColumns
+from app.gcode.interpreter.program import MotionColumns
 from app.model.motion import Motions, Plane
 from tests.gcode.interpreter.plain_lane import LaneState, plain_blocks
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.gcode.interpreter.columns import Motion, MotionColumns
+from app.gcode.interpreter.program import Motion, MotionColumns
 from app.model.motion import MotionKind, Motions, Plane
 
 

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import pytest
 
-from app.gcode.interpreter.block_fault import BlockFault
 from app.gcode.interpreter.cycles import (
     CYCLE_WORDS,
     Cycle,
@@ -20,7 +19,7 @@ from app.gcode.interpreter.cycles import (
 )
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
-from app.gcode.interpreter.program import Severity
+from app.gcode.interpreter.program import BlockFault, Severity
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind, Plane
 

@@ -34,8 +34,17 @@ def test_the_language_is_named_at_the_line_that_tells(text: str, named: str, lin
     assert [(named in problem.text, problem.line) for problem in told] == [(True, line)]
 
 
-def test_nothing_is_named_where_a_program_is_only_wrong() -> None:
-    program = read_program(b"G21\nG1 X1 F100 Q\n")
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G21\nG1 X1 F100 Q\n",
+        "(T1 D=6. CR=0. - ZMIN=-3. - flat end mill)\nG21\nG1 X1 F100 Q\n",
+        "M190 P0\nM66 P3 L3 Q1\nF#<_hal[plasmac.cut-feed-rate]>\n",
+    ],
+)
+def test_nothing_is_named_where_a_program_is_only_wrong(text: str) -> None:
+    program = read_program(text.encode())
+    assert program.error is not None
     assert not any("looks like" in problem.text for problem in program.problems)
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from app.gcode.interpreter.columns import MotionColumns
+from app.gcode.interpreter.program import MotionColumns
 from tests.examples import examples
 from tests.gcode.interpreter.plain_lane import LaneState, plain_blocks
 from tests.gcode.interpreter.plain_oracle import Oracle, lane, same_bits

@@ -7,7 +7,7 @@ import pytest
 from app.gcode.interpreter.notes_operation import contour_motions
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import load_post, post_names
 from app.gcode.writer.write import write_files
 from app.model.contour_operation import ContourOperation
 from app.model.moves import MoveKind

@@ -10,7 +10,7 @@ from app.gcode.interpreter.notes import notes
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import HeaderNote, OperationNote, ToolNote
 from app.gcode.interpreter.reader import read_program
-from app.gcode.posts.posts import load_post, post_names
+from app.gcode.posts import load_post, post_names
 from app.gcode.writer.write import write_files
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers, read_selector

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.gcode.interpreter.block_fault import BlockFault
+from app.gcode.interpreter.program import BlockFault
 from app.gcode.interpreter.reader import read_program
 from app.gcode.interpreter.splines import (
     OpenFanucNurbs,

@@ -63,7 +63,7 @@ def painted(context, picture, camera, colour=CutColourBy.METAL, **more):
         made.show_picture(picture)
         made.show_colours(cell_colours(picture, colour, INKS))
         made.show_paths(picture.paths)
-        made.draw(CutFrame(camera, SIZE, LOOK, **more))
+        made.draw(CutFrame(camera, SIZE, **({"look": LOOK} | more)))
         pixels = made.pixels().copy()
         made.release()
     return pixels

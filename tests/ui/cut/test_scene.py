@@ -343,3 +343,34 @@ def test_a_round_wall_has_no_stripes(context, budget):
     share = got / expected
     assert np.ptp(share) < 0.25, share.round(2)
     assert np.std(np.diff(got)) < 8.0, got
+
+
+def test_the_ground_is_darkest_at_the_foot_of_the_stock_and_untouched_far_from_it(context):
+    heights = np.zeros((N, N))
+    heights[:, N // 2 :] = -10.0  # cut away: that half throws no shadow
+    picture = flat_picture(heights)
+    camera = replace(seen(picture, StandardView.TOP), scale=10.0)
+    look = replace(LOOK, canvas=(0.8, 0.8, 0.8), shadow=0.5)
+    row = painted(context, picture, camera, look=look)[SIZE[1] // 2, :, 0].astype(int)
+    left, cut = (round(SIZE[0] / 2 + 10.0 * (x - 5.0)) for x in (0.0, 5.0))
+    assert np.all(np.diff(row[left - 8 : left - 1]) <= 0)
+    assert row[left - 1] < 0.85 * 204
+    assert row[left - 12] == row[0] == 204
+    assert row[cut + 22] == 204  # a block of cells, and the reach of a shadow
+
+
+def test_edges_are_unbroken_lines_though_a_cell_is_far_smaller_than_a_pixel(context):
+    n = 512
+    x, y = cells(n)
+    heights = np.where(np.hypot(x - 5, y - 5) < 3.0, -4.0, 0.0)
+    picture = flat_picture(heights)
+    camera = replace(seen(picture, StandardView.ISOMETRIC), scale=16.0)
+    look = replace(LOOK, edge=(1.0, 0.0, 0.0))
+    image = painted(context, picture, camera, look=look).astype(int)
+    angle = np.radians(np.arange(0, 360, 2.0))
+    rim = camera.project(np.column_stack([5 + 3 * np.cos(angle), 5 + 3 * np.sin(angle), 0 * angle]), SIZE)
+    redder = image[..., 0] - image[..., 1]
+    along = [redder[round(v) - 2 : round(v) + 2, round(u) - 2 : round(u) + 2].max() for u, v, _ in rim]
+    assert min(along) > 25
+    flat = camera.project(np.array([[1.0, 1.0, 0.0], [5.0, 5.0, -4.0]]), SIZE)
+    assert all(redder[round(v) - 3 : round(v) + 3, round(u) - 3 : round(u) + 3].max() < 3 for u, v, _ in flat)

@@ -1,4 +1,4 @@
-"""A program whose little window a file can be dragged out of, as out of a file manager: `python -m … FILE`."""
+"""A program of its own whose window a file can be dragged out of, as out of a file manager: `python -m … FILE`."""
 
 from __future__ import annotations
 

@@ -170,6 +170,34 @@ def test_a_program_is_drawn_by_its_cuts(qapp, tmp_path):
     assert max(x for x, _ in inked) - min(x for x, _ in inked) == pytest.approx(1.5 * 92, abs=4)
 
 
+def test_a_dense_program_is_no_patch_and_one_without_a_way_in_the_plane_has_no_picture(qapp, tmp_path):
+    rows = "".join(f"G0 Y{k / 20}\nG1 X{(0 if k % 2 else 50) if k < 300 else 20 + k % 2 * 10}\n" for k in range(600))
+    path = tmp_path / "dense.ngc"
+    path.write_text(f"G21 G90\nG0 X0 Y0 Z-1\nF500\n{rows}M30\n")
+    image = thumbnail(path, QSize(200, 120), LIGHT, NO_PROGRESS)
+    inks = [image.pixelColor(100, y).red() for y in range(20, 100)]
+    assert min(inks) > 20 and max(inks) < 250 and len(set(inks)) > 2, "lines shine through"
+    path.write_text("G21 G90\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM30\n")
+    assert thumbnail(path, QSize(200, 120), LIGHT, NO_PROGRESS).isNull()
+
+
+def test_the_inside_of_an_outline_is_tinted_its_holes_are_not(qapp, tmp_path):
+    path = tmp_path / "lid.draw"
+    path.write_text("rect 0,0 60,40\ncircle 30,20 12\n")
+    image = thumbnail(path, QSize(200, 120), LIGHT, NO_PROGRESS)
+    assert image.pixelColor(100, 60).rgb() == LIGHT.canvas.rgb()
+    assert image.pixelColor(100, 20).rgb() not in (LIGHT.canvas.rgb(), LIGHT.ink.rgb())
+
+
+def test_of_a_scene_only_what_lies_on_top_is_drawn(qapp):
+    image = thumbnail(resource("samples", "die.toml"), QSize(200, 120), LIGHT, NO_PROGRESS)
+    rows = [y for y in range(120) if any(image.pixelColor(x, y).rgb() != LIGHT.canvas.rgb() for x in range(200))]
+    lowest = [x for x in range(200) if image.pixelColor(x, rows[-1]).rgb() != LIGHT.canvas.rgb()]
+    assert all(image.pixelColor(x, rows[-1]).green() >= image.pixelColor(x, rows[-1]).red() for x in lowest), (
+        "a corner of the binder, nothing that hangs below it"
+    )
+
+
 def test_what_was_said_of_the_part_before_does_not_lie_over_the_page(wiring):
     wiring.window_.notice.ask("This is the sample part.", [("Draw your own", lambda: None)])
     wiring.open_start()

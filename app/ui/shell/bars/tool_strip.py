@@ -99,6 +99,9 @@ class ToolButton(QToolButton):
 
     def _show(self, actions: Actions, name: str) -> None:
         self.setDefaultAction(actions[name])
+        for other in self.actions():  # with a second one Qt takes the button for a menu, and paints its arrow
+            if other is not actions[name]:
+                self.removeAction(other)
         self.setAccessibleName(actions[name].toolTip())
 
     def set_theme(self, theme: Theme) -> None:

@@ -30,8 +30,7 @@ LOOKING = "Looking at passages and corners…"
 def advice_of(job: Job, progress: Progress) -> Advice:
     """Return what a job's drawing asks of its tools; the usual diameters run as the job's first flat tool does."""
     from ....operations.compute import regions_of
-    from ....toolpath.advice.advise import advise, standard_tools
-    from ....toolpath.advice.time import CuttingPlan
+    from ....toolpath.advice.advise import CuttingPlan, advise, standard_tools
 
     progress.step(0.0, "Chain contours")
     like = next((tool for tool in job.tools if tool.kind is ToolKind.FLAT), None)

@@ -60,9 +60,11 @@ def owned_curves(job: Job, index: int, known: OwnedCurves | None, progress: Prog
         known: what was found before, whose contours still hold.
         progress: to be cancelled by.
     """
-    from ....toolpath.drawn_contours import drawn_contours  # chains contours: never on the window's thread
+    from ....toolpath.drawn_contours import (
+        drawn_contours,  # chains contours: never on the window's thread
+        selected,
+    )
     from ....toolpath.drill_holes import circle_of, made_by_drills
-    from ....toolpath.selected import selected
 
     progress.step(0.0)
     job, operation = replace(job, copies=Copies()), job.operations[index]

@@ -12,7 +12,7 @@ from PySide6.QtCore import QObject, Signal
 
 from ....core.atomic import write_together
 from ....core.errors import HitofudeError
-from ....gcode.posts.posts import load_post, post_titles
+from ....gcode.posts import load_post, post_titles
 from ...framework.computation import Computation, ComputationState
 from ...framework.notice import Notice
 from .proof import proof, warning

@@ -61,6 +61,10 @@ def size_of(part: Part, without: tuple[str, ...] = ()) -> tuple[float, float] | 
     return None if box is None else (box[2] - box[0], box[3] - box[1])
 
 
+SAMPLE_PROGRAMS = ("facets", "points", "raster", "valley")
+"""NC programs that come with the program: text D, text E, and both over surfaces."""
+
+
 def sample_path() -> Path:
     """Return the drawing that a first start shows."""
     return resource("samples", "fig2.dxf")

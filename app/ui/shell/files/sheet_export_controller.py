@@ -15,7 +15,7 @@ from ....core.progress import Progress
 from ....drafting.language.write import draw_text
 from ....formats.sheet import SUFFIXES
 from ....formats.sheet.write import sheet_bytes
-from ....gcode.posts.posts import load_post
+from ....gcode.posts import load_post
 from ....usecases.making.make import MakeResult
 from ....usecases.sheet.made import made_sheet
 from ...framework.computation import ComputationState

@@ -16,8 +16,8 @@ from ...framework.theme import LIGHT, Theme, mixed
 from ...views.language.usage import usage_of
 from .help_pages import HelpPage, pages, rendered
 
-_SIZE = (860, 640)
-_LIST_PX = 200
+_SIZE = (884, 640)
+_LIST_PX = 224
 LANGUAGE = "language"
 
 

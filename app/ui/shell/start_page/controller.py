@@ -64,12 +64,12 @@ class StartController(QObject):
         self._theme: Theme | None = None
         self.worker = Worker(self)
         self.worker.done.connect(self._on_done)
-        self.worker.failed.connect(lambda _: self._next())
+        self.worker.failed.connect(lambda _: self._show(QImage()))
         workspace.activity.ended.connect(self.worker.finish)
 
     def open(self, theme: Theme) -> None:
         """Bring the page to the front, with the files as they are now."""
-        from ....gcode.posts.posts import post_titles
+        from ....gcode.posts import post_titles
 
         self._theme = theme
         names = [Path(name) for name in self._preferences.settings.recent_files]
@@ -100,11 +100,16 @@ class StartController(QObject):
             self.worker.start(partial(thumbnail, card.path, card.picture_size, self._theme), 0)
 
     def _on_done(self, answer: JobOutcome) -> None:
+        assert isinstance(answer.value, QImage)
+        self._show(answer.value)
+
+    def _show(self, picture: QImage) -> None:
+        """Show the picture that was on its way, empty where there is none, and go on."""
         painting = self._painting
-        assert isinstance(answer.value, QImage) and painting is not None
-        self._pictures[painting.seen] = answer.value
+        assert painting is not None
+        self._pictures[painting.seen] = picture
         if painting.card in (*self._page.files, *self._page.samples):
-            painting.card.show_picture(answer.value)
+            painting.card.show_picture(picture)
         self._next()
 
 

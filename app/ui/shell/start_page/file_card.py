@@ -12,7 +12,7 @@ from ...framework.catalogue import tr
 from ...framework.theme import LIGHT, Theme, text_font
 
 HEIGHT, WORDS_PX, LEAST_WIDTH = 176, 48, 150
-_RADIUS, _PAD_PX = 6, 12
+_RADIUS, _PAD_PX, _KIND_PX = 6, 12, 22
 
 
 class FileCard(QAbstractButton):
@@ -25,7 +25,7 @@ class FileCard(QAbstractButton):
     def __init__(self, path: Path, title: str, words: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.path, self.words = path, words
-        self._theme, self._picture = LIGHT, QImage()
+        self._theme, self._picture, self._blank = LIGHT, QImage(), False
         self.setText(title)
         self.setAccessibleName(f"{title}, {words}")
         self.setToolTip(str(path))
@@ -40,8 +40,8 @@ class FileCard(QAbstractButton):
         return QSize(round((self.width() - 2) * ratio), round((HEIGHT - WORDS_PX - 2) * ratio))
 
     def show_picture(self, picture: QImage) -> None:
-        """Show what the file holds."""
-        self._picture = picture
+        """Show what the file holds; without a picture, of what kind it is."""
+        self._picture, self._blank = picture, picture.isNull()
         self.update()
 
     def set_theme(self, theme: Theme) -> None:
@@ -76,6 +76,10 @@ class FileCard(QAbstractButton):
             place = QRectF(QPointF(), size)
             place.moveCenter(top.center())
             painter.drawImage(place, self._picture)
+        elif self._blank:
+            painter.setFont(text_font(_KIND_PX, semibold=True))
+            painter.setPen(theme.hairline)
+            painter.drawText(top, Qt.AlignmentFlag.AlignCenter, self.path.suffix.lstrip(".").upper())
         painter.restore()
         painter.setPen(QPen(theme.hairline, 1))
         painter.drawLine(top.bottomLeft(), top.bottomRight())

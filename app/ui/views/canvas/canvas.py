@@ -333,7 +333,7 @@ class Canvas(InteractiveViewport):
         end = typed.answer(tool, at)
         end = end if isinstance(end, tuple) else at
         if isinstance(tool, SelectionDragTool):
-            for _ in self.picture.selected_steps(painter, self._carried_view(tool, end), theme.accent, self.area):
+            for _ in self.picture.selected_steps(painter, self._carried_view(tool, end), theme.selection, self.area):
                 pass
         preview = self.runner.preview(at)
         self._preview_picture.paint(painter, self.view, preview.trial, theme)

@@ -97,7 +97,7 @@ class SmoothingController(ProgramController):
     def _fill(self) -> None:
         """Fill the form, once; what it needs is not loaded before it is seen."""
         if not self._filled:
-            from ....gcode.posts.posts import post_titles
+            from ....gcode.posts import post_titles
             from ....usecases.smoothing.result import SmoothOptions
 
             self._filled = True

@@ -179,7 +179,7 @@ class CurvesPanel(QScrollArea):
         Raises:
             HitofudeError: it cannot be so; a sentence.
         """
-        from ....gcode.posts.posts import load_post
+        from ....gcode.posts import load_post
         from ....usecases.smoothing.result import OutputForm
 
         name, profile = self.post.value, self.outline.profile() if self.region.value == "outline" else None

@@ -27,6 +27,7 @@ def render_style_of(theme: Theme) -> RenderStyle:
         steel=(0.76, 0.78, 0.81) if dark else (0.70, 0.72, 0.75),
         holder=(0.42, 0.45, 0.50) if dark else (0.44, 0.47, 0.52),
         edge=(0.80, 0.83, 0.88) if dark else (0.16, 0.18, 0.21),
+        shadow=0.55 if dark else 0.30,
         facets=(_share(theme.regions[4]), contour[:3]),
     )
 

@@ -262,7 +262,7 @@ class NcController(Controller):
         self._show_heads()
 
     def _own_sources(self) -> tuple[ProgramSource, ...]:
-        from ....gcode.posts.posts import load_post
+        from ....gcode.posts import load_post
 
         made = self._computation.made
         if made is None:
@@ -273,7 +273,7 @@ class NcController(Controller):
         )
 
     def _own_name(self, made: MakeResult) -> Path:
-        from ....gcode.posts.posts import load_post
+        from ....gcode.posts import load_post
 
         path = self._document.path
         return Path(f"{path.stem if path else made.job.part.name}{load_post(made.job.post).extension}")

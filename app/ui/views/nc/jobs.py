@@ -39,7 +39,7 @@ def framed(made: MakeResult, name: str, side: ViewSide, progress: Progress) -> S
         HitofudeError: nothing is cut.
         Cancelled: the job was asked to stop.
     """
-    from ....gcode.posts.posts import load_post
+    from ....gcode.posts import load_post
 
     return read_shown(
         ProgramSource(name, made.frame().encode(), dialect=load_post(made.job.post).dialect), side, progress

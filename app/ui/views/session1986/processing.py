@@ -145,7 +145,7 @@ def paths_of(shape: EnteredShape, given: EnteredOffsets, progress: Progress = NO
         HitofudeError: the pocket tool does not fit into what is filled.
     """
     from ....exhibits.stages import stages
-    from ....gcode.posts.posts import load_post
+    from ....gcode.posts import load_post
     from ....usecases.making.written import write_and_check
     from ....usecases.pixels.way import compute_on_bitmap
 

@@ -373,7 +373,7 @@ class SceneController(Controller):
         self._side.points.choose(number)
 
     def _on_read(self, scene: Scene) -> None:
-        from ....gcode.posts.posts import post_titles
+        from ....gcode.posts import post_titles
 
         self._side.panel.show_posts(tuple(post_titles().items()))
         self._side.panel.show_scene(scene)

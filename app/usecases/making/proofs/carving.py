@@ -12,8 +12,8 @@ from ....model.finding import Finding, FindingKind
 from ....model.job import Job
 from ....model.motion import MotionKind
 from ....model.moves import Program
-from ....verify.bounds import followed_walls
 from ....verify.carved_roof import ConePath, RoofProof, prove_roof, straightened
+from ....verify.verdict import followed_walls
 from ..written import WrittenMotions
 
 METHOD = (

@@ -28,7 +28,7 @@ from ....model.motion import MotionKind
 from ....model.motion_path import anchored
 from ....model.moves import Program, Purpose
 from ....model.operation import Operation
-from ....verify.clearance import pair_distance
+from ....verify.verdict import pair_distance
 from ..written import WrittenMotions, WrittenProgram
 
 Floats = NDArray[np.float64]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from .....geometry.primitives import points_at
 from .....model.moves import Moves
-from .....toolpath.coverage.flat import move_rows
+from .....toolpath.coverage.areas import move_rows
 from .engagement_colours import STEPS
 
 if TYPE_CHECKING:

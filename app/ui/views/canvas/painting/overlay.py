@@ -32,7 +32,7 @@ def paint_preview(painter: QPainter, view: ViewTransform, preview: ToolPreview, 
         painter.setPen(screen_pen(painter, theme.muted, 1.0, (4.0, 4.0)))
         painter.drawPath(curve_path(*preview.helpers))
     if preview.curves:
-        painter.setPen(screen_pen(painter, theme.accent, 1.8))
+        painter.setPen(screen_pen(painter, theme.selection, 1.8))
         painter.drawPath(curve_path(*preview.curves))
     painter.restore()
 
@@ -60,14 +60,14 @@ class TrialLayer:
 
     def paint(self, painter: QPainter, view: ViewTransform, trial: DrawingDifference, theme: Theme) -> None:
         """Paint what comes in the accent, what goes in the colour of errors."""
-        paint_notes(painter, view, trial.notes, NoteLook(theme.accent, 1.4), QRectF(painter.viewport()))
+        paint_notes(painter, view, trial.notes, NoteLook(theme.accent_text, 1.4), QRectF(painter.viewport()))
         if not (trial.added or trial.gone):
             return
         painter.save()
         painter.setTransform(view.transform(), True)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         fine = len(trial.gone) + len(trial.added) > _MANY_TRIED
-        for path, colour, width in zip(self.paths(trial), (theme.error, theme.accent), (2.2, 1.8), strict=True):
+        for path, colour, width in zip(self.paths(trial), (theme.error, theme.selection), (2.2, 1.8), strict=True):
             painter.setPen(screen_pen(painter, colour, FINE if fine else width))
             painter.drawPath(path)
         painter.restore()
@@ -92,7 +92,7 @@ def paint_owned(painter: QPainter, view: ViewTransform, path: QPainterPath, them
 
 def paint_points(painter: QPainter, view: ViewTransform, points: list[tuple[float, float]], theme: Theme) -> None:
     """Paint points that were given."""
-    painter.setPen(QPen(theme.accent, 1.5))
+    painter.setPen(QPen(theme.selection, 1.5))
     painter.setBrush(theme.canvas)
     for point in points:
         painter.drawEllipse(view.to_screen(point), 3.0, 3.0)

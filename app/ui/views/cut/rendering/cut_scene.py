@@ -17,6 +17,7 @@ from ..cut_picture import CutPaths, CutPicture
 from ..tool_outline import DrawnTool
 from .cut_frame import CLIP_PLANES, CutFrame
 from .facets import Facets
+from .ground import Foot, GroundShadow, shadow_reach
 from .path_ribbons import PathRibbons, RibbonProjection
 from .render_target import MetalTarget, RenderTarget
 from .stock_textures import Rectangle, StockExtent, StockTextures
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
     import moderngl
 
 SAMPLES = 4
+
+_LINE_SHARE = 0.6
+"""Of an edge's colour in the fine line along it, which is about half a pixel wide."""
 
 _SPILL_PX = 8
 """So far beyond its outline metal may show: pixels share lines of sight while things move, and colours are mixed."""
@@ -49,12 +53,12 @@ class CutScene:
         self.picture: CutPicture | None = None
         self.detail: CutPicture | None = None
         self._stock = compiled(ctx, "part.vert", "stock.frag", "STOCK")
-        self._over = compiled(ctx, "screen.vert", "screen.frag", "OVER")
-        self._over_all = ctx.vertex_array(self._over, [])
+        self._over = {part: compiled(ctx, "screen.vert", "screen.frag", part) for part in ("PLAIN", "LINES")}
+        self._over_all = {part: ctx.vertex_array(program, []) for part, program in self._over.items()}
         self._palette = ctx.texture((256, 1), 4)
         self._whole, self._part = (StockTextures(ctx, self._stock, self._palette) for _ in range(2))
         self._paths = PathRibbons(ctx, compiled(ctx, "path.vert", "path.frag", "PATH"))
-        self._tool, self._facets = ToolBody(ctx), Facets(ctx)
+        self._tool, self._facets, self._ground = ToolBody(ctx), Facets(ctx), GroundShadow(ctx)
         self._stage: RenderTarget | None = None
         self._metal: dict[bool, MetalTarget] = {}
 
@@ -148,7 +152,7 @@ class CutScene:
         if self.picture is not None:
             reach = self._reach(frame, self.picture)
             back.scissor = self._seen_area(frame, self.picture)
-            self._put_over(frame.size, metal, finer)
+            self._put_over(frame, reach, metal, finer)
             back.scissor = (0, 0, *frame.size)
             for plane in CLIP_PLANES:
                 self.ctx.enable_direct(plane)
@@ -182,9 +186,11 @@ class CutScene:
             self._stage.release()
         for target in self._metal.values():
             target.release()
-        for held in (self._whole, self._part, self._palette, self._paths, self._tool, self._facets):
+        for held in (self._whole, self._part, self._palette, self._paths, self._tool, self._facets, self._ground):
             held.release()
-        for program in (self._stock, self._over_all, self._over):
+        for array in self._over_all.values():
+            array.release()
+        for program in (self._stock, *self._over.values()):
             program.release()
 
     def _draw_metal(
@@ -199,6 +205,8 @@ class CutScene:
         target = metal.framebuffer
         target.use()
         target.clear(*frame.look.canvas, 1.0, depth=1.0)
+        if (standing := self._whole.standing()) is not None and self.picture is not None:
+            self._ground.draw(frame, Foot(standing, float(self.picture.low[2])), plain)
         for field, extent in zip((self._whole, self._part), extents, strict=False):
             target.use()
             for _ in field.draw(frame, extent, plain, at_once):
@@ -212,23 +220,31 @@ class CutScene:
             return [StockExtent(reach, sides)]
         return [StockExtent(reach, sides, _rectangle(self.detail)), StockExtent(reach, sides)]
 
-    def _put_over(self, size: tuple[int, int], metal: MetalTarget, finer: MetalTarget | None) -> None:
-        """Fill the framebuffer in use, of a size in px, with the metal: its finer picture where there is one and the
-        other one is uneven.
+    def _put_over(self, frame: CutFrame, reach: float, metal: MetalTarget, finer: MetalTarget | None) -> None:
+        """Fill the framebuffer in use with the metal: its finer picture where there is one and the other one is uneven,
+        with fine lines along edges.
         """
         self.ctx.enable_only(self.ctx.DEPTH_TEST)
-        textures = (metal.colours, metal.depths, (finer or metal).colours, metal.uneven)
-        for place, (name, texture) in enumerate(zip(("picture", "depths", "finer", "uneven"), textures, strict=True)):
+        part = "PLAIN" if finer is None else "LINES"
+        program, textures = self._over[part], {"picture": metal.colours, "depths": metal.depths}
+        if finer is not None:
+            textures |= {"finer": finer.colours, "finer_depths": finer.depths, "uneven": metal.uneven}
+            program["fold"] = 0.25 / (frame.camera.scale * reach)
+            program["edge"], program["line_share"] = frame.look.edge, _LINE_SHARE
+        for place, (name, texture) in enumerate(textures.items()):
             texture.use(place)
-            self._over[name] = place
-        self._over["has_finer"], self._over["size"] = int(finer is not None), size
+            program[name] = place
+        program["size"] = frame.size
         self.ctx.depth_func = "1"
-        self._over_all.render(self.ctx.TRIANGLES, vertices=3)
+        self._over_all[part].render(self.ctx.TRIANGLES, vertices=3)
         self.ctx.depth_func = "<"
 
     def _seen_area(self, frame: CutFrame, picture: CutPicture) -> tuple[int, int, int, int]:
-        """Return what of the picture metal can be seen in: left, lower edge, width and height, px."""
-        corners = np.array(np.meshgrid(*zip(picture.low, picture.high, strict=True))).reshape(3, -1).T
+        """Return what of the picture metal, or its shadow, can be seen in: left, lower edge, width and height, px."""
+        shadow = shadow_reach(frame, _rectangle(picture))
+        foot = picture.low - (shadow, shadow, 0.0), np.append(picture.high[:2] + shadow, picture.low[2])
+        boxes = (picture.low, picture.high), foot
+        corners = np.vstack([np.array(np.meshgrid(*zip(*box, strict=True))).reshape(3, -1).T for box in boxes])
         seen = frame.camera.project(corners, frame.size)[:, :2]
         seen[:, 1] = frame.size[1] - seen[:, 1]
         low = np.clip(np.floor(seen.min(axis=0)) - _SPILL_PX, 0, frame.size).astype(int)

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 TILE = 16
 """Pixels across, and down, of the parts of a picture that more lines of sight are followed in."""
 
-_HAIR_MASK = 0xFCFCFC
-"""Of each colour the steps of a byte from the fourth on."""
+_HAIR_MASK = 0xF8F8F8F8
+"""Of each colour, and of what tells faces apart, the steps of a byte from the eighth on."""
 
 Rgb = tuple[float, float, float]
 Rgba = tuple[float, float, float, float]
@@ -33,6 +33,7 @@ class RenderStyle:
         tools: colours of cutting parts, a cycle. steel, holder: of shanks and holders. edge: of what turns away from
             the eye.
         facets: of cylinders and of wedges.
+        shadow: share of the canvas' light that does not reach the ground below the stock.
     """
 
     canvas: Rgb
@@ -47,6 +48,7 @@ class RenderStyle:
     steel: Rgb = (0.74, 0.76, 0.79)
     holder: Rgb = (0.30, 0.32, 0.36)
     edge: Rgb = (0.12, 0.13, 0.15)
+    shadow: float = 0.0
     facets: tuple[Rgb, Rgb] = ((0.34, 0.71, 0.91), (0.90, 0.62, 0.0))
 
 

@@ -31,7 +31,10 @@ BLOCK = 8
 
 _HEIGHTS, _VALUES, _PALETTE, _RELIEF, _BLOCKS, _WALLS, _UNEVEN = range(7)
 _LINE = 0.45
-"""Of an edge's colour in the fine line along it."""
+"""Of an edge's colour in the line along it while things move."""
+
+_LEAST_METAL = 1e-3
+"""Metal that is less high is none, mm."""
 
 _SHARP = 0.7
 """Where a cell is wider than so many px, its neighbours need not be averaged."""
@@ -98,6 +101,20 @@ class StockTextures:
             texture.filter = (ctx.NEAREST, ctx.NEAREST)
         self._highest, self._averaged = picture.highest, False  # averaged when it rests: that takes a while
 
+    def standing(self) -> Rectangle | None:
+        """Return what of the plane has metal over it, mm, but for the breadth of a block; None = nothing has."""
+        if self._picture is None:
+            return None
+        picture, there = self._picture, self._tops > self._picture.floor + _LEAST_METAL
+        found = [np.flatnonzero(there.any(axis=axis)) for axis in (0, 1)]
+        if not len(found[0]):
+            return None
+        (x0, x1), (y0, y1) = (
+            np.clip([BLOCK * at[0] - 1, BLOCK * at[-1] + BLOCK], 0, count) * picture.pitch
+            for at, count in zip(found, (picture.columns, picture.rows), strict=True)
+        )
+        return picture.x0 + x0, picture.y0 + y0, picture.x0 + x1, picture.y0 + y1
+
     def patch(self, patch: CellPatch) -> None:
         """Take other heights, relief and colours over for a rectangle of cells; after `fill` and `colour`."""
         place = (patch.col, patch.row, patch.heights.shape[1], patch.heights.shape[0])
@@ -136,6 +153,8 @@ class StockTextures:
         for name, around in (("hole", box.hole), ("stock_box", box.sides)):
             self._program[name] = picture_cells(picture, around)
         self._program["finer"] = int(plain is not None)
+        if plain is not None:  # depths tell where edges are, once these are known
+            self._program["line_share"] = 0.0
         if self._set_relief_filter(frame, picture, moving=at_once):
             self._ctx.finish()
             yield None

@@ -82,6 +82,11 @@ def motion_colour(kind: MotionKind, theme: Theme) -> QColor:
     }[kind]
 
 
+def _kind_row(kind: MotionKind, theme: Theme) -> KeyRow:
+    mark = KeyMark.DOTS if kind is MotionKind.RAPID else KeyMark.LINE
+    return KeyRow(_KIND_NAMES[kind], motion_colour(kind, theme), mark)
+
+
 def _tool_name(number: int, note: ToolNote | None) -> str:
     """Return a tool's number and what the program's comments tell of it."""
     words = [f"T{number}" if number else "No tool"]
@@ -146,12 +151,13 @@ class MotionLayer:
     def key(self, how: MotionPaint) -> list[KeyRow]:
         """Return what lines mean, of the first eight tools or of the kinds of motion that there are."""
         theme, looks = how.theme, {look for _, look in self._looks}
-        plunge = [KeyRow("Plunge", theme.plunge)] if MotionLineStyle.PLUNGE in looks else []
+        down = KeyMark.PLUNGE if self.side is ViewSide.XY else KeyMark.LINE
+        plunge = [KeyRow("Plunge", theme.plunge, down)] if MotionLineStyle.PLUNGE in looks else []
         if how.colour is MotionColourBy.TOOL:
             return [
                 row for at in range(min(len(self.tools), _MOST_TOOLS)) for row in self._tool_rows(at, theme)
             ] + plunge
-        rows = [KeyRow(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), theme)) for kind in self._kinds]
+        rows = [_kind_row(MotionKind(kind), theme) for kind in self._kinds]
         contour = [KeyRow("Contour", theme.muted, KeyMark.DASHES)] if MotionLineStyle.CONTOUR in looks else []
         return rows + contour + plunge
 

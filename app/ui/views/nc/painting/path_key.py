@@ -17,7 +17,7 @@ from ..motion_hover import outline
 from ..motion_shapes import Floats, MotionLineStyle, MotionShapes, ViewSide
 
 _ROW_PX, _LINE_PX, _GAP_PX, _PAD_PX, _EDGE_PX = 18.0, 20.0, 8.0, 8.0, 10.0
-_DASHES = (4.0, 3.0)
+_DASHES, _DOTS = (4.0, 3.0), (1.2, 2.4)
 _DOT_PX = 6.0
 _MOST_NEAR, _MOST_CURVED = 2_000, 200
 """A corner with more motions than these is taken as covered."""
@@ -37,8 +37,23 @@ class KeyMark(Enum):
 
     LINE = "line"
     DASHES = "dashes"
+    DOTS = "dots"
     DOT = "dot"
     RING = "ring"
+    PLUNGE = "plunge"
+
+
+@dataclass(frozen=True, slots=True)
+class _Ring:
+    """A circle's radius and the width of its line, px."""
+
+    radius: float
+    line: float
+
+
+_DOT_OF = {KeyMark.DOT: _DOT_PX, KeyMark.PLUNGE: 2.4}
+_RING_OF = {KeyMark.RING: _Ring(_DOT_PX / 2, 1.0), KeyMark.PLUNGE: _Ring(4.2, 1.4)}
+_LINE_OF: dict[KeyMark, tuple[float, ...]] = {KeyMark.LINE: (), KeyMark.DASHES: _DASHES, KeyMark.DOTS: _DOTS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,18 +92,19 @@ def beside_key(size: QSizeF, area: QRectF) -> tuple[QRectF, QRectF]:
 def _paint_mark(painter: QPainter, left: QPointF, row: KeyRow) -> None:
     """Paint what a row's words mean, from its left end on."""
     middle = left + QPointF(_LINE_PX / 2, 0.0)
-    if row.mark is KeyMark.DOT:
-        painter.setPen(QPen(row.colour, _DOT_PX, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+    if row.mark in _DOT_OF:
+        painter.setPen(QPen(row.colour, _DOT_OF[row.mark], Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
         painter.drawPoint(middle)
-        return
-    pen = QPen(row.colour, 1.0 if row.mark is KeyMark.RING else 2.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap)
-    if row.mark is KeyMark.DASHES:
-        pen.setDashPattern([dash / pen.widthF() for dash in _DASHES])
-    painter.setPen(pen)
-    if row.mark is KeyMark.RING:
+    if row.mark in _RING_OF:
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.drawEllipse(middle, _DOT_PX / 2, _DOT_PX / 2)
-    else:
+        painter.setPen(QPen(row.colour, _RING_OF[row.mark].line))
+        painter.drawEllipse(middle, _RING_OF[row.mark].radius, _RING_OF[row.mark].radius)
+    if row.mark in _LINE_OF:
+        dashes, width = _LINE_OF[row.mark], 1.0 if row.mark is KeyMark.DOTS else 2.0
+        pen = QPen(row.colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap)
+        if dashes:
+            pen.setDashPattern([dash / width for dash in dashes])
+        painter.setPen(pen)
         painter.drawLine(left, left + QPointF(_LINE_PX, 0.0))
 
 

@@ -1,1 +1,0 @@
-"""Depth passes, and ways between them over ground that is cut."""
