@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..core.durations import minutes_words
+from ..core.wording import counted
 from ..gcode.interpreter.program import ProgramProblem, Severity
 from ..gcode.rework.compare import ProgramDifferences
 from ..usecases.examine import CONTROLS, ExaminedProgram
@@ -23,12 +24,12 @@ def examined_lines(examined: ExaminedProgram) -> list[str]:
         lines.append(f"  - {len(examined.problems) - TOLD} more; --report R.json lists them all")
     report = examined.report()
     length, parts = report["length_mm"], report["time_parts_s"]
-    count = len(examined.problems)
-    what = "no problem" if not count else "1 problem" if count == 1 else f"{count} problems"
+    count, motions = len(examined.problems), counted(sum(report["moves"].values()), "motion")
+    what = counted(count, "problem") if count else "no problem"
     lines.insert(
         0,
-        f"{examined.name}: {what} as {CONTROLS[report['control']]} reads it; {sum(report['moves'].values())} motions "
-        f"in {report['lines']} lines, {length['cut']:.1f} mm cut, {length['rapid']:.1f} mm rapid",
+        f"{examined.name}: {what} as {CONTROLS[report['control']]} reads it; {motions} "
+        f"in {counted(report['lines'], 'line')}, {length['cut']:.1f} mm cut, {length['rapid']:.1f} mm rapid",
     )
     for title, box in (("cuts", examined.cut_box), ("all", examined.box)):
         sides = (

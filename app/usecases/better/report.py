@@ -7,6 +7,7 @@ import math
 from dataclasses import replace
 from typing import Any
 
+from ...core.wording import counted
 from ...model.finding import Finding, FindingKind
 from ..smoothing.report import certificate
 from ..smoothing.report import findings as smooth_findings
@@ -88,7 +89,8 @@ def _surface_lines(name: str, figures: SurfaceFigures) -> tuple[str, ...]:
     shape = "; ".join(f"{count} {kind}" for count, kind in figures.shape)
     spans = ", ".join(f"{u} x {v}" for u, v in figures.spans)
     found = (
-        f"{name}: {figures.passes} passes, {figures.places} places{deeper}{kept}, {figures.facets} facets, {shape}",
+        f"{name}: {counted(figures.passes, 'pass', 'passes')}, {counted(figures.places, 'place')}{deeper}{kept}, "
+        f"{counted(figures.facets, 'facet')}, {shape}",
         f"  {_counted(len(figures.spans))} of {spans} spans by them; those left out lie {figures.left_out_mm:.5f} mm "
         "off it",
     )

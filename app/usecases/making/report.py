@@ -131,7 +131,7 @@ class MakeReport:
 def out_of_reach(left: Json) -> str:
     """Return how many places are out of reach of every tool, with a comma behind; nothing where there is none."""
     count = left["out_of_reach_places"]
-    return "" if not count else "1 place out of reach, " if count == 1 else f"{count} places out of reach, "
+    return f"{counted(count, 'place')} out of reach, " if count else ""
 
 
 def make_report(measured: ReportData) -> MakeReport:

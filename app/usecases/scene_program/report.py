@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...core.durations import minutes_words
+from ...core.wording import counted
 from ...formats.machine_toml import DEFAULT_MACHINE, load_machine
 from ...gcode.timing.duration import TIME_METHOD
 from ...model.finding import Finding
@@ -258,12 +259,12 @@ def boundary_rows(computed: ComputedScene, marks: BoundaryPoints) -> Iterator[Js
 def _summary(data: Json) -> Iterator[str]:
     """Yield a line about the whole, and one for each family of passes."""
     length = data["length_mm"]
-    head = f"{data['scene']}: {len(data['surfaces'])} surfaces, {length['cut']:.0f} mm of passes"
+    head = f"{data['scene']}: {counted(len(data['surfaces']), 'surface')}, {length['cut']:.0f} mm of passes"
     if "gouge" in data:
         gouge = data["gouge"]
         sure = f"proven: no move deeper than {gouge['max_mm']} mm in a surface"
-        proven = f"{gouge['count']} moves not proven" if gouge["count"] else sure
-        head += f", {data['retracts']} retracts, {minutes_words(data['time_s'])} min; {proven}"
+        proven = f"{counted(gouge['count'], 'move')} not proven" if gouge["count"] else sure
+        head += f", {counted(data['retracts'], 'retract')}, {minutes_words(data['time_s'])} min; {proven}"
         if data["left"] is not None:
             head += f"; {data['left']['reachable_mm2']:.3f} mm2 left within reach"
     yield head
@@ -271,6 +272,6 @@ def _summary(data: Json) -> Iterator[str]:
         met = ", ".join(f"{count} {kind}" for kind, count in each["path"]["boundary_points"].items() if count)
         name = f" {each['name']}" if each["name"] else ""
         yield (
-            f"  T{each['tool']} {each['kind']} {each['diameter_mm']:g} mm{name}: {each['planes']} planes, "
+            f"  T{each['tool']} {each['kind']} {each['diameter_mm']:g} mm{name}: {counted(each['planes'], 'plane')}, "
             f"{each['path']['points']} points; boundary points: {met or 'none'}"
         )

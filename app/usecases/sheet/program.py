@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.durations import minutes_words
+from ...core.wording import counted
 from ...formats.plot.page import TracedPolyline
 from ...formats.plot.picture import POCKET, RAPID
 from ...formats.sheet.content import SetupPicture, SetupSheet, SheetColumn, SheetFact, SheetProof, SheetTable
@@ -223,8 +224,8 @@ def _proofs(
     programs: tuple[ExaminedProgram, ...], cut: SheetCut | None, why: str, errors: bool
 ) -> Iterator[SheetProof]:
     count = sum(len(each.problems) for each in programs)
-    lines = sum(each.program.line_count for each in programs)
-    yield SheetProof("Its control takes it", f"{count} problems in {lines} lines", not errors and not count)
+    lines = counted(sum(each.program.line_count for each in programs), "line")
+    yield SheetProof("Its control takes it", f"{counted(count, 'problem')} in {lines}", not errors and not count)
     if cut is None:
         yield SheetProof("No gouge, no rapid in metal", why, None)
         return
