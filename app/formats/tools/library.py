@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import MISSING, dataclass, make_dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
@@ -89,6 +90,9 @@ def _entry(tool: Tool) -> Any:
     return _Entry(**values)
 
 
+_REMEMBERED = 16
+"""Libraries."""
+
 _LISTS = (Unit.OUTLINE, Unit.FEEDS)
 _KEYS = sorted(declared_of(Tool), key=lambda key: declared_of(Tool)[key].parameter.unit in _LISTS)
 """Of a [[tool]], in the order in which they are written: what is no list first."""
@@ -124,8 +128,9 @@ def shortest_degrees(angle: float) -> float:
     return next((value for value in near if math.radians(value) == angle), degrees)
 
 
+@lru_cache(maxsize=_REMEMBERED)
 def read_library(name: str, data: bytes) -> ToolLibrary:
-    """Return the library that a TOML text holds.
+    """Return the library that a TOML text holds; those read last are remembered, for each is asked for by many.
 
     Args:
         name: of the file, for errors.

@@ -60,9 +60,11 @@ def _warm(settings: Settings, progress: Progress) -> None:
     from ...core.jit.compiled import Kernel
     from ...core.jit.warm import warm
     from ...drafting.expressions.grammar import read_script
+    from ...formats.tools.library import load_libraries
     from ..views.surfaces import picture_kernels
 
     read_script("")  # a parser is made of the grammar
+    load_libraries()
     sweep(*places(settings))
     for engine in (*_ENGINES, "pyqtgraph"):
         import_module(engine)
