@@ -12,16 +12,29 @@ from ..model.adaptive_operation import AdaptiveOperation
 from ..model.chamfer_operation import ChamferOperation
 from ..model.contour_operation import ContourOperation
 from ..model.curve_selectors import read_selectors
-from ..model.face_operation import FaceOperation
+from ..model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
+from ..model.face_operation import FaceOperation, FacePattern
 from ..model.finding import Finding, FindingKind
 from ..model.hole_operations import BoreOperation, CountersinkOperation, ReamOperation, TapOperation, ThreadOperation
-from ..model.job import Job, Stock
-from ..model.operation import CutParameters, DrillOperation, PocketOperation, RestOperation, Side
+from ..model.job import Copies, Job, OriginXY, OriginZ, Stock
+from ..model.operation import (
+    CutParameters,
+    CutterCompensation,
+    Direction,
+    DrillOperation,
+    Order,
+    PocketOperation,
+    RestOperation,
+    Side,
+)
 from ..model.part import Units
+from ..model.read_options import DrawingOptions
 from ..model.slot_operation import SlotOperation
-from ..model.tool import Tool
+from ..model.thread_sizes import ThreadSize
+from ..model.tool import Tool, ToolMaterial
 from ..model.tool_kind import ToolKind
 from ..model.vcarve_operation import VcarveOperation
+from ..simulation.engines import Engine
 from ..toolpath.feeds.proposal import CutEngagement, FeedProposal
 from ..usecases.advice import AdviceOptions, ToolAdvice
 from ..usecases.batch.task import BatchResult, BatchRow, BatchVerdict
@@ -52,15 +65,23 @@ __all__ = [
     "ChamferOperation",
     "CheckedProgram",
     "ContourOperation",
+    "Copies",
     "CountersinkOperation",
     "CutEngagement",
     "CutMetal",
     "CutOptions",
     "CutParameters",
+    "CutterCompensation",
     "Dialect",
+    "Direction",
+    "DrawingOptions",
     "DrillOperation",
+    "Engine",
+    "Entry",
+    "EntryKind",
     "ExamineOptions",
     "FaceOperation",
+    "FacePattern",
     "FeedProposal",
     "Finding",
     "FindingKind",
@@ -68,11 +89,16 @@ __all__ = [
     "InlayFit",
     "InlayOptions",
     "Job",
+    "Lead",
+    "LeadKind",
     "MachiningOptions",
     "MadeInlay",
     "MadeProgram",
     "MadeSurface",
     "MakeOptions",
+    "Order",
+    "OriginXY",
+    "OriginZ",
     "OutputForm",
     "PocketOperation",
     "Progress",
@@ -86,11 +112,14 @@ __all__ = [
     "SmoothedText",
     "Stepover",
     "Stock",
+    "Tabs",
     "TapOperation",
     "ThreadOperation",
+    "ThreadSize",
     "Tool",
     "ToolAdvice",
     "ToolKind",
+    "ToolMaterial",
     "Units",
     "VcarveOperation",
     "batch",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import closing
 from dataclasses import replace
 
 from ..core.durations import minutes_words
@@ -16,7 +17,7 @@ from .signals import StopFlag, undisturbed
 
 
 def carry_out(arguments: argparse.Namespace, batch: PlannedBatch, what: str, stopped: StopFlag) -> None:
-    """Do what is planned and not done yet.
+    """Do what is planned and not done yet, and let go of its folder.
 
     Args:
         what: the batch is of, in words, such as "parts".
@@ -36,14 +37,15 @@ def carry_out(arguments: argparse.Namespace, batch: PlannedBatch, what: str, sto
         batch.rows[part.place] = result.row
         progress.remark(row_line(result.row))
 
-    try:
-        with lanes_of(arguments, len(batch.pending)) as lanes:
-            share = None if arguments.scheduler else budget_limit() // len(lanes)  # other machines have their own
-            tasks = [replace(part.task, memory=share) for part in batch.pending]
-            BatchRun(tasks, lanes, finished, arguments.limit * 60).run(progress)
-    finally:
-        with undisturbed():
-            batch.store.write_table(batch.rows, batch.outputs, batch.table)
+    with closing(batch.store):
+        try:
+            with lanes_of(arguments, len(batch.pending)) as lanes:
+                share = None if arguments.scheduler else budget_limit() // len(lanes)  # other machines have their own
+                tasks = [replace(part.task, memory=share) for part in batch.pending]
+                BatchRun(tasks, lanes, finished, arguments.limit * 60).run(progress)
+        finally:
+            with undisturbed():
+                batch.store.write_table(batch.rows, batch.outputs, batch.table)
     progress.step(1.0)
 
 

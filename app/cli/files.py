@@ -11,6 +11,8 @@ from pathlib import Path
 from ..core.atomic import sweep
 from ..core.errors import InputError
 from ..core.progress import Progress
+from ..core.wording import either
+from ..formats.sheet import SUFFIXES
 from .output import on_terminal, say, show
 from .signals import StopFlag
 
@@ -59,6 +61,18 @@ def identity(path: Path) -> object:
     except (OSError, ValueError):
         return os.path.realpath(path)
     return (status.st_dev, status.st_ino)
+
+
+def sheet_suffix(option: str, path: Path) -> str:
+    """Return the suffix of a sheet.
+
+    Raises:
+        InputError: it is none of those that sheets have.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise InputError(f"--{option} {path}: a sheet is {either(SUFFIXES)}; change the name")
+    return suffix
 
 
 def shown_progress(quiet: bool, stopped: StopFlag) -> Progress:

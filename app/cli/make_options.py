@@ -9,16 +9,14 @@ from typing import TYPE_CHECKING
 
 from ..core.errors import InputError
 from ..core.input_file import read_input
-from ..core.wording import either
 from ..drafting.expressions.numbers import length
 from ..formats.job.toml import ORIGIN_HELP, StatedOrigin, parse_origin, read_out_units, read_units
 from ..formats.readers import offered_suffixes
-from ..formats.sheet import SUFFIXES
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.job.options import LEAST_PER_CENT, MakeOptions, Stepover
 from .command import OptionParser
-from .files import check_outputs, named_files
+from .files import check_outputs, named_files, sheet_suffix
 from .reading_options import add_reading_options, reading
 from .values import MACHINE_HELP, TOOLS_HELP, join_tolerance, machine_named, number, typed
 
@@ -348,7 +346,7 @@ def make_files(arguments: argparse.Namespace) -> dict[str, Path]:
     outputs = named_files(arguments, "output", "report", "image", "sheet", "write_job")
     if "image" in outputs and outputs["image"].suffix.lower() not in (".svg", ".png"):
         raise InputError(f"--image {outputs['image']}: a picture is .svg or .png; change the name")
-    if "sheet" in outputs and outputs["sheet"].suffix.lower() not in SUFFIXES:
-        raise InputError(f"--sheet {outputs['sheet']}: a sheet is {either(SUFFIXES)}; change the name")
+    if "sheet" in outputs:
+        sheet_suffix("sheet", outputs["sheet"])
     check_outputs(outputs, [*named_files(arguments, "drawing", "job", "template", "tools").values()])
     return outputs

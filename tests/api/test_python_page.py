@@ -7,11 +7,14 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
+from enum import Enum
 from pathlib import Path
 
 import pytest
 
 import app as hitofude
+from app.model.fields import declared_of, parameters_of
+from app.model.operation_kinds import OPERATION_KINDS
 from tests.conftest import ROOT
 
 PAGE = ROOT / "resources" / "docs" / "python.md"
@@ -93,6 +96,14 @@ def test_every_name_is_there_and_no_other() -> None:
         assert getattr(hitofude, name) is getattr(hitofude.api, name)
     with pytest.raises(AttributeError, match="nothing_of_the_kind"):
         hitofude.nothing_of_the_kind  # noqa: B018
+
+
+def test_every_choice_of_an_operation_or_a_tool_is_among_the_names() -> None:
+    defaults = [placed.default for kind in OPERATION_KINDS.values() for placed in parameters_of(kind).values()]
+    defaults += [placed.default for placed in declared_of(hitofude.Tool).values()]
+    choices = {type(default).__name__ for default in defaults if isinstance(default, Enum)}
+    assert "Direction" in choices and "ThreadSize" in choices
+    assert choices <= set(hitofude.api.__all__)
 
 
 def test_what_cannot_be_used_is_told_and_nothing_written(beside: Path) -> None:

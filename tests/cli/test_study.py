@@ -104,3 +104,13 @@ def test_what_cannot_be_studied_is_one_line(
     shown = capsys.readouterr().err
     assert told in shown and shown.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("values", "plotted"), [(("30%", "45%"), ">45%</text>"), (("1.5", "2"), ">2</text>"), (("30%", "2mm"), "")]
+)
+def test_one_number_that_is_varied_is_plotted_against_time(values: tuple[str, ...], plotted: str) -> None:
+    choices = choices_of((StudyAxis("stepover", values),))
+    rows = [BatchRow(choice.name, BatchVerdict.CLEAN, time_s=60.0 + at) for at, choice in enumerate(choices)]
+    page = study_html(choices, rows, [(), ()], "Study").decode()
+    assert ('<svg class="plot"' in page) == bool(plotted) and plotted in page

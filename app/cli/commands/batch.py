@@ -17,10 +17,7 @@ from ..signals import StopFlag
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do what is not done yet and return the exit status: 0 all clean, 1 not all."""
     batch = planned(arguments)
-    try:
-        carry_out(arguments, batch, "parts", stopped)
-    finally:
-        batch.store.close()
+    carry_out(arguments, batch, "parts", stopped)
     if not arguments.quiet:
         tell("\n".join(_summary(batch)))
     return 0 if all(row.verdict is BatchVerdict.CLEAN for row in batch.rows) else 1

@@ -5,11 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...core.errors import HitofudeError, InputError
+from ...core.errors import HitofudeError
 from ...core.input_file import read_input
 from ...core.progress import Progress
-from ...core.wording import either
-from ...formats.sheet import SUFFIXES
 from ...formats.sheet.write import sheet_bytes
 from ...usecases.cutting.cut import cut
 from ...usecases.cutting.ready_setup import SetupRequest, setup_of
@@ -19,7 +17,7 @@ from ...usecases.sheet.program import SheetCut, SheetNotes, program_sheet
 from ..command import CliCommand, OptionParser
 from ..cut_options import add_cut_options, check_cut_arguments
 from ..cut_request import cut_files, examined_programs, requested_look, setup_request
-from ..files import check_outputs, shown_progress
+from ..files import check_outputs, sheet_suffix, shown_progress
 from ..machining_options import add_note_options
 from ..outcome import CommandOutcome
 from ..signals import StopFlag
@@ -38,18 +36,6 @@ def add_sheet_options(parser: OptionParser) -> None:
     )
     add_note_options(parser)
     add_cut_options(parser)
-
-
-def sheet_suffix(option: str, path: Path) -> str:
-    """Return the suffix of a sheet.
-
-    Raises:
-        InputError: it is none of those that sheets have.
-    """
-    suffix = path.suffix.lower()
-    if suffix not in SUFFIXES:
-        raise InputError(f"--{option} {path}: a sheet is {either(SUFFIXES)}; change the name")
-    return suffix
 
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:

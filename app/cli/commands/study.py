@@ -27,10 +27,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
         return {"study.csv": study_csv(choices, rows, files), "study.html": page}
 
     study = planned_parts(arguments, kind, listed(choices, arguments.file), BatchExtras(), table)
-    try:
-        carry_out(arguments, study, "combinations", stopped)
-    finally:
-        study.store.close()
+    carry_out(arguments, study, "combinations", stopped)
     if not arguments.quiet:
         tell(
             "\n".join(

@@ -87,7 +87,8 @@ class SetupSheet:
 
     Attributes:
         title: of the part. program: names of its files, and for which control.
-        verdict: the certificate in a sentence; good: whether the program may run.
+        verdict: the certificate in a sentence; good: whether the program may run; None = nothing counts, but it was not
+            compared with a part, so that nobody can say.
         facts: stock, zero, clamping and the like.
         findings: sentences that count; remarks: others.
         hashes: of drawing, job and each file.
@@ -97,7 +98,7 @@ class SetupSheet:
     title: str
     program: str
     verdict: str
-    good: bool
+    good: bool | None
     picture: SetupPicture
     facts: tuple[SheetFact, ...]
     tables: tuple[SheetTable, ...]

@@ -21,7 +21,7 @@ def sheet_html(sheet: SetupSheet) -> bytes:
     page = _PAGE.format(
         title=escape(sheet.title),
         program=escape(sheet.program),
-        look="good" if sheet.good else "bad",
+        look="open" if sheet.good is None else "good" if sheet.good else "bad",
         verdict=escape(sheet.verdict),
         picture=picture_svg(sheet.picture),
         facts=facts,
@@ -84,8 +84,8 @@ def picture_svg(picture: SetupPicture) -> str:
             f'<rect x="{left:.1f}" y="{above:.1f}" width="{right - left:.1f}" height="{below - above:.1f}" '
             f'stroke="{MUTED}" stroke-dasharray="8 5"/>'
             f'<text x="{(left + right) / 2:.1f}" y="{above - 10:.1f}" text-anchor="middle">{wide}</text>'
-            f'<text x="{right + 12:.1f}" y="{middle:.1f}" text-anchor="middle" '
-            f'transform="rotate(90 {right + 12:.1f} {middle:.1f})">{high}</text>'
+            f'<text x="{right + 22:.1f}" y="{middle:.1f}" text-anchor="middle" '
+            f'transform="rotate(-90 {right + 22:.1f} {middle:.1f})">{high}</text>'
         )
     if picture.zero is not None:
         x, y = (np.array(picture.zero) * (scale, -scale) + shift).tolist()
@@ -140,6 +140,7 @@ h1 { color: var(--ink); font-size: 1.8rem; line-height: 1.15; margin: 0; overflo
 header p { margin: .2rem 0; } h2 { font-size: 1.05rem; margin: 1.1rem 0 .35rem; break-after: avoid; }
 .verdict { margin: .7rem 0; padding: .5rem .8rem; color: #ffffff; font-weight: 700; print-color-adjust: exact; }
 .verdict.good { background: #0b6b4b; } .verdict.bad { background: #b3261e; }
+.verdict.open { background: #8a5a00; }
 section { display: grid; grid-template-columns: 3fr 2fr; gap: 1.4rem; align-items: start; }
 figure { margin: 0; background: #fafaf8; print-color-adjust: exact; } figure svg { display: block; width: 100%; }
 figure text { font-size: 15px; fill: #1e2227; }

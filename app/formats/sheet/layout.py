@@ -152,7 +152,7 @@ class _SheetPages:
         for line in wrapped(sheet.program, self._density.body, INNER)[:2]:
             self._y -= 5.2
             self._write(line, MARGIN, self._y, _Look(self._density.body, colour=MUTED))
-        colour = GOOD if sheet.good else BAD
+        colour = OPEN if sheet.good is None else GOOD if sheet.good else BAD
         self._y -= 11.0
         self._fill((MARGIN, self._y, WIDTH - MARGIN, self._y + 7.6), colour)
         self._write(sheet.verdict, MARGIN + 3, self._y + 2.45, _Look(3.7, bold=True, colour="#FFFFFF"))
@@ -212,7 +212,7 @@ class _SheetPages:
         width, height = f"{stock[2] - stock[0]:.4g}", f"{stock[3] - stock[1]:.4g}"
         pen = Pen(1, INK)
         self._page.words.append(TextLine(width, ((x0 + x1) / 2, above), 2.8, 0.5, lift=0.8, pen=pen))
-        self._page.words.append(TextLine(height, (right, (y0 + y1) / 2), 2.8, 0.5, -math.pi / 2, 0.8, pen))
+        self._page.words.append(TextLine(height, (right, (y0 + y1) / 2), 2.8, 0.5, math.pi / 2, 0.8, pen))
 
     def _zero(self, at: tuple[float, float]) -> None:
         """Draw the program's zero with its axes."""

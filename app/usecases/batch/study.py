@@ -221,16 +221,18 @@ class _Dot:
     clean: bool
 
 
-def _dots(choices: Sequence[StudyChoice], rows: Sequence[BatchRow]) -> Iterator[_Dot]:
+def _dots(choices: Sequence[StudyChoice], rows: Sequence[BatchRow], unit: str) -> Iterator[_Dot]:
     for choice, row in zip(choices, rows, strict=True):
         if row.time_s is not None:
-            yield _Dot(float(choice.values[0]), row.time_s, row.verdict is BatchVerdict.CLEAN)
+            yield _Dot(float(choice.values[0].removesuffix(unit)), row.time_s, row.verdict is BatchVerdict.CLEAN)
 
 
 def _plot(choices: Sequence[StudyChoice], rows: Sequence[BatchRow]) -> str:
     """Return time against the one number that is varied, as SVG; "" where it is not one number."""
+    one = len(choices[0].axes) == 1
+    unit = "%" if all(choice.values[0].endswith("%") for choice in choices) else ""
     try:
-        dots = sorted(_dots(choices, rows), key=lambda dot: dot.value) if len(choices[0].axes) == 1 else []
+        dots = sorted(_dots(choices, rows, unit), key=lambda dot: dot.value) if one else []
     except ValueError:
         dots = []
     if len(dots) < 2 or dots[0].value == dots[-1].value:
@@ -244,13 +246,13 @@ def _plot(choices: Sequence[StudyChoice], rows: Sequence[BatchRow]) -> str:
     line = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(place, dots))
     marks = "".join(
         f'<circle class="{"good" if dot.clean else "warn"}" cx="{x:.1f}" cy="{y:.1f}" r="4">'
-        f"<title>{dot.value:g}: {minutes_words(dot.time_s)} min</title></circle>"
+        f"<title>{dot.value:g}{unit}: {minutes_words(dot.time_s)} min</title></circle>"
         for dot, (x, y) in zip(dots, map(place, dots), strict=True)
     )
     bottom = _HEIGHT - _EDGE
     numbers = (
-        f'<text x="{_EDGE}" y="{_HEIGHT - 14}">{low:g}</text>'
-        f'<text x="{_WIDTH - _EDGE}" y="{_HEIGHT - 14}" text-anchor="end">{high:g}</text>'
+        f'<text x="{_EDGE}" y="{_HEIGHT - 14}">{low:g}{unit}</text>'
+        f'<text x="{_WIDTH - _EDGE}" y="{_HEIGHT - 14}" text-anchor="end">{high:g}{unit}</text>'
         f'<text x="{_WIDTH / 2}" y="{_HEIGHT - 14}" text-anchor="middle">{escape(choices[0].axes[0].option)}</text>'
         f'<text x="{_EDGE}" y="20">{minutes_words(most)} min</text>'
     )

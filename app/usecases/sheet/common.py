@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from ... import __version__
 from ...core.digest import sha256
 from ...core.durations import minutes_words
+from ...core.wording import together
 from ...formats.plot.page import Pen, TracedPolyline
 from ...formats.plot.picture import CONTOUR, LINK, PART, POCKET, RAPID, PicturePathStyle, StyledPath
 from ...formats.sheet.content import SheetColumn, SheetFact, SheetHash, SheetTable
@@ -27,6 +29,9 @@ PENS = {
     RAPID: Pen(1, RAPID.colour, 0.12, (0.5, 1.2)),
 }
 CLAMP_PEN = Pen(1, "#B3261E", 0.4)
+_COMMENT, _OFFSET = re.compile(r"\([^()\n]*\)|;[^\n]*"), re.compile(r"G0*5[4-9](?:\.\d)?(?![\d.])")
+_PLACE = 5e-4
+"""mm; a zero so near to a corner is the corner."""
 _CHORD = 0.02
 """mm; how far chords of the picture may be from arcs."""
 
@@ -59,11 +64,27 @@ def styled(paths: Sequence[StyledPath]) -> tuple[TracedPolyline, ...]:
 
 
 def legend(
-    styles: Iterable[PicturePathStyle], lines: Sequence[TracedPolyline]
+    words: Mapping[PicturePathStyle, str], lines: Sequence[TracedPolyline]
 ) -> tuple[tuple[str, TracedPolyline], ...]:
-    """Return the word of each kind of line that is there, with a line of it."""
-    first = {line.pen: line for line in reversed(lines)}
-    return tuple((style.name, first[PENS[style]]) for style in styles if PENS[style] in first)
+    """Return the word of each kind of line that is seen, with a line of it."""
+    first = {line.pen: line for line in reversed(lines) if np.any(line.points != line.points[0])}
+    return tuple((word, first[PENS[style]]) for style, word in words.items() if PENS[style] in first)
+
+
+def corner_words(right: float, up: float) -> str:
+    """Return where the zero is, mm from the stock's lower left corner."""
+    if abs(right) < _PLACE and abs(up) < _PLACE:
+        return "the stock's lower left corner"
+    across = f"{abs(right):.5g} mm {'right' if right >= 0 else 'left'}"
+    along = f"{abs(up):.5g} mm {'above' if up >= 0 else 'below'}"
+    return f"{across} of and {along} the stock's lower left corner"
+
+
+def offset_fact(texts: Iterable[str]) -> SheetFact:
+    """Return which work offset the zero has to be set in, as programs say."""
+    plain = (_COMMENT.sub("", text.upper()) for text in texts)
+    found = dict.fromkeys(re.sub("G0*", "G", word) for text in plain for word in _OFFSET.findall(text))
+    return SheetFact("Work offset", together(found) or "the program chooses none: that which the control has")
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...core import tolerances
 from ...core.durations import minutes_words
+from ...core.wording import counted
 from ...formats.job.write import job_lines
 from ...formats.plot.picture import CONTOUR, PART, POCKET
 from ...formats.sheet.content import (
@@ -34,8 +35,10 @@ from .common import (
     MADE_BY,
     PENS,
     ToolUse,
+    corner_words,
     hashed,
     legend,
+    offset_fact,
     own_words,
     span_words,
     styled,
@@ -99,7 +102,7 @@ def _picture(made: MakeResult, box: StockBox) -> SetupPicture:
         line for region in program.clamps for each in region.contours for line in traced(contour_rows(each), CLAMP_PEN)
     ]
     x, y, _ = work_origin(made.job, box)
-    words = legend((PART, POCKET, CONTOUR), [*paths, *part])
+    words = legend({PART: PART.name, POCKET: "Clearing", CONTOUR: "Along walls"}, [*paths, *part])
     words += (("Keep-out", clamps[0]),) if clamps else ()
     return SetupPicture((box.x0, box.y0, box.x1, box.y1), (x, y), (*paths, *part, *clamps), words)
 
@@ -108,6 +111,7 @@ def _facts(made: MakeResult, box: StockBox, report: Json) -> list[SheetFact]:
     job = made.job
     wide, high, thick = box.size
     above = f", {job.stock.above:g} mm of it to be faced off above Z 0" if job.stock.above else ""
+    of = f", {job.stock.material}" if job.stock.material else ""
     parts = report["time_parts_s"]
     changes = report["tool_changes"]["count"]
     total = (
@@ -116,10 +120,11 @@ def _facts(made: MakeResult, box: StockBox, report: Json) -> list[SheetFact]:
         f"{minutes_words(parts['wait'])}"
     )
     return [
-        SheetFact("Stock", f"{wide:.4g} x {high:.4g} x {thick:.4g} mm{above}"),
+        SheetFact("Stock", f"{wide:.4g} x {high:.4g} x {thick:.4g} mm{of}{above}"),
         SheetFact("Zero X Y", _zero_words(job, box)),
         SheetFact("Zero Z", _zero_z_words(job, box)),
         *zero_note(job.zero_note),
+        offset_fact(file.nc.text for file in made.files),
         SheetFact("Clamping", _clamping(made, box)),
         SheetFact("Clearance height", f"{job.travel_z:g} mm above the stock's top"),
         SheetFact("Total time", total),
@@ -128,13 +133,10 @@ def _facts(made: MakeResult, box: StockBox, report: Json) -> list[SheetFact]:
 
 def _zero_words(job: Job, box: StockBox) -> str:
     x, y, _ = work_origin(job, box)
-    right, up = x - box.x0, y - box.y0
     if job.origin_xy is OriginXY.LOWER_LEFT:
         return "lower left corner of the stock"
     where = "centre of the stock" if job.origin_xy is OriginXY.CENTRE else "the drawing's zero"
-    across = f"{abs(right):.5g} mm {'right' if right >= 0 else 'left'}"
-    along = f"{abs(up):.5g} mm {'above' if up >= 0 else 'below'}"
-    return f"{where}: {across} of and {along} the stock's lower left corner"
+    return f"{where}: {corner_words(x - box.x0, y - box.y0)}"
 
 
 def _zero_z_words(job: Job, box: StockBox) -> str:
@@ -221,9 +223,13 @@ def _operation_row(made: MakeResult, number: int, index: int) -> tuple[str, ...]
     tool = job.tool(operation.cut.tool)
     left = f", {told['stock_to_leave_mm']:g} mm left on walls" if told.get("stock_to_leave_mm") else ""
     curves = f" of {', '.join(told['curves'])}" if told.get("curves") else ""
+    count = _holes(moves, index) if operation.HOLES else 0
+    size = f" {told['thread']}" if told.get("thread") else ""
+    size += f" Ø {told['diameter_mm']:g}" if told.get("diameter_mm") else ""
+    size += f", {counted(count, 'hole')}" if count else ""
     return (
         str(number),
-        f"{operation.WORD.capitalize()}{curves}{left}",
+        f"{operation.WORD.capitalize()}{size}{curves}{left}",
         str(tool.number),
         "to Z 0" if operation.FACES else _length(told.get("depth_mm")),
         _length(told.get("stepdown_mm")),
@@ -232,6 +238,13 @@ def _operation_row(made: MakeResult, number: int, index: int) -> tuple[str, ...]
         span_words(moves.feed[moves.operation == index]),
         minutes_words(told["time_s"]),
     )
+
+
+def _holes(moves: Moves, index: int) -> int:
+    """Return how many holes an operation makes, where it goes straight up and down in each; 0 = nobody can tell."""
+    cuts = (moves.operation == index) & (moves.kind != MoveKind.RAPID)
+    start, end = np.round(moves.start[cuts, :2], 4), np.round(moves.end[cuts, :2], 4)
+    return len(np.unique(end, axis=0)) if np.array_equal(start, end) else 0
 
 
 def _length(value: float | None) -> str:

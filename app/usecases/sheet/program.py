@@ -21,7 +21,20 @@ from ..cutting.cut import CutProgram
 from ..cutting.ready_setup import ReadySetup
 from ..cutting.report import CutReport
 from ..examine import CONTROLS, ExaminedProgram
-from .common import MADE_BY, PENS, ToolUse, hashed, legend, own_words, span_words, tool_table, traced, zero_note
+from .common import (
+    MADE_BY,
+    PENS,
+    ToolUse,
+    corner_words,
+    hashed,
+    legend,
+    offset_fact,
+    own_words,
+    span_words,
+    tool_table,
+    traced,
+    zero_note,
+)
 
 Json = dict[str, Any]
 
@@ -64,14 +77,15 @@ def program_sheet(
     found = cut.report.findings if cut else ()
     counting = (*problems, *(finding.text for finding in found if finding.counts))
     control = CONTROLS[programs[0].read.dialect.value]
-    good = not counting and cut is not None
+    texts = [data.decode("latin-1") for what, data in files.items() if what.startswith(_PROGRAM)]
+    known = cut is not None and cut.done.judgement is not None
     return SetupSheet(
         title=programs[0].name,
         program=f"{', '.join(each.name for each in programs)} · as {control} reads it",
         verdict=_verdict(len(counting), cut),
-        good=good,
+        good=False if counting else True if known else None,
         picture=_picture(programs, cut),
-        facts=tuple(_facts(programs, cut, notes)),
+        facts=tuple(_facts(programs, texts, cut, notes)),
         tables=(*([_tools(cut)] if cut else []), _runs(programs)),
         proofs=tuple(_proofs(programs, cut, why, errors)),
         findings=counting[:_COUNTING],
@@ -82,6 +96,8 @@ def program_sheet(
 
 
 _COUNTING, _REMARKS = 12, 6
+_PROGRAM = "program "
+"""What the names of files that are programs begin with."""
 
 
 def _verdict(count: int, cut: SheetCut | None) -> str:
@@ -100,7 +116,7 @@ def _picture(programs: tuple[ExaminedProgram, ...], cut: SheetCut | None) -> Set
     rapids = [line for each in programs for line in _lines(each.program.motions, rapid=True)]
     lines = (*rapids, *cuts)
     box = None if cut is None else cut.done.setup.stock.box
-    words = tuple(("Cut" if word == POCKET.name else word, line) for word, line in legend((POCKET, RAPID), lines))
+    words = legend({POCKET: "Cut", RAPID: RAPID.name}, lines)
     return SetupPicture(None if box is None else (box[0], box[1], box[2], box[3]), (0.0, 0.0), lines, words)
 
 
@@ -116,7 +132,9 @@ def _lines(motions: Motions, rapid: bool) -> Iterator[TracedPolyline]:
             yield TracedPolyline(pen, spline_points(spline)[:, :2])
 
 
-def _facts(programs: tuple[ExaminedProgram, ...], cut: SheetCut | None, notes: SheetNotes) -> Iterator[SheetFact]:
+def _facts(
+    programs: tuple[ExaminedProgram, ...], texts: list[str], cut: SheetCut | None, notes: SheetNotes
+) -> Iterator[SheetFact]:
     boxes = [each.cut_box for each in programs]
     low = np.fmin.reduce([box.low for box in boxes])
     high = np.fmax.reduce([box.high for box in boxes])
@@ -127,14 +145,13 @@ def _facts(programs: tuple[ExaminedProgram, ...], cut: SheetCut | None, notes: S
         data = cut.report.data["stock"]
         size = np.array(data["high"]) - np.array(data["low"])
         yield SheetFact("Stock", f"{size[0]:.4g} x {size[1]:.4g} x {size[2]:.4g} mm ({data['from']})")
-        x, y, top = -data["low"][0], -data["low"][1], data["high"][2]
-        across = f"{abs(x):.5g} mm {'right' if x >= 0 else 'left'}"
-        along = f"{abs(y):.5g} mm {'above' if y >= 0 else 'below'}"
-        yield SheetFact("Zero X Y", f"{across} of and {along} the stock's lower left corner")
+        top = data["high"][2]
+        yield SheetFact("Zero X Y", corner_words(-data["low"][0], -data["low"][1]))
         height = "top of the stock" if top == 0 else f"{abs(top):.4g} mm {'below' if top > 0 else 'above'} its top"
         yield SheetFact("Zero Z", height)
         held.append(_clamping(low[2], data["low"][2], bool(held)))
     yield from zero_note(notes.zero)
+    yield offset_fact(texts)
     if held:
         yield SheetFact("Clamping", " ".join(held))
     sides = zip("XYZ", low, high, strict=True)

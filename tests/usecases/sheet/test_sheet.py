@@ -24,11 +24,16 @@ from app.formats.sheet.layout import HEIGHT, MARGIN, WIDTH
 from app.formats.sheet.write import sheet_bytes
 from app.geometry.transform import Similarity
 from app.model.contour_operation import ContourOperation
+from app.model.curve_selectors import read_selectors
 from app.model.finding import Finding, FindingKind
+from app.model.hole_operations import TapOperation
 from app.model.job import Job, OriginXY, OriginZ, Stock
-from app.model.operation import CutParameters, PocketOperation, Side
+from app.model.operation import CutParameters, DrillOperation, PocketOperation, Side
+from app.model.thread_sizes import ThreadSize
 from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.usecases.making.make import MakeResult, export
+from app.usecases.sheet.common import offset_fact
 from app.usecases.sheet.made import made_sheet
 from tests.formats.pdf_words import pdf_objects, pdf_pages
 
@@ -65,6 +70,8 @@ def test_it_says_how_the_stock_lies(sheet: SetupSheet) -> None:
     assert facts["Stock"] == "70 x 50 x 12 mm"
     assert facts["Zero X Y"] == "the drawing's zero: 5 mm right of and 5 mm above the stock's lower left corner"
     assert facts["Zero Z"] == "top of the stock"
+    assert facts["Work offset"] == "G54"
+    assert [word for word, _ in sheet.picture.legend] == ["Part", "Clearing", "Along walls"]
     assert "Deepest cut 3 mm below Z 0; jaws may reach up to 9 mm above the underside" in facts["Clamping"]
     assert sheet.picture.stock == (-5.0, -5.0, 65.0, 45.0) and sheet.picture.zero == (0.0, 0.0)
 
@@ -77,6 +84,32 @@ def test_zeros_elsewhere_and_cuts_through(job: Job) -> None:
     assert facts["Zero Z"] == "underside of the stock"
     assert "Cuts reach the underside: put waste under it" in facts["Clamping"]
     assert "No tab holds what is cut out" in facts["Clamping"]
+
+
+def test_who_runs_it_is_told_of_what_and_how_many_holes(job: Job) -> None:
+    part = read_drawing("plate.draw", b"rect 0,0 60,40\ncircle 10,20 2.5\ncircle 40,20 2.5\n").part
+    hole, tap = CutParameters(1, depth=6, curves=read_selectors("circles:5")), Tool(2, 6.0, ToolKind.TAP)
+    drills = (DrillOperation(hole, peck=2.0), TapOperation(replace(hole, tool=2), thread=ThreadSize.M6))
+    drilled = replace(
+        job,
+        part=part,
+        tools=(Tool(1, 5.0, ToolKind.DRILL), tap),
+        operations=drills,
+        stock=replace(job.stock, material="brass"),
+    )
+    sheet = made_sheet(export(drilled), Path("a.ngc"), {})
+    facts = {fact.label: fact.text for fact in sheet.facts}
+    assert facts["Stock"] == "70 x 50 x 12 mm, brass"
+    assert cells(sheet, 1, "Operation") == ["Drill, 2 holes of circles:5", "Tap M6, 2 holes of circles:5"]
+    assert [word for word, _ in sheet.picture.legend] == ["Part"], "nothing else is seen from above"
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [("N10 g054\n(G55)\nG59.1 ; G56\n", "G54 and G59.1"), ("G540 G5.4\n", "the program chooses none")],
+)
+def test_work_offsets_are_those_of_the_code_and_not_of_its_comments(text: str, told: str) -> None:
+    assert offset_fact([text]).text.startswith(told)
 
 
 def test_its_figures_are_those_of_the_report(sheet: SetupSheet, made: MakeResult) -> None:
