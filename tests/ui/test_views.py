@@ -40,8 +40,9 @@ def test_view_that_is_left_fades_and_is_gone_soon(qtbot, views):
 
 
 def test_what_is_fitted_keeps_clear_of_the_legend(qtbot, views):
-    views.canvas.fit_to((0.0, 0.0, 200.0, 50.0))
+    views.show_view(View.PATHS)
     views.show_missing("", "", shows_paths=True)
+    views.canvas.fit_to((0.0, 0.0, 200.0, 50.0))
     right = views.canvas.view.to_screen((200.0, 0.0)).x()
     assert right < views.width() - views.legend.width()
 
