@@ -75,6 +75,7 @@ def test_a_part_is_fitted_into_the_middle_of_what_is_free(qtbot, wiring):
         return middle - (canvas.area.left() + free_right) / 2
 
     wiring.run("rect 0,0 80,50")
+    qtbot.waitUntil(lambda: canvas.picture.box is not None, timeout=WAIT_MS)
     canvas.fit()
     assert off_centre(canvas.area.right()) == pytest.approx(0.0, abs=1.0)
     wiring.display_controller.show_view(View.PATHS)

@@ -18,7 +18,7 @@ from app.ui.framework.view import View
 from app.ui.views.stages.code_colours import step_colours
 from app.ui.views.stages.film_player import SPEEDS
 from app.ui.views.stages.painting.pixel_painter import LETTER_PX, RASTER_PX
-from app.ui.views.stages.panel import BY_THE_RULE, FillRules
+from app.ui.views.stages.panel import BY_THE_RULE, FillRules, StagesPanel
 from app.ui.views.stages.step_notes import note
 from tests.ui.conftest import WAIT_MS
 from tests.ui.fields_typed import enter
@@ -352,8 +352,10 @@ def test_what_gets_no_path_is_said(qtbot, staged):
 
 
 def test_a_job_that_chooses_curves_is_shown_by_the_rule_of_1986(qtbot, wiring):
+    new = StagesPanel()
+    qtbot.addWidget(new)
+    assert new.points.value == 400.0 and new.pitch.isHidden(), "before the first film"
     panel = wiring.window_.stages_panel
-    assert panel.points.value == 400.0 and panel.pitch.isHidden(), "before the first film"
     wiring.run("rect 0,0 30,20")
     wiring.run("circle 9,8 3")
     qtbot.waitUntil(lambda: len(wiring.document.part.entities) == 5, timeout=WAIT_MS)
