@@ -206,7 +206,7 @@ CONTOUR = "[[operation]]\nkind = 'contour'\ntool = 1\n"
         ),
         (
             "[[operation]]\nkind = 'contour'\ntool = 1\nside = 'left'",
-            "j:4: side is 'left': 'left' is no side; use inside or outside or on",
+            "j:4: side is 'left': 'left' is no side; use inside, outside or on",
         ),
         (
             "[[operation]]\nkind = 'contour'\ntool = 1\nside = 'on'\ndog_bones = true",
