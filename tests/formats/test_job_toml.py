@@ -172,7 +172,7 @@ CONTOUR = "[[operation]]\nkind = 'contour'\ntool = 1\n"
         ("[stock]\nthick = 1", "j:2: thick is no key of [stock]; use margin, thickness"),
         ("[stock]\nmargin = -1", "j:1: Stock margin is -1 mm"),
         ("[stock]\nmargin = '3'", "j:2: margin is '3': it must be a number"),
-        ("[origin]\n\nxy = 'left'", "j:3: xy is 'left': 'left' is no origin in the plane; use drawing or lower-left"),
+        ("[origin]\n\nxy = 'left'", "j:3: xy is 'left': 'left' is no origin in the plane; use drawing, lower-left"),
         ("[heights]\nsafe_z = nan", "safe_z is nan: it must be a number up to"),
         ("[drawing]\nlayers = 'a'", "j:2: layers is 'a': it must be a list of texts"),
         ("[drawing]\njoin_tolerance = -1", "j:2: join_tolerance must be 0 or more"),
@@ -206,7 +206,7 @@ CONTOUR = "[[operation]]\nkind = 'contour'\ntool = 1\n"
         ),
         (
             "[[operation]]\nkind = 'contour'\ntool = 1\nside = 'left'",
-            "j:4: side is 'left': 'left' is no side; use inside or outside or on",
+            "j:4: side is 'left': 'left' is no side; use inside, outside or on",
         ),
         (
             "[[operation]]\nkind = 'contour'\ntool = 1\nside = 'on'\ndog_bones = true",
