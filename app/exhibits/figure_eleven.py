@@ -20,8 +20,7 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..core.wording import together
 from ..simulation.cutter import Cutter
 from ..simulation.engines import Graphics
-from ..simulation.field.differences import HeightDifference, height_difference
-from ..simulation.field.workpiece import Grid, Heights, StockShape, Workpiece
+from ..simulation.field.workpiece import Grid, HeightDifference, Heights, StockShape, Workpiece, height_difference
 from ..simulation.gpu.depth_buffer import DepthBuffer, published
 from ..simulation.gpu.graphics import is_software, renderer_of
 from ..simulation.gpu.polyhedron import facet_error, is_ball

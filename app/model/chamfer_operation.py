@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import Enum
 
 from ..core.errors import ParameterError
 from .fields import Unit, check_ranges, parameter
-from .operation import SIDE, CarvingCone, Operation, Side
+from .operation import SIDE, CarvingCone, Operation, Side, SideStrip
 from .tool import Tool
 from .tool_kind import ToolKind
 
 _AS_DEEP = 1e-6
 """mm; a chamfer that a cone makes is as deep as told when it differs by less."""
+
+_BESIDE = 1.0
+"""mm that the area beside an open line is wider than the cutter is at the surface."""
 
 _TOUCHING = 1e-4
 """mm; walls that a ball is nearer to than its distance from them by less are touched by it."""
@@ -59,6 +63,14 @@ class ChamferBall:
         return self.radius - self.above
 
 
+class OpenSide(Enum):
+    """On which side of open lines, as they are drawn, the cutter is; the edge that it breaks is on the other side."""
+
+    NONE = "none"
+    LEFT = "left"
+    RIGHT = "right"
+
+
 @dataclass(frozen=True, slots=True)
 class ChamferOperation(Operation):
     """Break the edges along contours with the flank of a V cutter or with a ball; a narrow one deburrs."""
@@ -98,6 +110,16 @@ class ChamferOperation(Operation):
         option=True,
         auto="as wide, or by the cone",
     )
+    open_side: OpenSide = parameter(
+        OpenSide.NONE,
+        "open_side",
+        "Side of open lines",
+        "break the edges of open lines, and of no closed contours, with the cutter on this side of them, seen in the "
+        "direction in which they are drawn",
+        Unit.CHOICE,
+        option=True,
+        choices=("Closed contours", "Left", "Right"),
+    )
 
     WORD = "chamfer"
     CARVES = True
@@ -114,8 +136,21 @@ class ChamferOperation(Operation):
 
     @property
     def wall_side(self) -> Side | None:
-        """On which side of the drawn lines its cutter is."""
-        return self.side
+        """On which side of what bounds its area its cutter is."""
+        return Side.INSIDE if self.takes_open else self.side
+
+    @property
+    def takes_open(self) -> bool:
+        """Whether it breaks the edges of open lines, and of these alone."""
+        return self.open_side is not OpenSide.NONE
+
+    def beside_open(self, tool: Tool) -> SideStrip | None:
+        """Return the area beside open lines that it machines: so wide that nothing else bounds its way."""
+        if not self.takes_open:
+            return None
+        ball = self.ball(tool)
+        off = tool.tip_diameter / 2 + self.tip_offset * math.tan(tool.tip_angle / 2) if ball is None else ball.off
+        return SideStrip(self.open_side is OpenSide.LEFT, 2 * (off + self.width) + _BESIDE)
 
     @property
     def over_edge(self) -> float:

@@ -49,6 +49,19 @@ class Side(Enum):
     ON = "on"
 
 
+@dataclass(frozen=True, slots=True)
+class SideStrip:
+    """An area along open lines.
+
+    Attributes:
+        left: it lies on their left, as they are drawn; else on their right.
+        reach: how far it goes, mm.
+    """
+
+    left: bool
+    reach: float
+
+
 class CutterCompensation(Enum):
     """Who offsets a contour to its side: the program alone, also the control by the wear in the tool's register, or
     the control alone, by the tool's whole radius.
@@ -280,6 +293,15 @@ class Operation:
     def wall_side(self) -> Side | None:
         """On which side of the drawn lines its cutter is; None where these are no walls to it."""
         return Side.INSIDE
+
+    @property
+    def takes_open(self) -> bool:
+        """Whether it machines open lines."""
+        return self.wall_side is Side.ON
+
+    def beside_open(self, tool: Tool) -> SideStrip | None:
+        """Return the area beside open lines that it machines; None where closed contours bound its areas."""
+        return None
 
     @property
     def follows_lines(self) -> bool:

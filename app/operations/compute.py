@@ -103,8 +103,8 @@ def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
 
 
 def followed_lines(job: Job, parts: DrawnContours) -> tuple[Contour, ...]:
-    """Return the open lines that some operation follows."""
-    cuts = [each.cut for each in job.operations if each.wall_side is Side.ON and each.cut.enabled]
+    """Return the open lines that some operation machines."""
+    cuts = [each.cut for each in job.operations if each.takes_open and each.cut.enabled]
     followed = {id(line) for cut in cuts for line in selected(parts, cut.curves).open}
     return tuple(line for line in parts.open if id(line) in followed)
 
@@ -136,9 +136,10 @@ def _only_followed(job: Job, parts: DrawnContours) -> set[int]:
     numbers: dict[bool, set[int]] = {True: set(), False: set()}
     for operation in at_work:
         found = selected(parts, operation.cut.curves)
-        contours = (*found.closed, *found.open) if operation.wall_side is Side.ON else found.closed
+        contours = found.closed if not operation.takes_open or operation.wall_side is Side.ON else ()
+        contours += found.open if operation.takes_open else ()
         if not operation.HOLES:
-            numbers[operation.wall_side is Side.ON].update(n for each in contours for n in each.entity_ids)
+            numbers[operation.takes_open].update(n for each in contours for n in each.entity_ids)
     return numbers[True] - numbers[False]
 
 

@@ -19,8 +19,7 @@ from ..core.errors import HitofudeError
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.motion import Floats
 from .cutter import Cutter
-from .field.differences import TOLERANCE, HeightDifference, height_difference, lowest_nearby
-from .field.workpiece import Heights, Workpiece
+from .field.workpiece import TOLERANCE, HeightDifference, Heights, Workpiece, height_difference, lowest_nearby
 from .gpu.graphics import has_device, is_software, renderer_of, standalone_context
 from .sweeps.course import Course
 from .trial import CUTTERS, record, trial, tried

@@ -14,8 +14,7 @@ from ..fitting.fitted import arcs_between
 from ..model.motion import Floats
 from ..model.stock_box import StockBox
 from .cutter import Cutter
-from .field.differences import TOLERANCE, HeightDifference, height_difference
-from .field.workpiece import BoxStock, Grid, Heights, Workpiece
+from .field.workpiece import TOLERANCE, BoxStock, Grid, HeightDifference, Heights, Workpiece, height_difference
 from .sweeps.course import Course
 from .sweeps.trim import trim
 

@@ -265,8 +265,9 @@ def _copies_meet(contours: Sequence[Contour], job: Job) -> list[Finding]:
     """Return the finding that lines of copies meet, if some do; copies that reach into one another without touching are
     none.
     """
-    box, copies = extent(contours), job.copies
-    if box is None or len(copies.shifts) == 1:
+    copies = job.copies
+    box = extent(contours) if len(copies.shifts) > 1 else None
+    if box is None:
         return []
     lines = shapely.union_all([shapely.boundary(shape) for shape in filled(contours)])
     shapely.prepare(lines)
@@ -398,8 +399,8 @@ def _not_taken(operation: Operation) -> tuple[Enum, ...]:
 
 def _usable(operation: Operation, found: SelectedCurves) -> bool:
     """Tell whether an operation can machine something of what was found."""
-    if operation.wall_side is Side.ON:
-        return bool(found.closed or found.open)
+    if operation.takes_open:
+        return bool(found.open or (found.closed and operation.wall_side is Side.ON))
     if operation.HOLES:
         return any(as_circle(each) is not None for each in found.closed)
     return bool(found.closed)

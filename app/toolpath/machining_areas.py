@@ -27,13 +27,14 @@ from ..model.entry import Lead
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.moves import Area
-from ..model.operation import Direction, HoleOperation, Operation, Side
+from ..model.operation import Direction, HoleOperation, Operation, Side, SideStrip
 from ..model.part import Contour, Region
 from ..model.stock_box import extent
 from .drawn_contours import DrawnContours, selected
 from .drill_holes import CircleHole, circle_of, hole_regions, made_by_drills
 from .leads.contour_path import ContourPath
 from .leads.lead import lead_size, straight_way
+from .open_strips import strips
 from .witness import grown_findings, region_findings
 
 _ON_CLAMP = 2e-5
@@ -106,12 +107,14 @@ class _AreaKey:
     Attributes:
         width: of slots along the lines, mm; 0 = the lines bound it.
         past: how far it goes past the stock's edges where walls lie on them, mm; 0 = these are walls.
+        strip: that it is beside open lines.
     """
 
     curves: frozenset[Selector]
     side: Side
     width: float = 0.0
     past: float = 0.0
+    strip: SideStrip | None = None
 
 
 @dataclass
@@ -132,9 +135,11 @@ class MachiningAreas:
         tool, side = self.job.tool(operation.cut.tool), operation.wall_side or Side.INSIDE
         width = operation.line_width(tool) or 0.0
         width = width if width > tool.diameter + _SAME else 0.0
-        key = _AreaKey(frozenset(operation.cut.curves), side, width, self._past(operation))
+        strip = operation.beside_open(tool)
+        key = _AreaKey(frozenset(operation.cut.curves), side, width, self._past(operation), strip)
         if key not in self._made:
-            self._made[key] = self._slots(key) if key.width else self._sheet(key)
+            made = self._beside_lines(key, strip) if strip else self._slots(key) if key.width else self._sheet(key)
+            self._made[key] = made
         return self._made[key]
 
     def areas(self) -> tuple[Area, ...]:
@@ -193,7 +198,7 @@ class MachiningAreas:
     @cached_property
     def stock(self) -> BoxSides | None:
         """The sides of the stock, mm; None where nothing is drawn."""
-        followed = [each.cut.curves for each in self.job.operations if each.wall_side is Side.ON and each.cut.enabled]
+        followed = [each.cut.curves for each in self.job.operations if each.takes_open and each.cut.enabled]
         lines = [line for curves in followed for line in selected(self.drawn, curves).open]
         box = extent((*self.drawn.closed, *lines))
         return None if box is None else BoxSides(*box).grown(self.job.stock.margin)
@@ -214,6 +219,17 @@ class MachiningAreas:
         outlines = tuple(c for region in self.drawn.clamps for c in region.contours)
         walls = DistanceField.of(primitives.rows)
         return MachiningArea(nesting.regions, primitives, walls, lies_on(primitives, outlines), (), outlines)
+
+    def _beside_lines(self, key: _AreaKey, strip: SideStrip) -> MachiningArea | None:
+        """Return what lies on one side of open lines, without what clamps hold."""
+        found = strips(selected(self.drawn, tuple(key.curves)).open, strip)
+        regions = self._regions(found.contours)
+        if not regions:
+            return None
+        primitives = pack(regions)
+        outlines = (*(c for region in self.drawn.clamps for c in region.contours), *found.bare)
+        walls = DistanceField.of(primitives.rows)
+        return MachiningArea(regions, primitives, walls, lies_on(primitives, outlines), (), outlines)
 
     def _milled(self, contours: Sequence[Contour]) -> list[Contour]:
         """Return contours but for the circles that drills make."""

@@ -15,7 +15,7 @@ from ..model.reading import ReadingOptions
 from ..model.tool import Tool
 from ..operations.compute import regions_of
 from ..toolpath.advice.advise import Advice, CuttingPlan, RegionAdvice, ToolChoice, advise, standard_tools
-from .job.layers import with_layers_spelled
+from .job.options import with_layers_spelled
 from .job.plausible import read_plausible
 
 Json = dict[str, Any]

@@ -242,7 +242,8 @@ class _Elements:
         before = rows[walls.previous]
         into, out = _normals(before, before[:, 2:4]), _normals(rows, rows[:, :2])
         turn = np.arctan2(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], np.einsum("ni,ni->n", into, out))
-        reflex = turn < -_EMPTY
+        # a row without one before it, as where something else bounds the area, begins at no corner
+        reflex = (turn < -_EMPTY) & (walls.previous != np.arange(len(rows)))
         angle = np.arctan2(into[reflex, 1], into[reflex, 0])
         corners = np.column_stack([rows[reflex, :2], angle, turn[reflex]])
         return _Elements(rows, corners, np.concatenate([walls.region, walls.region[reflex]]))

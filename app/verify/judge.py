@@ -22,7 +22,7 @@ from ..simulation.field.target import MARGIN, TargetHeights, by_strips, frozen, 
 from ..simulation.field.workpiece import Grid, Heights, StockShape, Workpiece
 from ..simulation.sweeps.course import Rapids, TrimOptions
 from ..simulation.sweeps.pieces import helix_chord
-from ..simulation.sweeps.reach import reach_of, reachable
+from ..simulation.sweeps.probe import reach_of, reachable
 from ..simulation.sweeps.trim import CutResult
 from ..toolpath.coverage.coverage import UncutPlace
 from .exact import ExactDeviations

@@ -22,9 +22,8 @@ from ..model.moves import Area, DogBone, Moves, Program, Tab
 from ..model.part import Contour, Region
 from ..model.stock_box import StockBox, extent
 from ..model.tool import ToolKind
-from ..simulation.field.outline import beside, inside
 from ..simulation.field.solid import SolidStock
-from ..simulation.field.target import MARGIN, TargetHeights
+from ..simulation.field.target import MARGIN, TargetHeights, beside, inside
 from ..simulation.field.workpiece import Grid
 from ..toolpath.build import MovesBuilder
 from ..toolpath.coverage.areas import grown, region_shapes, united

@@ -36,13 +36,13 @@ void main() {
     colour = vec4(texture(picture, at).rgb, 1.0);
 #ifdef LINES
     // a loop, as a software renderer goes through the body of an `if` for all pixels, but through none of a loop's
-    int more = texture(uneven, at).r > 0.5 ? 2 : 0;
+    int more = texture(uneven, at).r > 0.5 ? 4 : 0;
     float lines = 0.0;
     for (int k = 0; k < more; ++k) {
         colour.rgb = texture(finer, at).rgb;
-        lines += smoothstep(0.3, 0.9, stands_out(2 * ivec2(gl_FragCoord.xy) + k));
+        lines += smoothstep(0.3, 0.9, stands_out(2 * ivec2(gl_FragCoord.xy) + ivec2(k & 1, k >> 1)));
     }
-    colour.rgb = mix(colour.rgb, edge, 0.5 * line_share * lines);
+    colour.rgb = mix(colour.rgb, edge, 0.25 * line_share * lines);
 #endif
     gl_FragDepth = texture(depths, at).r;
 }

@@ -105,7 +105,7 @@ def test_unknown_post_names_the_known_ones() -> None:
         (
             'dialect = "linuxcnc"',
             'dialect = "okuma"',
-            "mill.toml: dialect is 'okuma'; expected is 'linuxcnc' or 'grbl'",
+            "mill.toml: dialect is 'okuma'; expected is 'linuxcnc', 'grbl'",
         ),
         ("X = 4", "X = 9", "mill.toml: decimals.mm.X is 9; expected is a number from 0 to 6"),
         ("I = 4", "I = 3", "mill.toml: decimals.mm must be alike"),

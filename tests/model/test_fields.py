@@ -34,7 +34,7 @@ from app.model.operation_kinds import register
 from app.model.part import Part
 from app.model.tool import FeedRow, Tool, ToolKind, ToolMaterial
 from app.usecases.job.options import job_with_options
-from app.usecases.making.report_path import _parameters
+from app.usecases.making.report import _parameters
 from app.usecases.manual.parameter_table import parameter_table
 from tests.gcode.programs import job, two_tools
 

@@ -10,8 +10,9 @@ import pytest
 from app.core.errors import ParameterError
 from app.core.progress import NO_PROGRESS
 from app.geometry.distance import DistanceField
+from app.geometry.offset.offset import offset_levels
 from app.geometry.outlines import nested, polygon_contour
-from app.geometry.primitives import pack
+from app.geometry.primitives import pack, within_half_turn
 from app.model.finding import FindingKind
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program
@@ -21,7 +22,7 @@ from app.model.vcarve_operation import VcarveOperation
 from app.operations.compute import compute
 from app.operations.vcarve.branches import AxisBranch
 from app.operations.vcarve.graph import graph_of, prune, trails
-from app.operations.vcarve.paths import VCutter, carved, nearest_next
+from app.operations.vcarve.paths import RIDGE, VCutter, carved, floor_corners, nearest_next
 from tests.part_shapes import circle, layered_part, square
 
 RIGHT = math.radians(90)
@@ -162,3 +163,31 @@ def test_ends_that_are_a_little_apart_are_one_node() -> None:
 
     graph = graph_of([way((0, 0), (5, 0)), way((5 + 8e-6, 0), (9, 0)), way((5 + 3e-5, 0), (5, 7))])
     assert graph.ends == [(0, 1), (1, 2), (3, 4)] and graph.at == [[0], [0, 1], [1], [2], [2]]
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.4])
+def test_no_ridge_is_higher_than_told_where_the_flat_tool_does_not_reach(turn: float) -> None:
+    """Each place of the floor is within half a step of the cone's ways, or within the reach of the flat tool."""
+    corners = np.array([(0, 0), (40, 0), (40, 9), (26, 12), (40, 15), (40, 30), (0, 30), (0, 16), (14, 14), (0, 11)])
+    turned = corners @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+    walls = pack(nested([polygon_contour([(x, y) for x, y in turned.tolist()])]).regions)
+    cone, depth, flat = VCutter(0.0, 1.0, 20.0), 1.0, 3.0
+    made = floor_corners(walls, cone, depth, flat, NO_PROGRESS)
+    field = DistanceField.of(walls.rows)
+    low, high = turned.min(axis=0), turned.max(axis=0)
+    places = np.random.default_rng(3).uniform(low, high, (40_000, 2))
+    places = places[field.inside(places)]
+    places = places[field.nearest(places)[0] >= depth]
+    around, level = offset_levels(walls, [depth, depth + flat])
+    beyond = DistanceField.of(within_half_turn(np.concatenate([ring.rows for ring in level.rings])))
+    places = places[~beyond.inside(places)]
+    places = places[beyond.nearest(places)[0] > flat]
+    trails = [
+        np.column_stack([way.discs[:-1, :2], way.discs[1:, :2], np.zeros((len(way.discs) - 1, 4))])
+        for way in made.trails
+    ]
+    ways = DistanceField.of(
+        within_half_turn(np.concatenate([*(ring.rows for ring in (*around.rings, *made.rings)), *trails]))
+    )
+    assert len(places) > 100
+    assert ways.nearest(places)[0].max() <= RIDGE * cone.rate + 1e-3

@@ -20,8 +20,7 @@ from app.core.progress import Progress
 from app.model.motion import Floats, MotionKind, Motions
 from app.model.stock_box import StockBox
 from app.simulation.cutter import Cutter
-from app.simulation.field.differences import lowest_nearby
-from app.simulation.field.workpiece import BoxStock, Grid, Heights, HeightStock, Workpiece
+from app.simulation.field.workpiece import BoxStock, Grid, Heights, HeightStock, Workpiece, lowest_nearby
 from app.simulation.gpu import depth_buffer
 from app.simulation.gpu.depth_buffer import DepthBuffer, usual
 from app.simulation.gpu.polyhedron import facet_error

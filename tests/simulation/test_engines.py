@@ -23,8 +23,7 @@ from app.simulation.engines import (
     quads,
     trial_of,
 )
-from app.simulation.field.differences import TOLERANCE, height_difference
-from app.simulation.field.workpiece import Heights, Workpiece
+from app.simulation.field.workpiece import TOLERANCE, Heights, Workpiece, height_difference
 from app.simulation.gpu.graphics import is_software, standalone_context
 from app.simulation.sweeps.course import Course
 from app.simulation.sweeps.trim import trim

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from app.model.motion import MotionKind, Motions
 from app.simulation.sweeps.course import Course, Rapids, TrimOptions
-from app.simulation.sweeps.superseded import superseded
+from app.simulation.sweeps.sweeps import superseded
 from app.simulation.sweeps.tile_kernels import ASKS, CUTS
 from app.simulation.sweeps.trim import trim
 from tests.examples import examples

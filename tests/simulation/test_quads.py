@@ -18,8 +18,7 @@ from app.core.progress import Progress
 from app.model.motion import Floats, MotionKind, Motions, Plane
 from app.model.stock_box import StockBox
 from app.simulation.cutter import Cutter
-from app.simulation.field.differences import height_difference
-from app.simulation.field.workpiece import BoxStock, Grid, Heights, HeightStock, Workpiece
+from app.simulation.field.workpiece import BoxStock, Grid, Heights, HeightStock, Workpiece, height_difference
 from app.simulation.gpu.graphics import standalone_context
 from app.simulation.gpu.quads import quad_heights
 from app.simulation.sweeps.course import Course

@@ -10,7 +10,7 @@ from app.simulation.cutter import Cutter
 from app.simulation.field.solid import SolidStock
 from app.simulation.field.target import solid_target
 from app.simulation.field.workpiece import Grid
-from app.simulation.sweeps.reach import reach_of, reachable
+from app.simulation.sweeps.probe import reach_of, reachable
 
 TOLERANCE = 0.02
 BALL = Cutter(2.0, fillet=2.0)

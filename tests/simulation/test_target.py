@@ -10,11 +10,10 @@ from hypothesis import strategies as st
 
 from app.simulation.cutter import Cutter
 from app.simulation.field.judge_kernels import MOST_RINGS
-from app.simulation.field.outline import beside, inside
 from app.simulation.field.solid import SolidStock
-from app.simulation.field.target import MARGIN, RIM, cutter_profile, dilated, solid_target
+from app.simulation.field.target import MARGIN, RIM, beside, cutter_profile, dilated, inside, solid_target
 from app.simulation.field.workpiece import Grid
-from app.simulation.sweeps.reach import reach_of, reachable
+from app.simulation.sweeps.probe import reach_of, reachable
 from tests.examples import examples
 from tests.simulation.courses import CUTTERS
 

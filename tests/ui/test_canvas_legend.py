@@ -3,9 +3,13 @@
 from dataclasses import replace
 
 import pytest
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from app.model.job import Job
 from app.model.tool import Tool
+from app.ui.framework.give_way import give_way
+from app.ui.framework.legend import LegendSheet
 from app.ui.framework.samples import PathLineKind
 from app.ui.framework.view import View
 from tests.ui.conftest import WAIT_MS
@@ -24,6 +28,41 @@ def test_a_long_list_of_tools_is_read_whole_in_the_legend(wiring, count):
     row = legend.rows[PathLineKind.POCKET]
     assert row.label.fontMetrics().horizontalAdvance(row.label.text()) <= row.label.width(), row.label.text()
     assert all(f"T{tool.number}" in row.toolTip() for tool in tools)
+
+
+def test_a_legend_folds_where_it_would_hide_the_picture_and_may_be_unfolded_there(qtbot):
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    sheet = LegendSheet(parent, QLabel("Legend"), 180)
+    sheet.add(QLabel("Pocket"))
+    sheet.fit_contents()
+    sheet.fit_into(QSize(900, 600))
+    assert not sheet.fold.isChecked()
+    sheet.fit_into(QSize(400, 600))
+    assert sheet.fold.isChecked()
+    sheet.fold.setChecked(False)
+    sheet.fit_into(QSize(410, 600))
+    assert not sheet.fold.isChecked(), "the user wants to see it"
+    sheet.fit_into(QSize(900, 600))
+    sheet.fit_into(QSize(400, 600))
+    sheet.fit_into(QSize(900, 600))
+    assert not sheet.fold.isChecked()
+
+
+def test_a_row_gives_way_until_nothing_lies_over_one_another(qtbot):
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    row = QHBoxLayout(parent)
+    labels = [QLabel("x") for _ in range(3)]
+    for label in labels:
+        label.setFixedWidth(100)
+        row.addWidget(label)
+    row.setSpacing(0)
+    row.setContentsMargins(0, 0, 0, 0)
+    parent.show()
+    for room, shown in ((300, 3), (299, 2), (150, 1), (50, 1), (250, 2), (400, 3)):
+        give_way(row, labels[:2], room)
+        assert sum(not label.isHidden() for label in labels) == shown
 
 
 def test_a_part_is_fitted_into_the_middle_of_what_is_free(qtbot, wiring):

@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from app.core.errors import InputError
+from app.core.progress import Progress
 from app.fitting.point_surfaces.facet_corners import ShapePlace, facet_corners
-from app.fitting.point_surfaces.height_spline import Box, HoldingPoints, fit_heights
+from app.fitting.point_surfaces.height_spline import Box, HoldingPoints, fit_heights, rough_heights
 from app.formats.scene.toml import read_scene
 from app.formats.scene.write import scene_text
 from app.gcode.interpreter.options import ReadOptions
@@ -97,6 +98,14 @@ def test_a_surface_of_heights_is_as_coarse_as_its_places_allow() -> None:
     slopes = fitted.spline.slopes(asked)
     assert np.abs(slopes - np.column_stack([0.03 * asked[:, 0] ** 2 / 20, np.full(50, -0.3)])).max() < 1e-3
     assert fitted.left_out_mm < 1e-4
+
+
+def test_a_rough_surface_is_near_to_all_of_its_places() -> None:
+    random = np.random.default_rng(6)
+    places = np.column_stack([random.uniform(0, 20, 900), random.uniform(0, 10, 900), np.zeros(900)])
+    places[:, 2] = np.sin(places[:, 0] / 4) * np.cos(places[:, 1] / 3)
+    rough = rough_heights(places, Box(-0.1, 20.1, -0.1, 10.1))
+    assert np.abs(rough.heights(places) - places[:, 2]).max() < 5e-3
 
 
 def test_a_place_that_is_no_corner_is_left_out() -> None:
@@ -212,8 +221,12 @@ def test_a_turned_program_becomes_as_good() -> None:
     ],
 )
 def test_what_cannot_be_made_better_is_refused_with_advice(text: str, tolerance: float, said: str) -> None:
+    """Before the old program is cut, which is dear."""
+    begun = set[str]()
+    progress = Progress(lambda _, doing: begun.add(doing.partition(" ")[0]))
     with pytest.raises(InputError, match=said):
-        result(text, tolerance)
+        better("raster.ngc", text.encode(), BetterOptions(tolerance, cells=160), progress=progress)
+    assert "Cutting" not in begun and "Cut" not in begun
 
 
 def test_a_cut_that_differs_by_more_is_a_finding() -> None:

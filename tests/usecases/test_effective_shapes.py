@@ -172,6 +172,42 @@ def test_a_line_that_goes_on_into_an_arc_stays_a_line(
     assert away <= (done.nearness if correct is None else 2 * done.nearness) < sag / 3
 
 
+SHARES = (0.15, 0.5, 0.85)
+
+
+@pytest.mark.parametrize("form", [OutputForm.ARCS, pytest.param(OutputForm.NURBS, marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize("correct", [None, second_embodiment()], ids=["effective", "corrected"])
+@pytest.mark.parametrize(
+    ("sag", "share"),
+    [
+        pytest.param(sag, share, marks=[] if (sag, share) == (0.03, 0.5) else pytest.mark.exhaustive)
+        for sag in (0.005, 0.03)
+        for share in SHARES
+    ],
+)
+def test_a_facet_over_the_joint_of_a_line_and_an_arc_becomes_both(
+    sag: float, share: float, correct: CorrectionOptions | None, form: OutputForm
+) -> None:
+    """So much of it is line, the rest is arc; ends of ranges on the line are within epsilon of it, as in the text."""
+    step = 2 * math.acos(1 - sag / 20)
+    turn = (1 - share) * step + step * np.arange(0, math.floor((math.pi - (1 - share) * step) / step))
+    arc = np.column_stack([40 + 20 * np.sin(turn), 20 - 20 * np.cos(turn)])
+    after = 20 * (step - min(math.pi - turn[-1], 0.8 * step))
+    program = along_facets(np.vstack([[0, 0], [40 - 20 * share * step, 0], arc, [40 - after, 40], [0, 40]]))
+    choose = EffectiveOptions(max(sag / 10, 2 * DIGIT))
+    done = smooth(
+        "a.ngc", program, SmoothOptions(2.5 * sag + 5 * DIGIT, form, effective=EffectiveMethod(choose, correct))
+    )
+    places = cut(done)
+    from_line = np.where(places[:, 1] < 20, np.abs(places[:, 1]), np.abs(40 - places[:, 1]))
+    from_arc = np.abs(np.hypot(places[:, 0] - 40, places[:, 1] - 20) - 20)
+    away = np.where(places[:, 0] < 40, from_line, from_arc).max()
+    assert done.nearness is not None and done.nearness < sag / 10
+    assert away <= 2 * done.nearness + (choose.epsilon if share > 0.5 else 0.0)
+    if correct is None and share <= 0.5:
+        assert away < sag / 50 + 2 * DIGIT
+
+
 def test_the_certificate_states_both_limits_and_each_point() -> None:
     done = written("ellipse", 0.01, OutputForm.ARCS, 1)
     told = report(done)

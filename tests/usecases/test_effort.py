@@ -21,8 +21,7 @@ from app.simulation.field.workpiece import BoxStock
 from app.surfaces.passes.facet_crossings import facet_crossings
 from app.surfaces.patches.facets import SurfaceFacets
 from app.surfaces.sections.compound import CuttingPlanes
-from app.usecases.cutting.cut import CutOptions, CutSetup, cut
-from app.usecases.cutting.effort import cut_effort
+from app.usecases.cutting.cut import CutOptions, CutSetup, cut, cut_effort
 from app.usecases.making.bitmap_job import BitmapJob, drawn_job
 from app.usecases.making.make import finish
 from app.usecases.pixels.options import BitmapSize

@@ -16,7 +16,7 @@ from ...model.motion import Floats
 from .correction import CorrectionCurve, CorrectionMove, CorrectionOptions, CorrectionScope, corrected
 from .effective_points import EffectiveOptions, EffectivePoints, PointState, RangeEnds, effective_points
 from .facets import facets_of_rows
-from .through_points import sides_among
+from .through_points import joints_beside, sides_among
 
 _DEFAULTS = CorrectionOptions()
 
@@ -111,14 +111,22 @@ class EffectiveMethod:
         if self.correct is None:
             return PointClasses(effective.state, points, self.choose.epsilon, effective.ranges, np.zeros(len(points)))
         at = np.flatnonzero(effective.state)
-        sides = np.flatnonzero(sides_among(points[at]))  # lines of the true shape: no facet is corrected across one
-        kept = np.unique(np.concatenate([corners, at[sides], at[sides + 1]]))
+        along = sides_among(points[at])
+        sides = np.flatnonzero(along)  # lines of the true shape: no facet is corrected across one
+        joints = joints_beside(points[at], along, self.choose.epsilon)
+        whole = np.concatenate([sides, joints.chords])
+        kept = np.unique(np.concatenate([corners, at[whole], at[whole + 1]]))
         moved = corrected(points, effective.state, self.correct, kept.tolist())
         state = moved.state.copy()
         for k in sides.tolist():  # as it is one chord, it is known for a side where the curve is made, too
             state[at[k] + 1 : at[k + 1]] = PointState.INVALID
-        off = self.choose.epsilon + float(moved.moved.max())
-        return PointClasses(state, moved.places, off, effective.ranges, moved.moved)
+        places = moved.places.copy()
+        for joint, k in zip(joints.joints, joints.chords.tolist(), strict=True):  # its correction curve has two parts
+            inner = np.arange(at[k] + 1, at[k + 1])
+            inner = inner[state[inner] == PointState.CORRECTED]
+            places[inner] = joint.nearest(points[inner])
+        far = np.linalg.norm(places - points, axis=1)
+        return PointClasses(state, places, self.choose.epsilon + float(far.max()), effective.ranges, far)
 
 
 def states_across(

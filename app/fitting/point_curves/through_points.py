@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.motion import Floats
+from .line_joints import LineJoint, joint_behind
 
 Flags = NDArray[np.bool_]
 
@@ -25,6 +26,8 @@ _SMOOTH = 1.15
 """A curve of radius r that goes on smoothly from a side turns its first chord, of length h, by h / 2r at most, and the
 next, of length k, by (h + k) / 2r from that: their ratio may be so many times what that says.
 """
+_JOINT = 20.0
+"""Times how near chords are to the spline: by so much points may be off the arc that goes on from a side."""
 _LOOKED_AT = 8
 """Places a chord at which it is seen how far the spline leaves it."""
 _LEAST = 4
@@ -57,6 +60,8 @@ def _goes_on(points: Floats) -> bool:
 
 def _between_corners(points: Floats, closed: bool, fine: float, between: float) -> Floats:
     sides = sides_among(points)
+    joints = joints_beside(points, sides, _JOINT * fine)
+    points, sides = np.insert(points, joints.chords + 1, joints.places, axis=0), np.insert(sides, joints.ends, True)
     straight = sides.copy()
     while True:
         filled, off = _filled(points, _ChordKinds(sides, straight), closed, fine)
@@ -64,6 +69,44 @@ def _between_corners(points: Floats, closed: bool, fine: float, between: float) 
         if not wide.any():
             return filled
         straight |= wide
+
+
+@dataclass(frozen=True, eq=False)
+class SideJoints:
+    """Joints at which sides of the true shape become arcs within the facets beside them.
+
+    Attributes:
+        joints: j of them. ends: (j,) the end of its side that is next to each. chords: (j,) the facet that it is in.
+    """
+
+    joints: tuple[LineJoint, ...]
+    ends: NDArray[np.int64]
+    chords: NDArray[np.int64]
+
+    @property
+    def places(self) -> Floats:
+        """Where they are, (j, 3) mm."""
+        return np.array([each.place for each in self.joints]).reshape(-1, 3)
+
+
+def joints_beside(points: Floats, sides: Flags, within: float) -> SideJoints:
+    """Return the joints beside the sides among the chords (n - 1,) between points (n, 3).
+
+    Args:
+        within: how far points may be from an arc, mm.
+    """
+    joints, ends, chords = [], [], []
+    for k in np.flatnonzero(sides).tolist():
+        for end, step in ((k + 1, 1), (k, -1)):
+            beside = points[end + 1 :] if step > 0 else points[:end][::-1]
+            others = sides[end:] if step > 0 else sides[:end][::-1]
+            free = int(np.argmax(others)) if others.any() else len(beside)  # points up to the next side
+            joint = joint_behind(points[[end - step, end]], beside[:free], within) if free else None
+            if joint is not None:
+                joints.append(joint)
+                ends.append(end)
+                chords.append(end if step > 0 else end - 1)
+    return SideJoints(tuple(joints), np.array(ends, np.int64), np.array(chords, np.int64))
 
 
 def sides_among(points: Floats) -> Flags:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import shapely
@@ -20,6 +21,8 @@ from ...model.motion import Floats
 
 _SPANS = (2, 3, 4, 6, 8, 12, 16, 24, 32, 48)
 """Along the longer side, tried one after the other."""
+_ROUGH = 24
+"""Spans at most of a surface that says roughly where places are."""
 _STIFF = (1e-7, 1e-6, 1e-5, 1e-4, 1e-3)
 """Weights of the third differences of control points, which hold the surface where there are no places."""
 _ASTRAY = 8.0
@@ -130,7 +133,7 @@ def fit_heights(
     if len(places) < 16:
         raise GeometryError(f"a surface by {len(places)} places; expected 16 or more.")
     points, rim = holding.points, holding.rim
-    light = np.where(_inside(places, points), _LIGHT, rim) * float(weights.sum()) / max(len(points), 1)
+    light = np.where(have_places_round(places, points), _LIGHT, rim) * float(weights.sum()) / max(len(points), 1)
     used = np.ones(len(places), np.bool_)
     work = _FitTask(places, weights, points, light, box)
     for turn in range(_ROUNDS):
@@ -143,12 +146,47 @@ def fit_heights(
     return best
 
 
-def _inside(places: Floats, points: Floats) -> NDArray[np.bool_]:
-    """Tell which points have places round them."""
+def rough_heights(places: Floats, box: Box) -> HeightSpline:
+    """Return a surface near places (n, 3), n >= 100, which nothing is left out to find: each of its control points has
+    four of them, as far as they lie evenly.
+    """
+    work = _FitTask(places, np.ones(len(places)), places[:0], np.zeros(0), box)
+    spans = [work.shares(each) for each in _SPANS if each <= _ROUGH]
+    u, v = max((s for s in spans if (s[0] + 3) * (s[1] + 3) <= len(places) / 4), default=spans[0])
+    return work.equations(np.arange(len(places)), u, v).solved(_STIFF[2])
+
+
+def have_places_round(places: Floats, points: Floats) -> NDArray[np.bool_]:
+    """Tell which points (m, 2) or (m, 3) have places (n, 3) round them, seen from above."""
     hull = shapely.convex_hull(shapely.MultiPoint(places[:, :2]))
     shapely.prepare(hull)
     inside: NDArray[np.bool_] = shapely.contains_xy(hull, points[:, 0], points[:, 1])
     return inside
+
+
+@dataclass(frozen=True, eq=False)
+class _SurfaceEquations:
+    """Normal equations of a surface by places: one matrix for how far it is off, one for how much it is bent.
+
+    Attributes:
+        knots: along u and v. off, bent: (n, n) sparse. right: (n,).
+    """
+
+    knots: tuple[Floats, Floats]
+    off: Any
+    bent: Any
+    right: Floats
+
+    def solved(self, stiff: float) -> HeightSpline:
+        """Return the surface of least squares, as little bent as these let it; heights are nan where none is."""
+        from scipy.sparse.linalg import splu
+
+        shape = len(self.knots[0]) - 4, len(self.knots[1]) - 4
+        try:
+            control = splu(self.off + stiff * self.bent).solve(self.right)
+        except RuntimeError:  # singular: too few places for so many spans
+            control = np.full(len(self.right), math.nan)
+        return HeightSpline(*self.knots, control.reshape(shape))
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,36 +207,41 @@ class _FitTask:
         least, chosen, worse = math.inf, (2, 2, _STIFF[-1]), 0
         for tried, spans in enumerate(_SPANS):
             progress.step(tried / len(_SPANS), f"Fitting a surface of {spans} spans")
-            u, v = self._shares(spans)
+            u, v = self.shares(spans)
             if (u + 3) * (v + 3) > len(rows) / 2 and tried:
                 break
-            offs = [(self._left_out(halves, u, v, stiff), stiff) for stiff in _STIFF]
-            off, stiff = min(offs)
+            off, stiff = self._stiffness(halves, u, v)
             worse = 0 if off < least else worse + 1
             if off < least:
                 least, chosen = off, (u, v, stiff)
             if worse == _WORSE:
                 break
         u, v, stiff = chosen
-        return FittedHeights(self._fitted(rows, u, v, stiff), (u, v), least, used)
+        return FittedHeights(self.equations(rows, u, v).solved(stiff), (u, v), least, used)
 
-    def _shares(self, spans: int) -> tuple[int, int]:
+    def shares(self, spans: int) -> tuple[int, int]:
+        """Return the spans along u and v, of which the longer side has so many."""
         long, wide = self.box.u1 - self.box.u0, self.box.v1 - self.box.v0
         longer = max(long, wide)
         return max(2, round(spans * long / longer)), max(2, round(spans * wide / longer))
 
-    def _left_out(self, halves: tuple[NDArray[np.int64], NDArray[np.int64]], u: int, v: int, stiff: float) -> float:
-        offs = []
-        for mine, other in (halves, halves[::-1]):
-            spline = self._fitted(mine, u, v, stiff)
-            offs.append(spline.heights(self.places[other, :2]) - self.places[other, 2])
-        squares = np.sort(np.concatenate(offs) ** 2)
-        return math.sqrt(float(squares[: math.ceil(_BELIEVED * len(squares))].mean()))
+    def _stiffness(self, halves: tuple[NDArray[np.int64], NDArray[np.int64]], u: int, v: int) -> tuple[float, float]:
+        """Return how far places are, mm, from the surface of u x v spans that the others make, and how stiff it is."""
+        both = [self.equations(mine, u, v) for mine in halves]
+        found = []
+        for stiff in _STIFF:
+            offs = []
+            for equations, other in zip(both, halves[::-1], strict=True):
+                spline = equations.solved(stiff)
+                offs.append(spline.heights(self.places[other, :2]) - self.places[other, 2])
+            squares = np.sort(np.concatenate(offs) ** 2)
+            mean = float(squares[: math.ceil(_BELIEVED * len(squares))].mean())
+            found.append((math.sqrt(mean) if math.isfinite(mean) else math.inf, stiff))
+        return min(found)
 
-    def _fitted(self, rows: NDArray[np.int64], u: int, v: int, stiff: float) -> HeightSpline:
-        """Return the surface of u x v spans by some places: least squares, and as little bent as these let it."""
+    def equations(self, rows: NDArray[np.int64], u: int, v: int) -> _SurfaceEquations:
+        """Return the equations of the surface of u x v spans by some places, however stiff it is."""
         from scipy import sparse
-        from scipy.sparse.linalg import spsolve
 
         knots = _even(self.box.u0, self.box.u1, u), _even(self.box.v0, self.box.v1, v)
         asked = np.concatenate([self.places[rows], self.points])
@@ -212,9 +255,10 @@ class _FitTask:
         bent = [_third(count) for count in shape]
         stiffness = sparse.kron(bent[0], sparse.identity(shape[1])) + sparse.kron(sparse.identity(shape[0]), bent[1])
         weighted = matrix.T.multiply(weights)
-        normal = weighted @ matrix + stiff * float(weights.sum()) / (shape[0] * shape[1]) * stiffness
-        control = spsolve(normal.tocsc(), weighted @ asked[:, 2])
-        return HeightSpline(*knots, control.reshape(shape))
+        share = float(weights.sum()) / (shape[0] * shape[1])
+        return _SurfaceEquations(
+            knots, (weighted @ matrix).tocsc(), (share * stiffness).tocsc(), weighted @ asked[:, 2]
+        )
 
 
 def _even(low: float, high: float, spans: int) -> Floats:

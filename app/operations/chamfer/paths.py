@@ -12,7 +12,7 @@ where walls leave less room than it keeps off them, as at inner corners, the edg
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,15 +21,15 @@ from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Ring, offset_levels
-from ...geometry.primitives import contour_rows, lengths, points_at, reversed_rows, within_half_turn
+from ...geometry.primitives import CX, TURN, R, contour_rows, lengths, points_at, reversed_rows, within_half_turn
 from ...model.chamfer_operation import ChamferOperation
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
-from ...model.operation import Direction
+from ...model.operation import Direction, Side
 from ...model.tool import Tool
 from ...toolpath.build import StrokeLabel
-from ...toolpath.drawn_contours import DrawnContours, selected
-from ...toolpath.machining_areas import MachiningArea
+from ...toolpath.drawn_contours import selected
+from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ...toolpath.narrow_regions import too_small
 from ...toolpath.operation_context import OperationContext, levels_of
 from ..engrave.open_line import clear_parts, runs_of_parts
@@ -104,6 +104,7 @@ def chamfer(context: OperationContext, index: int, progress: Progress) -> None:
     cone, tool = cutter_of(job, operation), job.tool(operation.cut.tool)
     area = context.areas.of(operation)
     if area is None:
+        context.findings.extend(_nothing_open(operation, tool))
         return
     if cone.round:
         (level,) = offset_levels(area.primitives, [cone.off], progress.part(0.0, 0.8))
@@ -111,9 +112,9 @@ def chamfer(context: OperationContext, index: int, progress: Progress) -> None:
         context.findings.extend(too_small(area.regions, level, tool, 2 * cone.off))
     else:
         (whole,) = carved(area.primitives, cone.narrowed, (-cone.depth,), progress.part(0.0, 0.8))
-    followed = _followed(whole, area, operation.cut.direction)
+    followed = _followed(whole, area, operation)
     progress.step(0.8, "Neighbour walls")
-    kept, lost = _beside_neighbours(followed, context.areas.drawn, operation, tool, cone)
+    kept, lost = _beside_neighbours(followed, context.areas, operation, tool, cone)
     context.findings.extend(_stopped_short(lost, tool, cone))
     label = StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)
     writer = PassWriter(context.builder, label, levels_of(context, operation.cut), cone.narrowed)
@@ -123,13 +124,40 @@ def chamfer(context: OperationContext, index: int, progress: Progress) -> None:
     context.strokes += len(kept.trails) + len(kept.rings)
 
 
-def _followed(whole: CarvedPass, area: MachiningArea, direction: Direction) -> CarvedPass:
-    """Return the ways along walls: not those along clamps or the frame."""
+def _nothing_open(operation: ChamferOperation, tool: Tool) -> Iterator[Finding]:
+    """Yield that the edges of open lines are to be broken, and there is none."""
+    if operation.takes_open:
+        text = (
+            f"T{tool.number} {tool.label} has no edge to break: with open_side = {operation.open_side.value} it takes "
+            "open lines alone, and none is chosen; leave that out for closed contours."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text)
+
+
+def _followed(whole: CarvedPass, area: MachiningArea, operation: ChamferOperation) -> CarvedPass:
+    """Return the ways along walls: not those along clamps or the frame, nor past the ends of open lines."""
     trails = tuple(way for way in whole.trails if not _at_bare(way, area))
-    rings = (ring for ring in whole.rings if not area.follows_bare(ring.rows).all())
-    if direction is Direction.CONVENTIONAL:
+    rings: Iterable[Ring] = (ring for ring in whole.rings if not area.follows_bare(ring.rows).all())
+    if operation.takes_open:
+        rings = [run for ring in rings for run in _along_lines(ring, area)]
+    if operation.cut.direction is Direction.CONVENTIONAL:
         rings = (replace(ring, rows=reversed_rows(ring.rows)) for ring in rings)
     return CarvedPass(whole.z, trails, tuple(rings))
+
+
+def _along_lines(ring: Ring, area: MachiningArea) -> Iterator[Ring]:
+    """Yield what of a ring runs beside open lines: from the foot of one end to that of the other."""
+    rows, before = area.primitives.rows, area.primitives.previous
+    ends = rows[area.bare != area.bare[before], :2]
+    past = area.follows_bare(ring.rows)
+    for end in ends:
+        past |= (ring.rows[:, TURN] != 0) & (np.hypot(*(ring.rows[:, CX:R] - end).T) < _WELD)
+    if past.all():
+        return
+    first = int(np.argmax(past))
+    turned, past = np.roll(ring.rows, -first, axis=0), np.roll(past, -first)
+    edges = np.flatnonzero(np.diff(np.concatenate([[True], past, [True]]).astype(np.int8)))
+    yield from (replace(ring, rows=turned[a:b]) for a, b in edges.reshape(-1, 2).tolist())
 
 
 def _at_bare(way: AxisBranch, area: MachiningArea) -> bool:
@@ -137,13 +165,20 @@ def _at_bare(way: AxisBranch, area: MachiningArea) -> bool:
 
 
 def _beside_neighbours(
-    ways: CarvedPass, drawn: DrawnContours, operation: ChamferOperation, tool: Tool, cone: ChamferCutter
+    ways: CarvedPass, areas: MachiningAreas, operation: ChamferOperation, tool: Tool, cone: ChamferCutter
 ) -> tuple[CarvedPass, list[tuple[float, float, float]]]:
     """Return the ways on which the cone keeps off all other contours and clamps, and (x, y, length, mm) of the
     others.
     """
-    own = {id(contour) for contour in selected(drawn, operation.cut.curves).closed}
-    others = [contour for contour in drawn.closed if id(contour) not in own]
+    drawn, chosen = areas.drawn, selected(areas.drawn, operation.cut.curves)
+    own = {id(contour) for contour in (chosen.open if operation.takes_open else chosen.closed)}
+    edges = [
+        line
+        for each in areas.job.operations
+        if each.cut.enabled and operation.takes_open and each.takes_open and each.wall_side is Side.INSIDE
+        for line in selected(drawn, each.cut.curves).open
+    ]
+    others = [contour for contour in (*drawn.closed, *edges) if id(contour) not in own]
     held = [contour for region in drawn.clamps for contour in region.contours]
     lost: list[tuple[float, float, float]] = []
     for walls, wide in ((others, cone.top), (held, tool.radius)):

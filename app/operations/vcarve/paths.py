@@ -173,7 +173,8 @@ def floor_corners(primitives: Primitives, cone: VCutter, depth: float, flat: flo
     it is narrow.
 
     Rings inside the one from which the cone touches the walls, so near to one another that no ridge between them is
-    higher than `RIDGE`, where they are farther from the flat tool's centre than it is wide; and the medial axis there.
+    higher than `RIDGE`, where they are farther from the flat tool's centre than it is wide, or nearer by half a step,
+    so that what stands beside the flat tool's edge has them as near as elsewhere; and the medial axis there.
 
     Args:
         depth: greatest, mm. flat: radius of the flat tool, mm.
@@ -188,14 +189,15 @@ def floor_corners(primitives: Primitives, cone: VCutter, depth: float, flat: flo
     made = offset_levels(primitives, levels, progress.part(0.0, 0.4), frame=False)
     reached = [ring.rows for ring in made[-1].rings]
     field = DistanceField.of(within_half_turn(np.concatenate(reached))) if reached else None
-    rings = tuple(piece for level in made[:-1] for ring in level.rings for piece in _beyond_flat(ring, field, flat))
+    edge = flat - step / 2
+    rings = tuple(piece for level in made[:-1] for ring in level.rings for piece in _beyond_flat(ring, field, edge))
     whole = [branch for axis in medial_axes(primitives, progress.part(0.4, 1.0)) for branch in branches(axis)]
     parts = [part for branch in whole for part in branch.between(wall - _SLACK, inner)]
     return CarvedPass(-depth, tuple(trails(graph_of(parts))), rings)
 
 
 def _beyond_flat(ring: Ring, field: DistanceField | None, flat: float) -> Iterator[Ring]:
-    """Yield what of a ring is farther than a flat tool's radius, mm, from all places of its centre."""
+    """Yield what of a ring is farther than so many mm from all places of a flat tool's centre."""
     if field is None:
         yield ring
         return

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
@@ -15,6 +15,7 @@ from .section import hairline
 from .theme import LIGHT, Theme
 
 _GAP_PX = 8
+_MOST_OF_WIDTH = 0.4
 _BESIDE_PX = 76
 """What of a sheet's width is beside the words of a row."""
 
@@ -70,7 +71,8 @@ class LegendSheet(QFrame):
     def __init__(self, parent: QWidget, title: QLabel, width: int) -> None:
         """Make an empty one, `width` px wide."""
         super().__init__(parent)
-        self._theme = LIGHT
+        self._theme, self._folded_for_room = LIGHT, False
+        self._fits = True
         self.setFixedWidth(width)
         self.title, self.body = title, QWidget()
         self.fold = IconButton("up", "Fold the legend")
@@ -116,6 +118,26 @@ class LegendSheet(QFrame):
             if layout is not None:
                 layout.activate()
         self.adjustSize()
+
+    def fit_into(self, room: QSize) -> None:
+        """Fold where there is less height than the sheet needs, or so little width that it would hide much of the
+        picture; unfold again where there is enough.
+        """
+        layout = self.layout()
+        folded_px = (
+            layout.minimumSize().height()
+            if layout is not None and self.fold.isChecked()
+            else self.height() - self.body.height()
+        )
+        needed = folded_px + self.body.sizeHint().height()
+        fits = needed <= room.height() and self.width() <= _MOST_OF_WIDTH * room.width()
+        if not fits and self._fits:
+            self._folded_for_room = not self.fold.isChecked()
+            self.fold.setChecked(True)
+        elif fits and self._folded_for_room:
+            self.fold.setChecked(False)
+            self._folded_for_room = False
+        self._fits = fits
 
     def _fold(self, folded: bool) -> None:
         self.body.setVisible(not folded)

@@ -30,6 +30,7 @@ QWidget#sideTabs { background: $paper; }
 QWidget#logArea, QWidget#commandRow, QWidget#statusBar { border-top: 1px solid $hairline; }
 QFrame#startCard { background: $raised; border: 1px solid $hairline; border-radius: 6px; }
 QFrame#hairline { background: $hairline; border: 0; }
+QWidget#cutView { background: $canvas; }
 QWidget#ncBar { background: $paper; border-bottom: 1px solid $hairline; }
 QWidget#ncPlaces { background: $paper; border-top: 1px solid $hairline; }
 QAbstractScrollArea::corner { background: transparent; border: 0; }

@@ -110,7 +110,7 @@ class AdviceSection(PanelSection):
         name = QLabel(f"{choice.tool.diameter:g} mm")
         best = choice.tool in (advice.pocket, advice.contour)
         name.setStyleSheet("font-weight: 600;" if best else "")
-        share = "all" if choice.share > ALL else f"{100 * choice.share:.1f} %"
+        share = "all" if choice.share > ALL else "> 99.9 %" if choice.share > 0.999 else f"{100 * choice.share:.1f} %"
         left = "" if choice.share > ALL else f"{grouped(choice.left_mm2, 1)} mm\u00b2"
         time = QLabel(clock(choice.times.total) if choice.times is not None else "")
         cells = ((name, DIAMETER_PX), (QLabel(share), SHARE_PX), (muted(left), LEFT_PX))

@@ -17,6 +17,7 @@ from .main_window import MainWindow
 NO_DRAWING = MissingHint(
     "Nothing is drawn yet. Pick a tool at the left, type  rect 0,0 60,40  or open a drawing.", "Open a drawing"
 )
+NO_PART = MissingHint("Nothing is drawn yet. Draw a part, type  rect 0,0 60,40  or open a drawing.", "Open a drawing")
 NO_PATHS = MissingHint("There are no tool paths yet.", "Compute  F5", "compute")
 NO_CUT = MissingHint("There is no cut yet.", "Compute  F5", "compute")
 NO_NC = MissingHint("There is no NC program yet.", "Compute  F5", "compute")
@@ -94,7 +95,7 @@ def _drawing_pages(window: MainWindow, told: WindowState) -> dict[View, ViewPage
         shows = window.views.cut.model.picture is not None or bool(window.views.cut.sentence.text())
         if asked is not None and not shows:
             return MissingHint(f"{asked.foreign.source.name} is not cut yet: say at the right what cuts, and of what.")
-        return _of_job(window, shows, none_drawn, NO_CUT)
+        return _of_job(window, shows, lambda: NO_PART, NO_CUT)
 
     def beside_cut() -> QWidget | None:
         if window.cut_form.asked is not None:
@@ -151,7 +152,7 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         shows = stages.film is not None or picture()
         if not shows and drawn.part.entities:
             return told.stages_missing
-        return _of_job(window, shows, lambda: NOTHING if told.writing else NO_DRAWING, NOTHING)
+        return _of_job(window, shows, lambda: NOTHING if told.writing else NO_PART, NOTHING)
 
     def beside_stages() -> QWidget | None:
         if picture():

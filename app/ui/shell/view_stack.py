@@ -4,7 +4,7 @@ missing.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, QWidget
 
@@ -28,13 +28,20 @@ _LONG_MS = 30.0
 
 
 class EmptyState(QWidget):
-    """One sentence that says what is missing, and the button that makes it."""
+    """One sentence that says what is missing, and the button that makes it.
+
+    Signals:
+        pressed(): the button was.
+
+    Attributes:
+        on_paper: the view behind it has the panels' ground, not the canvas'.
+    """
 
     pressed = Signal()
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self._theme = LIGHT
+        self._theme, self.on_paper = LIGHT, False
         self.sentence, self.button = QLabel(), QPushButton()
         self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.button.clicked.connect(self.pressed)
@@ -60,8 +67,8 @@ class EmptyState(QWidget):
         self.show()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Paint the canvas' ground, so that the grid does not run through the words."""
-        ground = QColor(self._theme.canvas)
+        """Paint the view's ground, so that the grid does not run through the words."""
+        ground = QColor(self._theme.paper if self.on_paper else self._theme.canvas)
         ground.setAlphaF(0.92)
         QPainter(self).fillRect(self.rect(), ground)
 
@@ -166,11 +173,14 @@ class ViewStack(QStackedWidget):
     def place(self) -> None:
         """Put the overlays where they belong."""
         self.legend.adjustSize()
-        self.legend.fit_into(self.height() - _RULER_PX - _MARGIN_PX)
+        self.legend.fit_into(QSize(self.width(), self.height() - _RULER_PX - _MARGIN_PX))
         self.legend.move(self.width() - self.legend.width() - _MARGIN_PX, _RULER_PX + 12)
         self.fade.resize(self.size())
         self.empty.adjustSize()
-        self.empty.move((self.width() - self.empty.width()) // 2, (self.height() - self.empty.height()) // 2)
+        self.empty.on_paper = self.view is View.STAGES
+        behind = self.stages.pixels if self.empty.on_paper else self
+        middle = behind.mapTo(self, behind.rect().center()) - self.empty.rect().center()
+        self.empty.move(max(middle.x(), 0), max(middle.y(), 0))
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Keep the overlays in place when the size changes."""

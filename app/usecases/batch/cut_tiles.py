@@ -18,7 +18,7 @@ from ...simulation.field.workpiece import Grid, Heights, ensure_memory
 from ...simulation.sweeps.course import TrimOptions
 from ...simulation.sweeps.trim import trim
 from ...verify.course import course_of
-from ..cutting.context import TRIM_BYTES_A_CELL
+from ..cutting.cut import TRIM_BYTES_A_CELL
 from ..cutting.setup import CutSetup
 from .task import BatchResult, BatchRow, BatchVerdict
 

@@ -177,6 +177,8 @@ def _square_off(points: Floats, piece: Ints, fitted: list[FittedHeights]) -> Flo
     off = np.zeros(len(points))
     for k, each in enumerate(fitted):
         on = np.flatnonzero(piece == k)
+        if not len(on):
+            continue
         slopes = each.spline.slopes(points[on, :2])
         off[on] = (each.spline.heights(points[on, :2]) - points[on, 2]) / np.sqrt(1 + (slopes**2).sum(axis=1))
     return off

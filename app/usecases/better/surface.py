@@ -10,8 +10,17 @@ import shapely
 
 from ...core.errors import InputError
 from ...core.progress import Progress
-from ...fitting.point_surfaces.facet_corners import FacetCorners, facet_corners
-from ...fitting.point_surfaces.height_spline import RIM, Box, FittedHeights, HoldingPoints, fit_heights
+from ...fitting.point_surfaces.facet_corners import FacetCorners, ShapePlace, facet_corners
+from ...fitting.point_surfaces.height_spline import (
+    RIM,
+    Box,
+    FittedHeights,
+    HeightSpline,
+    HoldingPoints,
+    fit_heights,
+    have_places_round,
+    rough_heights,
+)
 from ...model.motion import Floats
 from ...model.scene import Boundary, Passes, Scene, SceneStock, Strategy, Surface
 from ...model.scene_curves import SectionCurve
@@ -34,6 +43,8 @@ one.
 _MOST_SECTIONS = 160
 _ENOUGH, _FEWEST, _ROUNDS = 4000, 64, 12
 """Points that say roughly where a surface is, and times that those above it are taken out."""
+_HOPELESS = 3.0
+"""Times what facets may be off."""
 _CENTRES = 1e-4
 """mm; two places along one line nearer than that are one."""
 
@@ -114,7 +125,7 @@ def surviving(raster: RasterProgram, radius: float, heights: PathProbe, within: 
     """
     rough, points = _lowest(raster, within), raster.points
     touched = contact(rough, points[:, :2], radius)
-    touched[:, 2] += points[:, 2] - rough.spline.heights(points[:, :2])
+    touched[:, 2] += points[:, 2] - rough.heights(points[:, :2])
     left = heights.lowest(np.ascontiguousarray(raster.frame.outwards(touched)[:, :2])).heights
     kept = touched[:, 2] - left <= within
     rows, at = [], 0
@@ -125,23 +136,23 @@ def surviving(raster: RasterProgram, radius: float, heights: PathProbe, within: 
             rows.append(np.ascontiguousarray(own))
     if not rows:
         raise InputError("All of the passes' metal is cut deeper by other moves; nothing of their surface is left.")
-    steepest = float(np.hypot(*rough.spline.slopes(points[kept, :2]).T).max())
+    steepest = float(np.hypot(*rough.slopes(points[kept, :2]).T).max())
     return SurvivingPasses(replace(raster, rows=tuple(rows)), int(np.sum(~kept)), steepest)
 
 
-def _lowest(raster: RasterProgram, within: float) -> FittedHeights:
+def _lowest(raster: RasterProgram, within: float) -> HeightSpline:
     """Return a surface by the lowest of all points: good enough to say where the ball touches. Points above it are of
     passes that others went under, and are taken out until none is.
     """
     points = raster.points
     thin = points[:: max(1, len(points) // _ENOUGH)]
     for _ in range(_ROUNDS):
-        fitted = fit_heights(thin, np.ones(len(thin)), HoldingPoints(thin[:1]), box_of(points, _MARGIN))
-        above = thin[:, 2] - fitted.spline.heights(thin[:, :2]) > within
+        rough = rough_heights(thin, box_of(points, _MARGIN))
+        above = thin[:, 2] - rough.heights(thin[:, :2]) > within
         if not above.any() or np.sum(~above) < _FEWEST:
             break
         thin = thin[~above]
-    return fitted
+    return rough
 
 
 @dataclass(frozen=True)
@@ -149,7 +160,8 @@ class FacetLimits:
     """What may be one facet, and how far facets may be from the surface behind them.
 
     Attributes:
-        epsilons: points so near to one plane, mm: that one is taken whose places foretell one another best.
+        epsilons: points so near to one plane, mm: that one is taken which finds corners, else edges, else points, and
+            of these the one whose places foretell one another best.
         off: mm.
     """
 
@@ -170,19 +182,22 @@ def smooth_surface(passes: SurvivingPasses, radius: float, limits: FacetLimits, 
     ]
     within = [each for each in found if each.farthest_mm <= limits.off]
     if within:
-        return min(within, key=lambda each: each.fitted.left_out_mm)
+        return min(within, key=lambda each: (list(ShapePlace).index(each.corners.kind), each.fitted.left_out_mm))
     return min(found, key=lambda each: each.farthest_mm)
 
 
 def _held(passes: SurvivingPasses, corners: FacetCorners, box: Box, off: float, progress: Progress) -> SmoothedSurface:
     """Return the surface by corners. At the rim, where no facets meet, points hold it: as lightly as they may for it to
-    be no farther from any point than it may.
+    be no farther from any point than it may. Where one is far off that has corners round it, no weight at the rim mends
+    it.
     """
     points = passes.raster.points
     for rim in (RIM, 10 * RIM, 100 * RIM):
         fitted = fit_heights(corners.places, corners.weights, HoldingPoints(points, rim), box, progress)
         found = SmoothedSurface(passes, box, corners, fitted, _square_off(fitted, points))
-        if found.farthest_mm <= off:
+        farthest = points[int(np.argmax(np.abs(found.off)))][None]
+        hopeless = found.farthest_mm > _HOPELESS * off and have_places_round(corners.places, farthest)[0]
+        if found.farthest_mm <= off or hopeless:
             break
     return found
 
@@ -200,13 +215,13 @@ def box_of(points: Floats, margin: float) -> Box:
     return Box(float(low[0]), float(high[0]), float(low[1]), float(high[1]))
 
 
-def contact(fitted: FittedHeights, places: Floats, radius: float) -> Floats:
+def contact(spline: HeightSpline, places: Floats, radius: float) -> Floats:
     """Return where a ball touches (n, 3) whose tip is over places (n, 2) of a surface of tips, mm: as far from its
     centre as its radius, against the surface's upward normal.
     """
-    slopes = fitted.spline.slopes(places)
+    slopes = spline.slopes(places)
     size = np.sqrt(1 + (slopes**2).sum(axis=1))
-    heights = fitted.spline.heights(places)
+    heights = spline.heights(places)
     return np.column_stack([places + radius * slopes / size[:, None], heights + radius - radius / size])
 
 
@@ -223,7 +238,7 @@ def surface_shape(smoothed: SmoothedSurface, radius: float) -> LoftShape:
     sections = []
     for v in across.tolist():
         places = np.column_stack([along, np.full(len(along), v)])
-        touched = contact(fitted, places, radius)
+        touched = contact(fitted.spline, places, radius)
         if np.any(np.diff(touched[:, 0]) <= 0):
             x, y, _ = smoothed.raster.frame.outwards(touched[:1])[0].tolist()
             raise InputError(

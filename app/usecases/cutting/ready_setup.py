@@ -33,7 +33,7 @@ from ...simulation.field.solid import SolidStock, read_solid
 from ...simulation.field.workpiece import BoxStock, StockShape
 from ...verify.parts import TOLERANCE, FlatPart, Part, SolidPart
 from ..examine import ExaminedProgram
-from ..job.layers import layers_to_read, with_layers_spelled
+from ..job.options import layers_to_read, with_layers_spelled
 from ..job.plausible import read_plausible
 from .cut import CutSetup
 from .part_reading import other_length, other_names, other_units, part_reading

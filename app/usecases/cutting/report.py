@@ -20,7 +20,7 @@ from ...model.motion import Floats, MotionKind
 from ...model.motion_path import lengths
 from ...model.tool import Tool
 from ...simulation.engines import Engine, EngineReport
-from ...simulation.field.differences import TOLERANCE
+from ...simulation.field.workpiece import TOLERANCE
 from ...verify.judgement import Judgement, Spot
 from ...verify.parts import Part, SolidPart
 from ..examine import COORDINATES, KINDS, ExaminedProgram

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from ...core.errors import ParameterError
+from ...core.errors import InputError, ParameterError
+from ...formats.readers import known_format
 from ...formats.tools.materials import stock_material
+from ...model.curve_selectors import OnLayer, Selector, layer_names
 from ...model.fields import parameters_of, with_values
 from ...model.job import Job, OriginXY, OriginZ, Stock
 from ...model.layer_rules import LayerRule
@@ -17,11 +20,11 @@ from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.tool import Tool
 from ..pixels.options import BitmapOptions
 from .feeds import FeedsOptions, JobWithFeeds, with_proposed_feeds
-from .layers import layers_to_read, with_layers_spelled
 from .machining import MachiningOptions, contours_alone, no_effect, with_drills, with_machining
 
 if TYPE_CHECKING:
     from ..proposal.propose import ProposalOptions  # few jobs are proposed
+
 
 _STEPOVER = "stepover"
 """Key of the parameter that options for pockets change."""
@@ -269,3 +272,71 @@ def _stock(base: Job, operations: tuple[Operation, ...], options: MakeOptions) -
         return base.stock
     deepest = max((each.cut.depth for each in operations), default=0.0)
     return replace(base.stock, thickness=max(base.stock.thickness, deepest))
+
+
+# Layers that a job asks for: which are to be read, and by which names the drawing has them.
+
+
+def layers_to_read(job: Job) -> tuple[str, ...]:
+    """Return the layers of a drawing that a job needs; empty = all."""
+    own = [name for operation in job.operations if operation.cut.enabled for name in layer_names(operation.cut.curves)]
+    return tuple(dict.fromkeys((*job.layer_names, *own, *job.keep_out_layers))) if job.layer_names else ()
+
+
+def with_layers_spelled(job: Job) -> Job:
+    """Return the job with its layers' names as its part spells them: drawings tell no case, and some controls write
+    capitals alone.
+
+    Raises:
+        InputError: the part has no such layer.
+    """
+    operations = tuple(
+        replace(each, cut=replace(each.cut, curves=_curves_spelled(each.cut.curves, job.part)))
+        if each.cut.enabled
+        else each
+        for each in job.operations
+    )
+    return replace(
+        job,
+        operations=operations,
+        layer_names=_spelled(job.layer_names, job.part),
+        keep_out_layers=_spelled(job.keep_out_layers, job.part),
+    )
+
+
+def _curves_spelled(curves: Iterable[Selector], part: Part) -> tuple[Selector, ...]:
+    """Return selectors whose layers are called as the part calls them."""
+    return tuple(
+        dict.fromkeys(OnLayer(*_spelled((each.name,), part)) if isinstance(each, OnLayer) else each for each in curves)
+    )
+
+
+def _spelled(names: Iterable[str], part: Part) -> tuple[str, ...]:
+    known = {layer.name.casefold(): layer.name for layer in part.layers}
+    found: dict[str, None] = {}
+    for name in names:
+        if name.casefold() not in known:
+            raise InputError(
+                f"{part.name}: there is no layer '{name}'; the drawing has {', '.join(known.values()) or 'none'}."
+            )
+        found[known[name.casefold()]] = None
+    return tuple(found)
+
+
+# The job that lies in the file of a drawing.
+
+
+def with_own_job(name: str, data: bytes, options: MakeOptions) -> MakeOptions:
+    """Return the options with the job of a file that holds one, a project, unless they bring another.
+
+    Args:
+        name: of the file; its suffix tells the kind.
+        data: its bytes.
+
+    Raises:
+        InputError: the file cannot be read.
+    """
+    format_ = known_format(name)
+    if options.job is not None or format_ is None or format_.job is None:
+        return options
+    return replace(options, job=format_.job(name, data))

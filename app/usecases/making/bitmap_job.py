@@ -21,8 +21,7 @@ from ...raster.frame import BitmapFrame
 from ...raster.picture import RasterPicture, read_picture
 from ...raster.picture_options import InkMeaning, PictureOptions
 from ...raster.walls import Mask, free_contours
-from ..job.options import MakeOptions, job_with_options
-from ..job.own_job import with_own_job
+from ..job.options import MakeOptions, job_with_options, with_own_job
 from ..job.plausible import read_for
 from ..pixels.options import BitmapOptions, BitmapSize, is_picture
 from ..pixels.part import BitmapPart, part_of_mask, part_of_regions

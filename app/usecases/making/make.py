@@ -44,14 +44,12 @@ from ..job.drawn_depths import JobToDepths, with_drawn_depths
 from ..job.feeds import JobWithFeeds
 from ..job.layer_operations import with_layer_rules
 from ..job.machining import check_order
-from ..job.options import MakeOptions, job_with_options, with_feeds
-from ..job.own_job import with_own_job
+from ..job.options import MakeOptions, job_with_options, with_feeds, with_own_job
 from ..job.plausible import read_for
 from ..pixels.options import is_picture
-from .cut_job import MeasuredMoves, cut_job, news
 from .proofs.proofs import prove
 from .report import MakeReport, ReportData, make_report, rings_in_words
-from .written import write_and_check
+from .written import MeasuredMoves, cut_job, news, write_and_check
 
 if TYPE_CHECKING:
     from ..proposal.propose import Proposal  # few jobs are proposed

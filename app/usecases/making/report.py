@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import Enum
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...core.durations import minutes_words
@@ -15,32 +17,39 @@ from ...core.wording import counted
 from ...gcode.timing.duration import TIME_METHOD
 from ...gcode.timing.extent import Extent
 from ...gcode.writer.write import blend_mm, writing_tolerance
+from ...model.fields import ParameterPlace, Unit, parameters_of
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
-from ...model.moves import MoveKind, Program
+from ...model.motion import MotionKind
+from ...model.moves import MoveKind, Moves, Program, Purpose
+from ...model.operation import Operation
 from ...model.stock_box import extent, stock_box, work_origin
 from ...model.tool import Tool
 from ...toolpath.coverage.coverage import STRIP, Coverage, UncutPlace
 from ...toolpath.coverage.floor_target import CHORD
 from ...verify.judgement import SpotKind
-from ...verify.verdict import Gouge, RapidInMaterial
+from ...verify.verdict import Gouge, RapidInMaterial, in_stock
 from ..cutting.cut import CutProgram
 from .proofs.proofs import ProgramProofs
-from .report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
 from .written import WrittenProgram
 
 ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
+
 BITMAP_ENGINE = "pixels alone, smoothed into lines and arcs that keep clear of the pixels' squares"
+
 COVERAGE_METHOD = (
     f"polygons of the emitted moves, arcs as chords within {CHORD:g} mm; strips narrower than {STRIP:g} mm are not "
     "counted"
 )
+
 GOUGE_METHOD = "closed-form distance of every move below Z 0 from every wall, less tool radius and stock to leave"
+
 MOVES_METHOD = (
     "motions of the control, as the NC text was read back: arcs split and flattened as they are written, cycles step "
     "by step; where the tool is at the start nobody knows, so the first approach is counted from the clearance "
     "position above the first XY, and after a tool change from where the tool before was lifted to safe Z"
 )
+
 CHECK_METHOD = (
     "the written bytes read back and compared with the moves: a bound both ways, all along; kinds, feeds, tools, "
     "spindle alike"
@@ -389,3 +398,123 @@ def rings_in_words(count: int) -> str:
     """
     rings = "1 ring is a fine polyline" if count == 1 else f"{count} rings are fine polylines"
     return f"{rings} within {tolerances.LEVEL * 1000:g} um instead of lines and arcs"
+
+
+# What a report says of the path: lengths by what they are for, strokes, operations one by one.
+
+
+LENGTHS_METHOD = (
+    "cut: in metal or where it was; link: between rings; lead: to walls and away from them; entry: ways down below the "
+    "stock's top; air: at feed above the stock's top; rapid"
+)
+
+_WAYS = {"link": Purpose.LINK, "lead": Purpose.LEAD, "entry": Purpose.PLUNGE}
+
+Mask = NDArray[np.bool_]
+
+
+def path_lengths(moves: Moves, written: WrittenProgram, top: float, operation: int | None = None) -> dict[str, float]:
+    """Return lengths of what was written, mm: cut, link, lead, entry, air, rapid; they add up to the whole.
+
+    Args:
+        top: height of the stock's top, mm, program coordinates.
+        operation: its index; None = all.
+    """
+    move, rapid = written.move, written.kind == MoveKind.RAPID
+    mine = np.ones(len(rapid), bool) if operation is None else moves.operation[move] == operation
+    above = _share_above(written, top)
+    purpose = moves.purpose[move]
+    below = np.where(rapid, 0.0, 1.0 - above) * written.length
+    found = {name: float(np.sum(below[mine & (purpose == way)])) for name, way in _WAYS.items()}
+    cut = float(np.sum(below[mine & ~np.isin(purpose, list(_WAYS.values()))]))
+    air = float(np.sum((above * written.length)[mine & ~rapid]))
+    return {"cut": cut, **found, "air": air, "rapid": float(np.sum(written.length[mine & rapid]))}
+
+
+def _share_above(written: WrittenProgram, top: float) -> NDArray[np.float64]:
+    """Return (m,) which share of each motion lies above the stock's top; along each, Z changes evenly."""
+    if not written.programs:
+        return np.zeros(0)
+    start, end = (
+        np.concatenate([getattr(each.motions, name)[:, 2] for each in written.programs]) - top
+        for name in ("start", "end")
+    )
+    high, low = np.maximum(start, end), np.minimum(start, end)
+    span = np.where(high > low, high - low, 1.0)
+    share: NDArray[np.float64] = (
+        np.where(high > low, np.clip(high, 0.0, None) - np.clip(low, 0.0, None), low > 0) / span
+    )
+    return share
+
+
+def retracts(moves: Moves) -> int:
+    """Return how often the tool leaves the stock."""
+    below = in_stock(moves)
+    return int(np.sum(below & (moves.end[:, 2] >= 0)))
+
+
+def strokes_of(moves: Moves, operation: int) -> int:
+    """Return how many unbroken runs of feed moves hold moves of an operation that cut."""
+    ways = (Purpose.RAPID, *_WAYS.values())
+    return _runs(moves, (moves.operation == operation) & ~np.isin(moves.purpose, ways))
+
+
+def _runs(moves: Moves, chosen: Mask) -> int:
+    feed = moves.kind != MoveKind.RAPID
+    return len(np.unique(np.cumsum(~feed)[feed & chosen]))
+
+
+def operation_values(job: Job, index: int, program: Program, written: WrittenProgram, top: float) -> Json:
+    """Return an operation as a report lists it.
+
+    Args:
+        top: height of the stock's top, mm, program coordinates.
+    """
+    operation, moves = job.operations[index], program.moves
+    mine = moves.operation[written.move] == index
+    return {
+        "kind": operation.WORD,
+        **_parameters(operation),
+        **_stepover(job, index, program),
+        "strokes": strokes_of(moves, index),
+        "length_mm": path_lengths(moves, written, top, index),
+        "time_s": float(np.sum(written.moving[mine])),
+        "rapid_time_s": float(np.sum(written.moving[mine & (written.kind == MotionKind.RAPID)])),
+    }
+
+
+def _stepover(job: Job, index: int, program: Program) -> Json:
+    """Return the stepover that was asked for, or what the program has chosen, of rest runs the most; None where a
+    pocket makes no rings.
+    """
+    operation = job.operations[index]
+    if "stepover" not in parameters_of(type(operation)):
+        return {}
+    requested = _parameters(operation)["stepover_mm"]
+    usual = None if operation.COARSE else requested or job.tool(operation.cut.tool).diameter
+    return {"stepover_mm": program.stepovers.get(index, requested or usual)}
+
+
+def _parameters(operation: Operation) -> Json:
+    """Return what was asked of an operation, with the unit behind the name; None where nothing was."""
+    return {
+        f"{key.removesuffix(_suffix(placed))}{_suffix(placed)}": _plain(placed, placed.of(operation))
+        for key, placed in parameters_of(type(operation)).items()
+    }
+
+
+def _suffix(placed: ParameterPlace) -> str:
+    return _SUFFIXES.get(placed.parameter.unit, "")
+
+
+def _plain(placed: ParameterPlace, value: Any) -> Any:
+    if isinstance(value, Enum):
+        return value.value
+    if placed.parameter.unit is Unit.CURVES:
+        return [each.text for each in value]
+    if isinstance(value, tuple):
+        return [list(each) if isinstance(each, tuple) else each for each in value]
+    return placed.parameter.shown(value) if placed.parameter.unit is Unit.ANGLE and value is not None else value
+
+
+_SUFFIXES = {Unit.LENGTH: "_mm", Unit.ANGLE: "_deg", Unit.TIME: "_s"}

@@ -58,7 +58,8 @@ def main(folder: Path) -> int:
     counts = {"seen_s": seconds, "triangles": triangles, "wrong": repr(wrong) if wrong else ""}
     (folder / "counts.json").write_text(json.dumps(counts), "utf-8")
     window.grab().save(str(folder / "end.png"))
-    wiring.scenes.work.reading.worker.finish(20.0)
+    for worker in (wiring.scenes.work.reading.worker, wiring.start_controller.worker):
+        worker.finish(20.0)
     del application
     return 1 if wrong else 0
 

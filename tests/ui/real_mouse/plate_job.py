@@ -71,7 +71,7 @@ def open_gear(hand: Hand, folder: Path) -> None:
 def whole_job(hand: Hand, gaps: Gaps, name: str, folder: Path) -> None:
     """Draw or open, compute, export for grbl: operations are proposed at the first compute."""
     hand.focus_window()
-    hand.ask(lambda: gaps.now("draw"))
+    hand.ask(lambda: gaps.now("open" if name == "gear" else "draw"))
     if name == "gear":
         open_gear(hand, folder)
     else:
@@ -138,7 +138,8 @@ def main(name: str, folder: Path) -> int:
     counts |= {"longest_ms": gaps.longest, "busiest_ms": gaps.busiest}
     (folder / "counts.json").write_text(json.dumps(counts), "utf-8")
     window.grab().save(str(folder / "end.png"))
-    window.worker.finish(20.0)
+    for worker in (window.worker, wiring.start_controller.worker):
+        worker.finish(20.0)
     del application
     return 1 if wrong else 0
 

@@ -180,7 +180,7 @@ def test_a_chain_is_lit_from_the_list_and_from_the_picture(qtbot, staged):
     qtbot.mouseClick(chains.copy, LEFT)
     assert QGuiApplication.clipboard().text().splitlines() == [chain.text() for chain in view.still.chains]
     view.show_stage(view.film.seek_step(204, -1))
-    assert chains.list.count() == 0 and "traces no line" in chains.text.toPlainText()
+    assert chains.list.count() == 0 and "traces no line" in chains.text.placeholderText()
 
 
 def test_published_rules_are_marked_where_they_err_and_counted(qtbot, wiring):

@@ -17,7 +17,7 @@ from ...framework.theme import LIGHT, Theme
 from .modes import PathColourBy
 from .painting.engagement_colours import STEPS, colours
 
-WIDTH = 170
+WIDTH = 180
 
 
 class EngagementScale(QWidget):
@@ -65,7 +65,6 @@ class Legend(LegendSheet):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, heading("Legend"), WIDTH)
-        self._folded_for_room = False
         self.rows: dict[PathLineKind, LegendRow] = {}
         for sample in (sample for sample in PathLineKind if sample is not PathLineKind.WEDGES):
             row = LegendRow(sample)
@@ -82,22 +81,6 @@ class Legend(LegendSheet):
         self.scale.hide()
         self.add_line()
         self.add(muted("Colour by"), self.colour, self.scale)
-
-    def fit_into(self, room: int) -> None:
-        """Fold when there are fewer px of height than the sheet needs, and unfold again when there are enough."""
-        layout = self.layout()
-        folded_px = (
-            layout.minimumSize().height()
-            if layout is not None and self.fold.isChecked()
-            else self.height() - self.body.height()
-        )
-        needed = folded_px + self.body.sizeHint().height()
-        if needed > room and not self.fold.isChecked():
-            self._folded_for_room = True
-            self.fold.setChecked(True)
-        elif needed <= room and self._folded_for_room:
-            self.fold.setChecked(False)
-            self._folded_for_room = False
 
     def _choose_colour(self, by: PathColourBy) -> None:
         for row in self.rows.values():

@@ -7,16 +7,18 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QVBoxLayout, QWidget
 
 from ...framework.figures import TIMES, grouped
+from ...framework.give_way import give_way
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
 from .cut_player import RANGES, CutPlayer, PlaybackPace, PlaybackStep
 from .time_plot import TimePlot, exact_clock
 
 _NOTCHES = 100
-_SPEED_PX, _BUTTON_PX = 96, 28
+_SPEED_PX, _BUTTON_PX, _PLACE_PX = 96, 28, 110
 _WORDS = {PlaybackPace.TIME: f"{TIMES} {{}}", PlaybackPace.MOVES: "{} a second", PlaybackPace.TOOLS: "{} a second"}
 
 Stepped = tuple[str, str, PlaybackStep, int]
@@ -64,7 +66,7 @@ class Transport(QWidget):
         self.show_state()
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout()
+        row = self._row = QHBoxLayout()
         row.setContentsMargins(12, 4, 12, 0)
         row.setSpacing(2)
         before, after = ([self._step_button(each) for each in some] for some in (_BEFORE, _AFTER))
@@ -80,6 +82,7 @@ class Transport(QWidget):
         for widget in (self.pace, self.speed, self.rate, self.record):
             row.addWidget(widget)
             row.addSpacing(6)
+        self.place.setMinimumWidth(_PLACE_PX)
         self.clock.setMinimumWidth(self.clock.fontMetrics().horizontalAdvance("0:00:00.0 / 0:00:00"))
         self.rate.setMinimumWidth(self.rate.fontMetrics().horizontalAdvance("10 000 a second"))
         for pace in PlaybackPace:
@@ -99,6 +102,13 @@ class Transport(QWidget):
         column.setSpacing(2)
         column.addLayout(row)
         column.addWidget(self.plot)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Let what can be missed go where there is no room."""
+        self._give_way()
+
+    def _give_way(self) -> None:
+        give_way(self._row, (self.rate, self.place, self.pace), self.width())
 
     def _step_button(self, stepped: Stepped) -> IconButton:
         name, tip, what, way = stepped
@@ -152,7 +162,10 @@ class Transport(QWidget):
     def show_place(self) -> None:
         """Show the moment that the cut is at."""
         player, timeline = self._player, self._player.timeline
-        self.clock.setVisible(timeline is not None and player.at is not None)
+        told = timeline is not None and player.at is not None
+        if told is self.clock.isHidden():
+            self.clock.setVisible(told)
+            self._give_way()
         if timeline is None or player.at is None:
             self.clock.setText("")
             self.place.setText(player.failure or ("Preparing playback…" if player.preparing else ""))

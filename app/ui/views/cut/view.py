@@ -89,6 +89,8 @@ class CutView(QWidget):
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(200, 150)
+        self.setObjectName("cutView")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setAccessibleName("Cut in three dimensions")
         self.legend.colour_chosen.connect(self.set_colour)
         self.legend.layer_switched.connect(self._on_layer)
@@ -361,6 +363,7 @@ class CutView(QWidget):
         self._place_legend()
 
     def _place_legend(self) -> None:
+        self.legend.fit_into(self.size())
         self.legend.move(self.width() - self.legend.width() - _EDGE_PX, _EDGE_PX)
 
     def _on_layer(self, sample: PathLineKind, on: bool) -> None:

@@ -11,6 +11,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QHBoxLayout, QListWidget, QPlainTextEdit, QVBoxLayout, QWidget
 
 from ....raster.trace import PixelChain
+from ...framework.catalogue import tr
 from ...framework.figures import counted
 from ...framework.icons import IconButton
 from ...framework.section import heading
@@ -98,10 +99,11 @@ class ChainsPanel(QWidget):
 
     def _show_text(self, index: int) -> None:
         if index < 0:
-            self.text.setPlainText(
-                "Click a line to see its code: row, column of S, then a digit for each step."
+            self.text.setPlainText("")
+            self.text.setPlaceholderText(
+                tr("Click a line to see its code: row, column of S, then a digit for each step.")
                 if self.chains
-                else "This step traces no line."
+                else tr("This step traces no line.")
             )
             return
         code = self.chains[index].text()

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import QElapsedTimer, QSignalBlocker, Qt, QTimer, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QWidget
 
+from ...framework.give_way import give_way
 from ...framework.icons import IconButton
 from ...framework.labels import muted
 
@@ -54,7 +56,7 @@ class FilmPlayer(QWidget):
         self.show_place(0, 0)
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
+        row = self._row = QHBoxLayout(self)
         row.setContentsMargins(12, 0, 12, 0)
         row.setSpacing(4)
         for button in (self.first, self.back, self.play, self.forward, self.last):
@@ -97,6 +99,10 @@ class FilmPlayer(QWidget):
         self.slider.valueChanged.connect(self._slide)
         self.speed.currentIndexChanged.connect(lambda _: self._restart())
         self._timer.timeout.connect(self._tick)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Let what can be missed go where there is no room."""
+        give_way(self._row, (self.place, self.speed, self.first, self.last), event.size().width())
 
     @property
     def playing(self) -> bool:

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QAbstractItemView, QListWidget, QListWidgetItem
 from ....raster.steps import STEPS
 from ...framework.icons import SIZE, icon
 from ...framework.theme import LIGHT, Theme
+from ...framework.translated_items import TranslatedItems
 from .film import PHASES
 
 WIDTH = 260
@@ -36,6 +37,7 @@ class StepList(QListWidget):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
         self.setAccessibleName("Steps of the text")
+        self.setItemDelegate(TranslatedItems(self))
         self._theme = LIGHT
         self._items: dict[int, QListWidgetItem] = {}
         self._reached: frozenset[int] = frozenset()

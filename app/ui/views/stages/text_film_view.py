@@ -11,6 +11,7 @@ from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QAbstractItemView, QFrame, QHBoxLayout, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
 
 from ...framework.figures import counted
+from ...framework.translated_items import TranslatedItems
 from .film_player import FilmPlayer
 from .step_list import WIDTH
 
@@ -78,6 +79,7 @@ class TextFilmView(QWidget):
         self.rail.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.rail.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
         self.rail.setAccessibleName("Steps of the text")
+        self.rail.setItemDelegate(TranslatedItems(self.rail))
         line = QFrame()
         line.setObjectName("hairline")
         line.setFixedWidth(1)

@@ -1,0 +1,116 @@
+"""Chamfers beside open lines: ways by closed form, what is proven of them, neighbours, and what is refused."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.core.errors import GeometryError
+from app.formats.job.toml import read_job
+from app.geometry.distance import DistanceField
+from app.geometry.outlines import polygon_contour
+from app.geometry.primitives import contour_rows
+from app.model.finding import FindingKind
+from app.model.moves import Purpose
+from app.operations.compute import compute
+from app.usecases.job.options import MakeOptions
+from app.usecases.making.make import MakeResult, finish, make
+
+CONE = 'kind = "v"\ndiameter = 12.0\ntip_angle = 90.0\n'
+BALL = 'kind = "ball"\ndiameter = 6.0\n'
+BEND = "line 0,0 40,0\nline 40,0 40,30\n"
+
+
+def made_of(lines: str, side: str, tool: str = CONE, *operations: str) -> MakeResult:
+    head = f"[stock]\nthickness = 10.0\nmargin = 10.0\n[[tool]]\nnumber = 1\n{tool}"
+    chamfer = '[[operation]]\nkind = "chamfer"\ntool = 1\nwidth = 0.5\ntip_offset = 0.3\nopen_side = "{}"\n{}'
+    each = [chamfer.format(side, more) for more in operations or ("",)]
+    job = read_job("job", "\n".join([head, *each]).encode()).job
+    return make("part.draw", lines.encode(), MakeOptions(job=job))
+
+
+def along_edge(made: MakeResult) -> np.ndarray:
+    moves = made.program.moves
+    return moves.end[moves.purpose == Purpose.CONTOUR]
+
+
+@pytest.mark.parametrize("direction", ["climb", "conventional"])
+def test_it_goes_from_the_foot_of_one_end_to_that_of_the_other(direction: str) -> None:
+    """Round an outer corner on an arc; into an inner one up to the point where the cone touches both walls."""
+    outer = made_of(BEND, "right", CONE, f'direction = "{direction}"\n')
+    moves = outer.program.moves
+    level = moves.purpose == Purpose.CONTOUR
+    ends = [moves.start[level][0], moves.end[level][-1]]
+    feet = [(0.0, -0.3, -0.8), (40.3, 30.0, -0.8)]
+    # climb keeps the part, which is on the left, at the right of the way
+    assert np.allclose(ends, feet[::-1] if direction == "climb" else feet)
+    assert moves.lengths()[level].sum() == pytest.approx(40 + 30 + 0.3 * math.pi / 2)
+    inner = along_edge(made_of(BEND, "left", CONE, f'direction = "{direction}"\n'))
+    assert np.allclose(inner[np.argmax(inner[:, 2])], (40, 0, -0.5))
+    for made in (outer, made_of(BEND, "left")):
+        assert made.clean and json.loads(made.report.text())["operations"][0]["carved"]["places_left"] == 0
+
+
+@pytest.mark.parametrize("side", ["inside", "outside"])
+def test_part_of_a_closed_contour_gets_part_of_its_way(side: str) -> None:
+    """Three sides of a square, counter-clockwise: on the left inside, on the right outside."""
+    three = "line 20,0 20,20\nline 20,20 0,20\nline 0,20 0,0\n"
+    made = made_of(three, "left" if side == "inside" else "right")
+    off = -0.3 if side == "inside" else 0.3
+    low, high = -off, 20 + off
+    whole = contour_rows(polygon_contour([(low, low), (high, low), (high, high), (low, high)]))
+    ends = along_edge(made)[:, :2]
+    away = DistanceField.of(whole).nearest(ends)[0]
+    corners = np.min([np.hypot(*(ends - corner).T) for corner in ((0, 0), (20, 0), (20, 20), (0, 20))], axis=0)
+    assert ((away < 1e-6) | (corners < 0.3 + 1e-6)).all()
+    assert made.clean
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize("tool", [CONE, BALL, CONE + "tip_diameter = 0.4\n"], ids=["cone", "ball", "blunt"])
+def test_bent_lines_are_proven_on_both_sides(side: str, tool: str) -> None:
+    made = made_of("arc 0,0 15,6 30,0\narc 30,0 45,-6 60,0\n", side, tool)
+    assert made.clean and not made.findings
+    (carved,) = (each["carved"] for each in json.loads(made.report.text())["operations"])
+    assert carved["places"] > 1000 and carved["left_mm"] < 0.005
+
+
+@pytest.mark.parametrize(("off", "kind"), [(-0.02, FindingKind.GOUGE), (0.02, FindingKind.LEFT_REACHABLE)])
+def test_a_path_that_is_off_is_found(off: float, kind: FindingKind) -> None:
+    made = made_of("arc 0,0 15,6 30,0\n", "left")
+    program = compute(made.job)
+    end = program.moves.end.copy()
+    end[end[:, 2] < 0, 2] += off
+    broken = finish(replace(program, moves=replace(program.moves, end=end)), made.job)
+    assert kind in {each.kind for each in broken.findings if each.counts}
+
+
+def test_a_neighbour_stops_it_short_whether_closed_or_the_open_edge_of_another_operation() -> None:
+    hole = made_of("line 0,0 60,0\ncircle 30,1.2 0.5\n", "left")
+    (short,) = [each for each in hole.findings if each.kind is FindingKind.LEFT_OUT]
+    # the cone is 0.8 mm wide at the top, its axis 0.9 mm from the centre of the hole
+    assert short.amount == pytest.approx(2 * math.sqrt(1.3**2 - 0.9**2), abs=0.02)
+    one, other = 'curves = ["#1"]\n', 'curves = ["#2"]\nenabled = {}\n'
+    lines = "line 0,0 60,0\nline 20,1 40,1\n"
+    both = made_of(lines, "left", CONE, one, other.format("true"))
+    assert [each.kind for each in both.findings if each.counts and "stops short" in each.text] == [FindingKind.LEFT_OUT]
+    assert not any(
+        "stops short" in each.text for each in made_of(lines, "left", CONE, one, other.format("false")).findings
+    )
+
+
+@pytest.mark.parametrize(
+    ("lines", "words"),
+    [
+        ("line 0,0 60,0\nline 0,1 60,1\n", "of another open line of the same operation"),
+        ("line 0,0 60,0\nline 60,0 60,1\nline 60,1 0,1\n", "of itself"),
+        ("rect 0,0 60,40\n", "takes open lines alone, and none is chosen"),
+    ],
+)
+def test_what_has_no_side_that_could_be_told_is_refused(lines: str, words: str) -> None:
+    with pytest.raises(GeometryError, match=words):
+        made_of(lines, "right")
