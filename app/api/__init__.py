@@ -9,7 +9,7 @@ from ..core.errors import Cancelled, HitofudeError
 from ..core.progress import Progress
 from ..gcode.interpreter.dialect import Dialect
 from ..model.adaptive_operation import AdaptiveOperation
-from ..model.chamfer_operation import ChamferOperation
+from ..model.chamfer_operation import ChamferOperation, OpenSide
 from ..model.contour_operation import ContourOperation
 from ..model.curve_selectors import read_selectors
 from ..model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
@@ -96,6 +96,7 @@ __all__ = [
     "MadeProgram",
     "MadeSurface",
     "MakeOptions",
+    "OpenSide",
     "Order",
     "OriginXY",
     "OriginZ",
