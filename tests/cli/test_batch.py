@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -117,6 +118,7 @@ def test_several_processes_write_the_same_bytes(done: Path, parts: Path, tmp_pat
 
 @pytest.mark.exhaustive
 def test_what_is_done_is_not_done_again(parts: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    parts = shutil.copytree(parts, tmp_path / "parts")  # one is changed below, and others go on with these
     out = tmp_path / "out"
     command = ["batch", str(parts), "-o", str(out), "--depth", "1", "--jobs", "1"]
 

@@ -284,9 +284,8 @@ class ProposalWork:
         curves = [curve for each in sizes for curve in selectors_for(each.circles, self.seen, as_circles=True)]
         (tool,) = (each for each in self.rack.taken if each.number == operation.cut.tool)
         named = [f"{each.size:g}" for each in sizes]
-        listed = " and ".join(filter(None, (", ".join(named[:-1]), named[-1])))
         why = (
-            f"{_counted(len(circles), 'hole')} of {listed} mm, through: the library has no "
+            f"{_counted(len(circles), 'hole')} of {together(named)} mm, through: the library has no "
             f"{'drills of these sizes' if len(sizes) > 1 else 'drill of that size'}, so {self._named(tool)} mills "
             f"{'them' if len(circles) > 1 else 'it'}"
         )
