@@ -240,7 +240,7 @@ def test_help_of_make_names_every_option() -> None:
         ("--order 1987", "choose one of 'pocket-first', '1986'"),
         ("--origin left", "'left' is no origin"),
         ("--origin centre,drawing", "is no origin"),
-        ("--units yards", "'yards' is no unit; use mm or in"),
+        ("--units yards", "'yards' is no unit; use mm"),
         ("--out-units m", "'m' is no unit of an NC program"),
         ("--post abacus", "no post 'abacus'"),
         ("--layer walls", "no layer walls"),

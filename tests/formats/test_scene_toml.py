@@ -255,9 +255,9 @@ MISTAKES = (
     (
         'kind = "sphere"',
         'kind = "ball"',
-        r"14: surface\[1\]\.shape\.kind is 'ball'; expected is \"plane\" or \"sphere\" or .*\.$",
+        r"14: surface\[1\]\.shape\.kind is 'ball'; expected is \"plane\", \"sphere\", .*\.$",
     ),
-    ('kind = "sphere"', "", r"13: surface\[1\]\.shape\.kind is missing; add kind = \"plane\" or .*\.$"),
+    ('kind = "sphere"', "", r"13: surface\[1\]\.shape\.kind is missing; add kind = \"plane\", .*\.$"),
     ("radius = 5", "", r"13: surface\[1\]\.shape\.radius is missing; add a number\.$"),
     ("radius = 5", "radius = 'big'", r"16: surface\[1\]\.shape\.radius is 'big'; expected is a number\.$"),
     ("radius = 5", "radius = -5", r"13: A sphere's radius is -5 mm; it must be greater than 0\.$"),

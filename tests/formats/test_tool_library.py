@@ -134,7 +134,7 @@ feed_per_tooth = 0.01
         (b"diameter = 3", b'diameter = "3"', "my.toml:8: tool[2].diameter is '3'; expected is a number"),
         (b"diameter = 3", b"diameter = 0", "my.toml:6: T2: diameter is 0 mm"),
         (b"diameter = 3", b"diameter = nan", "my.toml:8: tool[2].diameter is nan"),
-        (b'"v"', b'"cone"', "my.toml:9: tool[2].kind is 'cone'; expected is 'flat' or 'ball'"),
+        (b'"v"', b'"cone"', "my.toml:9: tool[2].kind is 'cone'; expected is 'flat', 'ball'"),
         (b"tip_angle = 60", b"angle = 60", "my.toml:10: tool[2].angle is not known"),
         (b"tip_angle = 60", b"corner_radius = 1", "kind v has no corner radius"),
         (

@@ -104,7 +104,7 @@ def test_nothing_is_read_behind_the_end() -> None:
         ("O1\nM98 P1\nM99\n", Dialect.FANUC, "subroutines call one another more than 10 deep"),
         ("o1 sub\no1 call\no1 endsub\no1 call\n", Dialect.LINUXCNC, "subroutines call one another more than 9 deep"),
         ("F100\nG81 G91 X1 Z-1 R1 L99999999\n", Dialect.LINUXCNC, "a.ngc:2: loops, calls and cycles repeat more than"),
-        ("o1 if [0]\nG0 X1\n", Dialect.LINUXCNC, "a.ngc:1: O1 if has no elseif or else or endif"),
+        ("o1 if [0]\nG0 X1\n", Dialect.LINUXCNC, "a.ngc:1: O1 if has no elseif, else or endif"),
         ("G0 X1\no5 call\n", Dialect.LINUXCNC, "a.ngc:2: there is no subroutine O5"),
         ("o5 endsub\n", Dialect.LINUXCNC, "ends a subroutine that is not running"),
         ("o5 endwhile\n", Dialect.LINUXCNC, "belongs to no loop"),

@@ -48,6 +48,7 @@ def test_a_dropped_solid_is_seen_before_its_passes_and_its_units_are_asked_once(
     seen = view.canvas.camera.project(view.shown.space.triangles.reshape(-1, 3), view.canvas._size)
     assert np.ptp(seen[:, 1]) > view.canvas.height() / 3, "a speck"
     window.notice.buttons[0].click()
+    assert work.state is not SceneState.PROVEN, "what was proven is of the solid in millimetres"
     qtbot.waitUntil(lambda: work.state is SceneState.PROVEN and moves[-1] > 0, timeout=WAIT_MS)
     low, high = view.shown.computed.stock.x0, view.shown.computed.stock.x1
     assert high - low == pytest.approx(2.4 * 25.4, rel=1e-3)

@@ -87,7 +87,7 @@ class SceneComputation(QObject):
         self._resting.setInterval(REST_MS)
         self._resting.timeout.connect(self._follow)
         self.reading.failed.connect(self._on_failed)
-        document.changed.connect(self._resting.start)
+        document.changed.connect(self._on_changed)
 
     def begin(self, text: str, path: Path | None, stem: str = UNTITLED) -> None:
         """Take another scene, show its surfaces as soon as they are made, then compute its passes.
@@ -172,6 +172,13 @@ class SceneComputation(QObject):
         }
         level, text = words.get(self.state, (VerdictLevel.NONE, "Not computed"))
         return VerdictSummary(level, text, self.problem)
+
+    def _on_changed(self) -> None:
+        """Wait until the text rests; what was proven, or is being, is of another text."""
+        if self.state in (SceneState.COMPUTING, SceneState.PROVING, SceneState.PROVEN) and self.scene is not None:
+            self.reading.worker.cancel()
+            self._stand(SceneState.CHANGED)
+        self._resting.start()
 
     def _follow(self) -> None:
         """Read a text that has rested; compute it if that is quick."""
