@@ -23,12 +23,13 @@ from ..model.operation import Order, Side
 from ..model.part import Contour, Region
 from ..model.stock_box import stock_box, work_origin
 from ..raster.fill import Observer
+from ..toolpath.bitmap_check import BitmapCheck
 from ..toolpath.coverage.areas import region_shapes
 from ..toolpath.coverage.floor_target import CHORD
 from ..toolpath.drawn_contours import DrawnContours, drawn_contours, selected, selection_findings
 from ..toolpath.drill_holes import across_holes
 from ..toolpath.machining_areas import MachiningAreas
-from ..toolpath.operation_context import BitmapCheck, OperationContext, PreparedStrokes, ProgramDigits
+from ..toolpath.operation_context import OperationContext, PreparedStrokes, ProgramDigits
 from ..toolpath.witness import region_findings
 from .effort import CONTOUR_S, ISLAND_S, workload_of
 from .from_outside import emit_prepared

@@ -1,4 +1,4 @@
-"""Mills that do not cut at their centre, led down into metal where their dead centre stays over the same place."""
+"""Descents that harm a mill: straight down where it does not cut at its centre, or at the feed for going sideways."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from app.geometry.outlines import nest
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import DistanceField, pack
 from app.model.part import Contour
-from app.toolpath.operation_context import BitmapCheck, check_on_bitmap
+from app.toolpath.bitmap_check import BitmapCheck, check_on_bitmap
 from tests.part_shapes import circle, fig2, random_part, square
 
 

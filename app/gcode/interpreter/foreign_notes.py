@@ -1,4 +1,4 @@
-"""A tool out of the text of a comment, in the habits of CAM systems and of people."""
+"""A tool, and the stock, out of the text of a comment, in the habits of CAM systems and of people."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-"""The comments at the head of a program for the operator; `app.gcode.writer.header` has those for `hitofude cut
---against`.
-"""
+"""The comments at the head of a program: for the operator, and what `hitofude cut --against` reads."""
 
 from __future__ import annotations
 

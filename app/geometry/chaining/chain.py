@@ -18,18 +18,17 @@ from ..arcs.arcs import equally_far
 from ..primitives import CX, TURN, X1, R, Rows, contour_rows, distances
 from .findings import (
     LIMIT,
-    PiecePath,
     SharedPiece,
     at,
     gap_findings,
     junction_findings,
     limited,
     named,
+    open_findings,
     overlap_findings,
-    paths,
     repeat_findings,
 )
-from .join import Nodes, join_ends, nodes_of, open_findings, reach_of
+from .join import Nodes, join_ends, nodes_of, reach_of
 from .pieces import (
     ChainPiece,
     Overlap,
@@ -41,6 +40,7 @@ from .pieces import (
     shared_stretches,
     twin_contours,
 )
+from .trace import PiecePath, paths
 
 
 @dataclass(frozen=True, slots=True)

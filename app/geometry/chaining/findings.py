@@ -3,23 +3,33 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...model.curves import Circle, Line, Point, Primitive
 from ...model.finding import Finding, FindingKind
 from ...model.job import LARGEST_JOIN
 from ...model.part import Contour
+from ..near_points import nearest
 from ..primitives import boxes, contour_rows
 from .pieces import ChainPiece, Overlap, length_of
+from .trace import Junction
 
 LIMIT = 20
 """So many places of one kind are named one by one; the rest is counted."""
+
+_SHORT, _SHORT_BETWEEN = 0.1, 0.02
+"""A gap of less than this share of a contour's length was not meant: between its own ends, and to another's, as lines
+side by side have.
+"""
+
+_MANY = 4
+"""So many contours of a layer that no end comes near are lines that bound nothing, and one line names them."""
 
 
 def at(point: Point) -> str:
@@ -187,181 +197,114 @@ def rounded_up(gap: float) -> str:
     return f"{next((m * scale for m in (1, 2, 5) if m * scale >= gap - tolerances.WELD), 10 * scale):g}"
 
 
-# Walk from curve to curve: which end goes on where, also at points where three or more meet.
-
-
-Nodes = NDArray[np.int64]
-
-
-class Step(NamedTuple):
-    """A piece by its number, and whether it is travelled forward."""
-
-    piece: int
-    forward: bool
-
-
-class PiecePath(NamedTuple):
-    """Pieces one after the other, and whether they close."""
-
-    steps: list[Step]
-    closed: bool
-
-
-class TracedPaths(NamedTuple):
-    """Every path, by its first piece, and every point where more than two ends meet."""
-
-    paths: list[PiecePath]
-    branches: list[Junction]
-
-
-@dataclass(frozen=True)
-class Junction:
-    """A point where more than two ends meet.
-
-    Attributes:
-        place: where, mm.
-        entity_ids: the curves whose ends meet there, one for each end.
-    """
+@dataclass(frozen=True, slots=True)
+class _End:
+    """A loose end, the nearest other one, and how far apart they are, mm; `own`: that is the contour's own."""
 
     place: Point
-    entity_ids: tuple[int, ...]
-
-    @property
-    def odd(self) -> bool:
-        """Whether one end is left over when outlines pass through."""
-        return len(self.entity_ids) % 2 == 1
+    other: Point
+    gap: float
+    own: bool
 
 
-def paths(pieces: Sequence[ChainPiece], nodes: Nodes) -> TracedPaths:
-    """Return how the pieces go on in one another.
+def open_findings(contours: Sequence[Contour], join_tolerance: float = 0.0) -> list[Finding]:
+    """Return findings on all open contours: where their loose ends are, what is nearest to them, what to do.
 
-    End 2 k is the start of piece k and end 2 k + 1 its end.
+    Args:
+        contours: closed ones are passed over.
+        join_tolerance: that was used, mm; no greater one than the largest that is allowed is ever advised.
     """
-    at: dict[int, list[int]] = {}
-    for end, node in enumerate(nodes.ravel().tolist()):
-        if node >= 0:
-            at.setdefault(node, []).append(end)
-    partner: dict[int, int] = {}
-    crowded = [ends for ends in at.values() if len(ends) > 2]
-    spurs = _bridges(at) if crowded else set()
-    for ends in at.values():
-        couples = [(ends[0], ends[1])] if len(ends) == 2 else _couples(ends, pieces, spurs)
-        for a, b in couples:
-            partner[a], partner[b] = b, a
-    found = [PiecePath([Step(k, True)], True) for k, piece in enumerate(pieces) if piece.is_circle]
-    found += _walks(len(pieces), partner, {k for k, piece in enumerate(pieces) if piece.is_circle})
-    return TracedPaths(sorted(found, key=lambda path: min(path.steps)), [_branch(pieces, ends) for ends in crowded])
+    loose = [contour for contour in contours if not contour.closed]
+    near = [_joinable(contour, ends, join_tolerance) for contour, ends in zip(loose, _ends(loose), strict=True)]
+    alone = defaultdict(list)
+    for contour, ends in zip(loose, near, strict=True):
+        if not ends:
+            alone[contour.layer].append(contour)
+    bounding = {contour.layer for contour in contours if contour.closed}
+    found = [
+        _nearly_closed(contour, ends) if ends else _unfinished(contour, bounding)
+        for contour, ends in zip(loose, near, strict=True)
+        if ends or len(alone[contour.layer]) < _MANY
+    ]
+    lines = [_bounding_nothing(alone[layer], bounding) for layer in alone if len(alone[layer]) >= _MANY]
+    return [*limited(found, "open contours"), *lines]
 
 
-def _branch(pieces: Sequence[ChainPiece], ends: Sequence[int]) -> Junction:
-    first = pieces[ends[0] // 2]
-    return Junction(first.start if ends[0] % 2 == 0 else first.end, tuple(pieces[end // 2].entity for end in ends))
-
-
-def _walks(count: int, partner: dict[int, int], done: set[int]) -> list[PiecePath]:
-    """Follow partners: first from ends that have none, then round the loops that are left."""
+def _ends(loose: Sequence[Contour]) -> list[list[_End]]:
+    """Return both ends of each contour with the nearest other end."""
+    if not loose:
+        return []
+    places = [place for contour in loose for place in (contour.primitives[0].start, contour.primitives[-1].end)]
+    points = np.array(places)
+    count = min(3, len(points))
+    _, index = nearest(points, points, count)
     found = []
-    seen = set(done)
-    loose = [end for end in range(2 * count) if end not in partner]
-    for first in [*loose, *range(0, 2 * count, 2)]:
-        if first // 2 in seen:
-            continue
-        steps: list[Step] = []
-        end = first
-        while end // 2 not in seen:
-            seen.add(end // 2)
-            steps.append(Step(end // 2, end % 2 == 0))
-            if (end ^ 1) not in partner:
-                break
-            end = partner[end ^ 1]
-        closed = first in partner
-        found.append(PiecePath(steps if closed else _forward(steps), closed))
-    return found
+    for k, place in enumerate(places):
+        other = min((int(j) for j in index[k] if j != k), key=lambda j: math.dist(place, places[j]))
+        found.append(_End(place, places[other], math.dist(place, places[other]), other == (k ^ 1)))
+    return [found[k : k + 2] for k in range(0, len(found), 2)]
 
 
-def _forward(steps: list[Step]) -> list[Step]:
-    """Return an open path in the direction of the piece that was drawn first."""
-    return steps if min(steps).forward else [Step(k, not forward) for k, forward in reversed(steps)]
+def _joinable(contour: Contour, ends: list[_End], join_tolerance: float) -> list[_End]:
+    """Return the ends that a greater tolerance would join."""
+    length = sum(length_of(primitive) for primitive in contour.primitives)
+    least = max(join_tolerance, tolerances.WELD)
+    return [
+        end
+        for end in ends
+        if least < end.gap < length * (_SHORT if end.own else _SHORT_BETWEEN)
+        and float(rounded_up(end.gap)) <= LARGEST_JOIN
+    ]
 
 
-class _CoupleCost(NamedTuple):
-    """What speaks against two ends going on in one another, the weightiest first; and the ends."""
-
-    spurs: int
-    apart: int
-    turn: float
-    a: int
-    b: int
-
-
-def _couples(ends: list[int], pieces: Sequence[ChainPiece], spurs: set[int]) -> list[tuple[int, int]]:
-    """Pair the ends that meet at one point.
-
-    Curves that belong to a loop come before those that belong to none. Where an even number meets, a curve stays with
-    the one that was drawn next from its end on (two outlines that touch stay two); else the smallest turn wins.
-    """
-    directions = {end: _away(pieces[end // 2], end % 2 == 0) for end in ends}
-
-    def cost(a: int, b: int) -> _CoupleCost:
-        (ax, ay), (bx, by) = directions[a], directions[b]
-        turn = math.pi - abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by))
-        apart = int(len(ends) % 2 == 1 or a % 2 == 0 or b != a + 1)
-        return _CoupleCost((a // 2 in spurs) + (b // 2 in spurs), apart, round(turn, 9), a, b)
-
-    couples = []
-    free = set(ends)
-    for *_, a, b in sorted(cost(a, b) for a in ends for b in ends if a < b):
-        if a in free and b in free:
-            couples.append((a, b))
-            free -= {a, b}
-    return couples
+def _nearly_closed(contour: Contour, ends: list[_End]) -> Finding:
+    widest = max(ends, key=lambda end: end.gap)
+    if widest.own:
+        start, end = contour.primitives[0].start, contour.primitives[-1].end
+        where = f"is open by {widest.gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}"
+    else:
+        where = (
+            f"is open: its loose end at {at(widest.place)} is {widest.gap:.3g} mm from that of another at "
+            f"{at(widest.other)}"
+        )
+    text = f"{named(contour)} {where}. Join with tolerance {rounded_up(widest.gap)} or edit the ends."
+    return Finding(FindingKind.OPEN_CONTOUR, text, *widest.place, True, contour.entity_ids, widest.gap)
 
 
-def _away(piece: ChainPiece, from_start: bool) -> Point:
-    """Return the direction (of any length) in which a piece leaves one of its ends."""
-    if from_start:
-        return tangent(piece.primitives[0], True)
-    x, y = tangent(piece.primitives[-1], False)
-    return -x, -y
+def _unfinished(contour: Contour, bounding: set[str]) -> Finding:
+    start, end = contour.primitives[0].start, contour.primitives[-1].end
+    gap = math.dist(start, end)
+    text = (
+        f"{named(contour)} is open by {gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}. "
+        f"Complete it, or {_leaving('it', contour.layer, bounding)}."
+    )
+    return Finding(
+        FindingKind.OPEN_CONTOUR, text, *start, True, contour.entity_ids, gap, layer=_spare(contour.layer, bounding)
+    )
 
 
-def tangent(primitive: Primitive, at_start: bool) -> Point:
-    """Return the direction of travel (of any length) at the start or the end of a primitive."""
-    if isinstance(primitive, Line):
-        return primitive.end[0] - primitive.start[0], primitive.end[1] - primitive.start[1]
-    x, y = primitive.start if at_start or isinstance(primitive, Circle) else primitive.end
-    x, y = x - primitive.centre[0], y - primitive.centre[1]
-    return (-y, x) if primitive.ccw else (y, -x)
+def _bounding_nothing(lines: Sequence[Contour], bounding: set[str]) -> Finding:
+    """Return one finding on the lines of a layer that bound nothing, such as centre and section lines."""
+    longest = max(lines, key=lambda contour: sum(length_of(primitive) for primitive in contour.primitives))
+    start, end = longest.primitives[0].start, longest.primitives[-1].end
+    text = (
+        f"Layer {longest.layer} has {len(lines)} lines that bound nothing, the longest {size_of(longest)} at "
+        f"{at(start)}. Complete them, or {_leaving('them', longest.layer, bounding)}."
+    )
+    ids = tuple(dict.fromkeys(number for contour in lines for number in contour.entity_ids))
+    return Finding(
+        FindingKind.OPEN_CONTOUR, text, *start, True, ids, math.dist(start, end), layer=_spare(longest.layer, bounding)
+    )
 
 
-def _bridges(at: dict[int, list[int]]) -> set[int]:
-    """Return the pieces that lie on no loop: Tarjan (1974), "A note on finding the bridges of a graph", without
-    recursion.
-    """
-    node_of = {end: node for node, ends in at.items() for end in ends}
-    order: dict[int, int] = {}
-    low: dict[int, int] = {}
-    bridges: set[int] = set()
-    for root in at:
-        if root in order:
-            continue
-        order[root] = low[root] = len(order)
-        stack = [(root, -1, iter(at[root]))]
-        while stack:
-            node, came, ends = stack[-1]
-            end = next(ends, None)
-            if end is None:
-                stack.pop()
-                if stack:
-                    parent = stack[-1][0]
-                    low[parent] = min(low[parent], low[node])
-                    if low[node] > order[parent]:
-                        bridges.add(came)
-            elif end // 2 != came:
-                other = node_of[end ^ 1]
-                if other in order:
-                    low[node] = min(low[node], order[other])
-                else:
-                    order[other] = low[other] = len(order)
-                    stack.append((other, end // 2, iter(at[other])))
-    return bridges
+def _spare(layer: str, bounding: set[str]) -> str:
+    """Return a layer that may be left out as a whole, or ""; `bounding` are those that must stay."""
+    return "" if layer in bounding else layer
+
+
+def _leaving(what: str, layer: str, bounding: set[str]) -> str:
+    """Return how to leave lines out; `bounding` are the layers that must stay, for closed contours lie on them."""
+    if layer in bounding:
+        return f"draw {what} on a layer of {'its' if what == 'it' else 'their'} own, which --skip-layer leaves out"
+    quoted = layer if layer.isalnum() else f'"{layer}"'
+    return f"leave the layer out: --skip-layer {quoted}"

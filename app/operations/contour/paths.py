@@ -21,6 +21,7 @@ from ...model.moves import Purpose
 from ...model.operation import Direction, Side
 from ...model.stock_box import stock_box
 from ...model.tool import Tool
+from ...toolpath.bitmap_check import check_on_bitmap
 from ...toolpath.build import Stroke, started_at
 from ...toolpath.drawn_contours import selected
 from ...toolpath.leads.contour_path import ContourPath, ContourPaths, Floats
@@ -38,7 +39,7 @@ from ...toolpath.leads.tab import (
 )
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas, wall_paths
 from ...toolpath.narrow_regions import finest, too_small
-from ...toolpath.operation_context import OperationContext, PreparedStrokes, check_on_bitmap, passes_of
+from ...toolpath.operation_context import OperationContext, PreparedStrokes, passes_of
 from ..engrave.open_line import line_paths
 from ..from_outside import emit_prepared, open_stock
 from .dogbone import CornerRelief, corner_reliefs, inserted, recorded, refused_relief_findings

@@ -15,7 +15,7 @@ from ...formats.project.project import Project, SavedView
 from ...formats.readers import offered_suffixes
 from ...formats.tools.at_path import holds_tools, tool_suffixes
 from ...gcode.posts import load_post
-from ...model.job import Job
+from ...model.job import Job, Stock
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
 from ...usecases.pixels.options import PICTURES, is_picture
@@ -34,6 +34,9 @@ from .files.open_controller import OpenController, OpenedDrawing, UndecidedDrawi
 from .files.reread_controller import RereadController
 from .files.save_controller import SaveController
 from .main_window import MainWindow, opened_suffixes
+
+_ROUND_FIG_2 = Stock(margin=5.0)
+"""So that each of its areas has walls all round: 100 by 100 mm, as wide as the display."""
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
 
@@ -160,7 +163,8 @@ class FileController(QObject):
         if is_scene(sample):
             self._others.scene(sample)
         else:
-            self._leave_drawing("Open the sample", lambda: self.open_controller.open(sample, before=Job(Part())))
+            job = Job(Part(), stock=_ROUND_FIG_2 if sample == opening_files.sample_path() else Stock())
+            self._leave_drawing("Open the sample", lambda: self.open_controller.open(sample, before=job))
 
     def new(self) -> None:
         """Begin an empty drawing with the same tools."""
