@@ -169,7 +169,7 @@ def test_passes_over_a_polyhedron_go_by_its_facets() -> None:
         places = places[(np.abs(places[:, 0]) < 22) & (places[:, 2] < 0.4)]
         off.append(np.abs(np.hypot(places[:, 0], places[:, 2] + BALL + R) - R - BALL))
     rms = [float(np.sqrt(np.mean(each**2))) for each in off]
-    assert rms[0] < 0.35 * rms[1] and off[0].max() < 0.5 * off[1].max() and off[1].max() > 0.05
+    assert rms[0] < 0.37 * rms[1] and off[0].max() < 0.5 * off[1].max() and off[1].max() > 0.05
     assert made.better is not None and made.better.comparison.farthest_mm <= 0.1
     assert made.better.new.blocks < 0.2 * made.better.old.blocks
     assert made.report.data["facets"]["budget"]["kept"]

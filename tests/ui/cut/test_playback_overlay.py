@@ -54,7 +54,7 @@ def test_the_tool_is_shown_in_the_colour_of_its_cuts_by_day_and_by_night(qtbot, 
         view.set_theme(theme)
         view.playback.show_tool(replace(BALL, number=number), TIP)
         shown = at(rest(qtbot, view), view, middle, 4)
-        ink = np.array(theme.regions[number - 1].getRgb()[:3])
+        ink = np.array(theme.tools[number - 1].getRgb()[:3])
         assert np.argmax(shown) == np.argmax(ink) and np.argmin(shown) == np.argmin(ink)
     view.set_theme(LIGHT)
     view.playback.show_tool(None, None)
