@@ -190,6 +190,7 @@ def test_a_cut_too_deep_into_a_surface_is_a_gouge_of_that_depth(balls: dict[str,
     assert gouge["count"] > 0 and gouge["max_mm"] == pytest.approx(0.2, abs=0.01)
 
 
+@pytest.mark.exhaustive
 def test_the_origin_moves_the_program_and_not_what_it_is_compared_with(tmp_path: Path) -> None:
     files = written(tmp_path, BALLS.replace("[[tool]]", '[origin]\nxy = "centre"\nz = "top"\n\n[[tool]]', 1))
     assert "origin_mm=20,10,9" in files["ngc"].read_text()

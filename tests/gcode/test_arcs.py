@@ -164,6 +164,7 @@ def test_a_spiral_in_the_path_is_kept_within_tolerance() -> None:
     assert deviation(arc, pieces, paths) <= 2e-4
 
 
+@pytest.mark.exhaustive
 @RULES
 def test_many_arcs_at_once_are_each_by_itself(rules: ArcRules) -> None:
     """Among them some of hundreds of lines, for which there is no room at first, and some that are nothing."""

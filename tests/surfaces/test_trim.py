@@ -56,6 +56,7 @@ def area_seen(facets: SurfaceFacets) -> float:
     return float(np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]).sum() / 2)
 
 
+@pytest.mark.exhaustive
 def test_the_cutter_rolls_over_the_edge_of_half_a_ball() -> None:
     x, y = (grid.ravel() for grid in np.meshgrid(np.linspace(-15, 2.9, 60), np.linspace(-12, 12, 30)))
     found = drop(half_ball(), BALL, np.column_stack([x, y])).height

@@ -51,6 +51,7 @@ def test_nothing_is_left_and_nothing_gouged(pocket: MakeResult) -> None:
     assert report["rapids_in_material"] == [] and report["cut"]["gouged_places"] == 0
 
 
+@pytest.mark.exhaustive
 def test_where_less_is_engaged_the_feed_rises_and_the_angle_stays() -> None:
     job = JOB + 'feed_up_to = 2.0\n[output]\npost = "fanuc"\n'
     made, plain = made_of("rectangle 0,0 24,15\n", job), made_of("rectangle 0,0 24,15\n", job.replace("2.0", "1.0"))

@@ -164,6 +164,7 @@ def test_passes_that_touch_no_metal_are_told(tmp_path: Path) -> None:
     assert status == 1 and "Nothing is cut" in report["findings"][0]["text"]
 
 
+@pytest.mark.exhaustive
 def test_a_tip_below_the_underside_is_told_with_the_floor_that_helps(tmp_path: Path) -> None:
     status, report = told(tmp_path, shape=DOME, stock="box = [-12, -12, 0, 12, 12, 12]", pitch=1)
     assert status == 1 and kinds(report) == ["below_table"] and "floor = 0" in report["findings"][0]["text"]
@@ -218,6 +219,7 @@ def test_steep_descents_go_at_the_plunge_rate(tmp_path: Path) -> None:
     assert down >= 3  # into the pocket, one on most of the planes that cross it
 
 
+@pytest.mark.exhaustive
 def test_passes_overrun_to_the_foot_of_a_dome(tmp_path: Path) -> None:
     """Ball 6 at a foot of radius 12: with its tip at 0 its middle is sqrt(15² - 3²) from the dome's."""
     box = "box = [-12, -12, 0, 12, 12, 12]"

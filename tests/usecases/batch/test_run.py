@@ -55,6 +55,7 @@ def test_each_part_has_its_own_fate(tmp_path: Path) -> None:
     assert "killed 4 times" in rows["dies"].findings[0]
 
 
+@pytest.mark.exhaustive
 def test_a_part_that_hangs_is_ended_and_the_next_is_done() -> None:
     began = time.monotonic()
     rows = run(["hangs", "good"], [ProcessLane(trouble)], limit_s=3.0)
