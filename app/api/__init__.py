@@ -15,23 +15,22 @@ from ..model.curve_selectors import read_selectors
 from ..model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from ..model.face_operation import FaceOperation, FacePattern
 from ..model.finding import Finding, FindingKind
-from ..model.hole_operations import BoreOperation, CountersinkOperation, ReamOperation, TapOperation, ThreadOperation
-from ..model.job import Copies, Job, OriginXY, OriginZ, Stock
-from ..model.operation import (
-    CutParameters,
-    CutterCompensation,
-    Direction,
+from ..model.hole_operations import (
+    BoreOperation,
+    CountersinkOperation,
     DrillOperation,
-    Order,
-    PocketOperation,
-    RestOperation,
-    Side,
+    ReamOperation,
+    TapOperation,
+    ThreadOperation,
 )
+from ..model.job import Copies, Job, OriginXY, OriginZ, Stock
+from ..model.operation import CutParameters, CutterCompensation, Direction, Order, PocketOperation, RestOperation, Side
 from ..model.part import Units
 from ..model.read_options import DrawingOptions
 from ..model.slot_operation import SlotOperation
 from ..model.thread_sizes import ThreadSize
-from ..model.tool import Tool, ToolKind, ToolMaterial
+from ..model.tool import Tool, ToolMaterial
+from ..model.tool_kind import ToolKind
 from ..model.vcarve_operation import VcarveOperation
 from ..simulation.engines import Engine
 from ..toolpath.feeds.proposal import CutEngagement, FeedProposal

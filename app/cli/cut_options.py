@@ -16,7 +16,8 @@ from ..formats.job.toml import ORIGIN_HELP, parse_origin, read_units
 from ..formats.readers import offered_suffixes
 from ..formats.tools.holders import outline_of
 from ..model.operation import LEAST_LENGTH
-from ..model.tool import HolderPoint, Tool, ToolKind, tool_kinds
+from ..model.tool import HolderPoint, Tool
+from ..model.tool_kind import ToolKind, tool_kinds
 from ..usecases.cutting.cut import CELLS, Engine
 from ..usecases.cutting.setup_stock import FINEST, box_stock
 from ..usecases.cutting.setup_tools import ToolHolding

@@ -17,8 +17,9 @@ from ..core import tolerances
 from ..model.curves import Line, Primitive, reversed_curve
 from ..model.part import Contour, Region
 from . import kernels
+from .distance import DistanceField
 from .near_points import near
-from .primitives import DistanceField, Indices, R, Rows, boxes, contour_rows, lengths, points_at, samples, sweeps
+from .primitives import Indices, R, Rows, boxes, contour_rows, lengths, points_at, samples, sweeps
 from .primitives import lengths as row_lengths
 
 Floats = NDArray[np.float64]

@@ -9,7 +9,8 @@ from enum import Enum
 from ..core.errors import ParameterError
 from .fields import Unit, check_ranges, parameter
 from .operation import SIDE, CarvingCone, Operation, Side, SideStrip
-from .tool import Tool, ToolKind
+from .tool import Tool
+from .tool_kind import ToolKind
 
 _AS_DEEP = 1e-6
 """mm; a chamfer that a cone makes is as deep as told when it differs by less."""

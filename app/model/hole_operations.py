@@ -1,12 +1,13 @@
-"""What else is done to holes beside drilling them: reamed, tapped, countersunk, bored, threaded by a mill."""
+"""What is done to holes: drilled, reamed, tapped, countersunk, bored, threaded by a mill."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
-from .fields import Unit, parameter
-from .operation import ALIKE, DWELL, LEAST_LENGTH, STRAIGHT_DOWN, THROUGH, HoleOperation
+from ..core.errors import ParameterError
+from .fields import Condition, Unit, check_ranges, parameter
+from .operation import ALIKE, DWELL, LEAST_LENGTH, STRAIGHT_DOWN, THROUGH, Operation, Side
 from .thread_sizes import ThreadSize
 from .tool import Tool
 
@@ -24,6 +25,124 @@ LEFT_HAND = (
     Unit.FLAG,
 )
 _SAME = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class HoleOperation(Operation):
+    """Work on the circles of the drawing, each by itself."""
+
+    least: float | None = parameter(
+        None,
+        "least",
+        "Holes from",
+        "least diameter of the circles that it works on",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        auto="those that the tool is for",
+    )
+    most: float | None = parameter(
+        None,
+        "most",
+        "Holes to",
+        "largest diameter of the circles that it works on",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        auto="those that the tool is for",
+    )
+
+    HOLES = True
+    LEVELS = False
+
+    def __post_init__(self) -> None:
+        check_ranges(self)
+        if self.least is not None and self.most is not None and self.least > self.most:
+            raise ParameterError(
+                f"Holes from {self.least:g} to {self.most:g} mm are asked for; "
+                "the least diameter must not be more than the most."
+            )
+
+    @property
+    def wall_side(self) -> Side | None:
+        """None: it knows no walls but those of its holes."""
+        return None
+
+    @property
+    def on_bosses(self) -> bool:
+        """Whether its circles are bosses, round which its tool goes."""
+        return False
+
+    def around(self, tool: Tool) -> float:
+        """Return how far beyond what it makes the tool needs room, mm."""
+        return 0.0
+
+    def is_for(self, drawn: float, tool: Tool) -> bool:
+        """Tell whether a circle of a diameter, mm, is one for the tool, where nobody names diameters."""
+        return abs(drawn - tool.diameter) <= ALIKE + _SAME
+
+    def takes(self, drawn: float, tool: Tool) -> bool:
+        """Tell whether a circle of a diameter, mm, is wide enough for the tool."""
+        return tool.diameter <= drawn + ALIKE + _SAME
+
+    def made(self, drawn: float, tool: Tool) -> float:
+        """Return how wide the hole is that it makes in a circle of a diameter, mm."""
+        return tool.diameter
+
+
+@dataclass(frozen=True, slots=True)
+class DrillOperation(HoleOperation):
+    """Drill the circles of the drawing at their centres."""
+
+    peck: float | None = parameter(
+        None,
+        "peck",
+        "Peck",
+        "depth of one stroke before the drill comes out of the hole",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        option=True,
+        auto="in one go",
+    )
+    chip_break: bool = parameter(
+        False,
+        "chip_break",
+        "Break chips",
+        "after each peck the drill goes up a little, so that the chip breaks, and not out of the hole",
+        Unit.FLAG,
+        option=True,
+        choices=("Out of the hole", "Break the chip"),
+        short="Between pecks",
+        needs=Condition(lambda operation: operation.peck is not None, "pecks", "add peck = 2", "--peck gives them"),
+    )
+    dwell: float = parameter(0.0, *DWELL, high=60.0, option=True)
+    through: float = parameter(0.0, *THROUGH, high=1000.0, option=True)
+
+    points: bool = parameter(
+        False,
+        "points",
+        "Points too",
+        "drawn points are holes, too, as if they were circles as wide as the drill",
+        Unit.FLAG,
+        option=True,
+    )
+
+    WORD = "drill"
+    DRILLS = True
+    UNUSED = STRAIGHT_DOWN
+
+    @property
+    def beyond(self) -> float:
+        """How far the drill goes on below the depth, mm."""
+        return self.through
+
+    @property
+    def dwell_s(self) -> float:
+        """How long the drill turns at the bottom, s."""
+        return self.dwell
+
+    @property
+    def takes_points(self) -> bool:
+        """Whether it drills drawn points."""
+        return self.points
 
 
 @dataclass(frozen=True, slots=True)

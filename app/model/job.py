@@ -11,7 +11,8 @@ from .fields import Unit, parameter
 from .fields import part as whole
 from .operation import LEAST_LENGTH, CutParameters, Operation, Order, PocketOperation, RestOperation
 from .part import Part, Units
-from .tool import Tool, ToolKind
+from .tool import Tool
+from .tool_kind import ToolKind
 
 LARGEST_JOIN = 10.0
 """mm; a wider gap is no loose end any more."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .motion import Floats, MotionKind, Motions, arc_paths, spline_points
+from .motion import Floats, MotionKind, Motions
+from .motion_path import arc_paths, spline_points
 
 _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 _FULL = 2 * np.pi

@@ -13,11 +13,12 @@ from .fields import ParameterPlace, declared_of, parameters_of
 from .hole_operations import (
     BoreOperation,
     CountersinkOperation,
+    DrillOperation,
     ReamOperation,
     TapOperation,
     ThreadOperation,
 )
-from .operation import DrillOperation, Operation, PocketOperation, RestOperation, Side
+from .operation import Operation, PocketOperation, RestOperation, Side
 from .slot_operation import SlotOperation
 from .vcarve_operation import VcarveOperation
 

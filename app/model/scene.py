@@ -16,7 +16,8 @@ from .operation import LEAST_LENGTH
 from .part import Units
 from .scene_curves import Point2, Point3
 from .scene_shapes import MOST_LENGTH, Shape
-from .tool import LEAST_RATE, Tool, ToolKind
+from .tool import LEAST_RATE, Tool
+from .tool_kind import ToolKind
 
 Box = tuple[float, float, float, float, float, float]
 Rectangle = tuple[float, float, float, float]

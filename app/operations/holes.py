@@ -12,9 +12,9 @@ from ..core.errors import ParameterError
 from ..core.progress import Progress
 from ..model.curve_selectors import CirclesOf, CurveNumber
 from ..model.finding import Finding, FindingKind
+from ..model.hole_operations import HoleOperation
 from ..model.job import Job
 from ..model.moves import Purpose
-from ..model.operation import HoleOperation
 from ..toolpath.build import Stroke, StrokeLabel
 from ..toolpath.drawn_contours import DrawnContours
 from ..toolpath.drill_holes import CircleHole, DrillHoles, holes_of

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import OffsetLevel
-from ..geometry.primitives import DistanceField
 from ..model.finding import Finding, FindingKind
 from ..raster.fill import Observer, fill
 from ..raster.frame import BitmapFrame, PixelCode, area_mm2

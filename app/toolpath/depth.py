@@ -11,7 +11,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..core.progress import NO_PROGRESS, Progress
-from ..geometry.primitives import DistanceField, fraction_on, point_on
+from ..geometry.distance import DistanceField
+from ..geometry.primitives import fraction_on, point_on
 from ..model.curves import Point
 from ..model.entry import EntryKind
 from ..model.moves import Moves, Purpose

@@ -14,8 +14,9 @@ from ..core.tolerances import CURVE
 from ..geometry.as_circle import as_circle
 from ..model.curves import Circle
 from ..model.finding import Finding, FindingKind
+from ..model.hole_operations import HoleOperation
 from ..model.job import Job
-from ..model.operation import ALIKE, HoleOperation
+from ..model.operation import ALIKE
 from ..model.part import Contour, Region
 from ..model.tool import Tool
 from .coverage.areas import region_shapes

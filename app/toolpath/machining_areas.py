@@ -16,17 +16,19 @@ from numpy.typing import NDArray
 
 from ..core import tolerances
 from ..core.progress import NO_PROGRESS, Progress
+from ..geometry.distance import DistanceField
 from ..geometry.even_odd import even_odd
 from ..geometry.offset.offset import OffsetLevel, Ring, grown_lines, offset_levels
 from ..geometry.outlines import Outlines, nested, polygon_contour, polygons
 from ..geometry.overlay.overlay import OverlayResult, differing, without_crossings, without_outlines
-from ..geometry.primitives import TURN, DistanceField, Primitives, Rows, contour_rows, pack, points_at, reversed_rows
+from ..geometry.primitives import TURN, Primitives, Rows, contour_rows, pack, points_at, reversed_rows
 from ..model.curve_selectors import Selector
 from ..model.entry import Lead
 from ..model.finding import Finding
+from ..model.hole_operations import HoleOperation
 from ..model.job import Job
 from ..model.moves import Area
-from ..model.operation import Direction, HoleOperation, Operation, Side, SideStrip
+from ..model.operation import Direction, Operation, Side, SideStrip
 from ..model.part import Contour, Region
 from ..model.stock_box import extent
 from .drawn_contours import DrawnContours, selected

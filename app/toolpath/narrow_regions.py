@@ -13,9 +13,10 @@ import shapely
 from numpy.typing import NDArray
 
 from ..core.pool import in_bands
+from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ..geometry.outlines import Outlines, polygons
-from ..geometry.primitives import DistanceField, Primitives, boxes, sample
+from ..geometry.primitives import Primitives, boxes, sample
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.operation import Operation

@@ -9,8 +9,9 @@ import numpy as np
 
 from ..core.errors import ParameterError
 from ..core.progress import Progress
+from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import OffsetLevel
-from ..geometry.primitives import DistanceField, contour_rows
+from ..geometry.primitives import contour_rows
 from ..model.curves import Point
 from ..model.entry import EntryKind
 from ..model.finding import Finding

@@ -20,8 +20,9 @@ from ..core import tolerances
 from ..core.memory import ask, fitting, portion
 from ..core.pool import in_bands
 from ..core.progress import Progress
+from ..geometry.distance import DistanceField
 from ..geometry.kernels import build_tree
-from ..geometry.primitives import DistanceField, Indices, Rows, boxes, pack, points_at, within_half_turn
+from ..geometry.primitives import Indices, Rows, boxes, pack, points_at, within_half_turn
 from ..model.curves import Point
 from ..model.tool import Tool
 from . import cleared_kernels as kernels

@@ -23,8 +23,9 @@ from ..geometry.sample import bounds, union
 from ..model.curve_selectors import CurveNumber
 from ..model.drawn_depths import DepthSource, DrawnDepth
 from ..model.fields import parameters_of
+from ..model.hole_operations import HoleOperation
 from ..model.job import Copies, Job
-from ..model.operation import HoleOperation, Operation, Side
+from ..model.operation import Operation, Side
 from ..model.part import Contour
 from .drawn_contours import DrawnContours, drawn_contours, selected
 from .drill_holes import circle_of, holes_of

@@ -21,10 +21,11 @@ from ..geometry.arcs.bezier import pieces_of
 from ..geometry.chaining.chain import ChainingResult
 from ..geometry.chaining.findings import at
 from ..geometry.chaining.pieces import length_of, within_reach
+from ..geometry.distance import DistanceField
 from ..geometry.even_odd import even_odd
 from ..geometry.outlines import NestingResult, Outlines
 from ..geometry.overlay.overlay import differing
-from ..geometry.primitives import DistanceField, contour_rows, points_at, sample
+from ..geometry.primitives import contour_rows, points_at, sample
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Primitive, Spline
 from ..model.finding import Finding, FindingKind
 from ..model.moves import Area

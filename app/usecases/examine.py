@@ -26,7 +26,8 @@ from ..gcode.timing.duration import TIME_METHOD, Duration, duration
 from ..gcode.timing.extent import Extent, extent, misfits
 from ..model.job import Job
 from ..model.machine import Machine
-from ..model.motion import MotionKind, anchored, lengths
+from ..model.motion import MotionKind
+from ..model.motion_path import anchored, lengths
 from ..model.part import Part
 
 Json = dict[str, Any]

@@ -22,8 +22,9 @@ from numpy.typing import NDArray
 from ..core.errors import ParameterError
 from ..core.progress import NO_PROGRESS, Progress
 from ..gcode.posts import load_post
+from ..geometry.distance import DistanceField
 from ..geometry.outlines import polygon_contour
-from ..geometry.primitives import DistanceField, contour_rows
+from ..geometry.primitives import contour_rows
 from ..geometry.transform import Similarity, transformed
 from ..model.chamfer_operation import ChamferOperation
 from ..model.curve_selectors import OnLayer

@@ -11,7 +11,8 @@ from ..model.entry import EntryKind
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.operation import LEAST_LENGTH, Operation, RestOperation
-from ..model.tool import Tool, ToolKind
+from ..model.tool import Tool
+from ..model.tool_kind import ToolKind
 from ..toolpath.advice.advise import standard_tools
 
 SPARE = 0.5

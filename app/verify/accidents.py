@@ -14,7 +14,8 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..core.wording import together
 from ..model.finding import Finding, FindingKind
-from ..model.motion import MotionKind, Motions, reach
+from ..model.motion import MotionKind, Motions
+from ..model.motion_path import reach
 from ..model.tool import Tool
 from ..simulation.bodies.bodies import HolderPart
 from ..simulation.cutter import Cutter

@@ -21,8 +21,9 @@ from numpy.typing import NDArray
 
 from ..core.pool import in_bands
 from ..core.progress import NO_PROGRESS, Progress
+from ..geometry.distance import DistanceField
 from ..geometry.kernels import build_tree
-from ..geometry.primitives import CX, TURN, DistanceField, Primitives, R, lengths, points_at, signed_area, sweeps
+from ..geometry.primitives import CX, TURN, Primitives, R, lengths, points_at, signed_area, sweeps
 from . import carved_kernels as kernels
 
 Floats = NDArray[np.float64]

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from ..gcode.interpreter.program import NcProgram
 from ..gcode.timing.extent import at_home, from_nowhere_of, nowhere_of
-from ..model.motion import Floats, MotionKind, Motions, reach
+from ..model.motion import Floats, MotionKind, Motions
+from ..model.motion_path import reach
 from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Grid, StockShape, Workpiece
 from ..simulation.sweeps.course import Course, Rapids, TrimOptions

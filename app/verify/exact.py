@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..model.job import Job
-from ..model.motion import Floats, MotionKind, arc_paths
+from ..model.motion import Floats, MotionKind
+from ..model.motion_path import arc_paths
 from ..model.moves import Moves, Purpose
 from ..model.stock_box import StockBox
 from ..simulation.sweeps.course import Course

@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
-from ..model.motion import Floats, reach
+from ..model.motion import Floats
+from ..model.motion_path import reach
 from ..model.tool import Tool
 from ..simulation.bodies.bodies import Body, BodyPaths, HeightPyramid, HolderPart, bodies_of, shape_rows
 from ..simulation.cutter import Cutter

@@ -13,14 +13,15 @@ from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
 from ..core.progress import NO_PROGRESS, Progress
-from ..geometry.primitives import DistanceField, pack
+from ..geometry.distance import DistanceField
+from ..geometry.primitives import pack
 from ..model.curves import Circle
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Area, DogBone, Moves, Program, Tab
 from ..model.part import Contour, Region
 from ..model.stock_box import StockBox, extent
-from ..model.tool import ToolKind
+from ..model.tool_kind import ToolKind
 from ..simulation.field.solid import SolidStock
 from ..simulation.field.target import MARGIN, TargetHeights, beside, inside
 from ..simulation.field.workpiece import Grid

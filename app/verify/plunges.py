@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
-from ..model.motion import Floats, MotionKind, Plane, arc_paths
+from ..model.motion import Floats, MotionKind, Plane
+from ..model.motion_path import arc_paths
 from ..model.tool import Tool
 from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Grid, Workpiece

@@ -14,15 +14,17 @@ from numpy.typing import NDArray
 from ..core.pool import in_bands
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
+from ..geometry.distance import DistanceField
 from ..geometry.near_points import near
-from ..geometry.primitives import TURN, DistanceField, Primitives, contour_rows, pack, points_at, within_half_turn
+from ..geometry.primitives import TURN, Primitives, contour_rows, pack, points_at, within_half_turn
 from ..model.curves import Circle
 from ..model.job import Job
 from ..model.moves import Area, DogBone, MoveKind, Moves, Program
 from ..model.operation import Operation
 from ..model.part import Contour, Region
 from ..model.stock_box import StockBox
-from ..model.tool import Tool, ToolKind
+from ..model.tool import Tool
+from ..model.tool_kind import ToolKind
 from ..simulation.cutter import cutter_of
 from ..toolpath.coverage.areas import lines, move_rows, region_shapes
 from ..toolpath.coverage.floor_target import areas_of_operations

@@ -8,7 +8,8 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 from app.exhibits.die_programs import PROGRAMS, SIZE, STOCK, block
 from app.formats.tools.holders import outline_of
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.field.workpiece import Grid, Heights
 from app.simulation.sweeps.course import TrimOptions
 from app.simulation.sweeps.trim import trim

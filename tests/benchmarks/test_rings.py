@@ -14,8 +14,9 @@ import pytest
 import shapely
 from pytest_benchmark.fixture import BenchmarkFixture
 
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import OffsetLevel, offset_levels
-from app.geometry.primitives import DistanceField, Primitives, contour_rows, pack, sample
+from app.geometry.primitives import Primitives, contour_rows, pack, sample
 from app.model.part import Region
 from app.operations.pocket.paths import pocket_distances, without_empty
 from tests.benchmarks.conftest import OURS, record

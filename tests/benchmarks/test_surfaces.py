@@ -11,7 +11,8 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from app.formats.scene.toml import read_scene, sources_of
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.surfaces.cutter_contact.drop_cutter import drop
 from app.surfaces.cutter_contact.scene_facets import scene_facets
 from app.surfaces.passes.path import Follower, FollowOptions, cutter_path

@@ -295,20 +295,20 @@ def test_the_published_method_states_its_error(slot: Path, tmp_path: Path) -> No
     assert data["removed_mm3"] == pytest.approx(data["tools"][0]["removed_mm3"], rel=0.01)
 
 
-def test_more_cells_than_memory_holds_are_told_before(
-    slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_more_cells_than_memory_holds_are_told_before(slot: Path, tmp_path: Path) -> None:
+    """In processes of their own: what another command has left in memory would count as the job's."""
     part = solid(tmp_path / "part.stl", [[0, 0, -10], [50, 20, -1]])
-    command = (slot, "--stock=0,0,-10,50,50,0", "--tool=1=flat:6", "--against", part)
-    assert cut(*command, "--grid=2000", "--memory=50M") == 2
-    said = capsys.readouterr().err
-    assert re.fullmatch(
+    options = ["--stock=0,0,-10,50,50,0", "--tool=1=flat:6", "--against", str(part), "--memory=50M", "--quiet"]
+    command = [sys.executable, "-P", "-m", "app", "cut", str(slot), *options]
+    refused = subprocess.run([*command, "--grid=2000"], capture_output=True, text=True, cwd=ROOT, check=False)
+    assert refused.returncode == 2
+    told = re.fullmatch(
         r"hitofude: A grid of 2000 x 2000 cells would take \d+ MB of memory, and [45]\d(\.\d)? MB may be taken; use at "
-        r"most \d+ cells along its longer side \(--grid \d+\), or allow more with --memory \S+\.\n",
-        said,
+        r"most (\d+) cells along its longer side \(--grid \2\), or allow more with --memory \S+\.\n",
+        refused.stderr,
     )
-    cells = re.search(r"--grid (\d+)", said)
-    assert cells is not None and cut(*command, f"--grid={cells[1]}", "--memory=50M") in (0, 1)
+    assert told is not None, refused.stderr
+    assert subprocess.run([*command, f"--grid={told[2]}"], cwd=ROOT, check=False).returncode in (0, 1)
 
 
 def test_no_window_library_is_needed(slot: Path, tmp_path: Path) -> None:

@@ -15,7 +15,8 @@ from app.gcode.interpreter.dialect_guess import guess_dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import EventKind, NcProgram
 from app.gcode.interpreter.reader import read_program
-from app.model.motion import MotionKind, arc_paths
+from app.model.motion import MotionKind
+from app.model.motion_path import arc_paths
 from tests.fitting.test_tube import off_chords
 
 HEAD = "G21 G90 G17 G94 G40 G49 G80\nT1 M6\nS8000 M3\nG0 X50 Y0\nG0 Z2\nG1 Z-1 F200\n"

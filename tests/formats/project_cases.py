@@ -14,13 +14,15 @@ from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, Selector, on_layers
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
+from app.model.hole_operations import DrillOperation
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.notes import Dimension, DimensionKind, Guide, Mark, Note
-from app.model.operation import CutParameters, Direction, DrillOperation, Order, PocketOperation, RestOperation, Side
+from app.model.operation import CutParameters, Direction, Order, PocketOperation, RestOperation, Side
 from app.model.part import Entity, Layer, Part, Units
 from app.model.read_options import DrawingOptions
 from app.model.reading import DrawingSource, ReadingOptions
-from app.model.tool import FeedRow, Tool, shape_keys, tool_kinds
+from app.model.tool import FeedRow, Tool
+from app.model.tool_kind import shape_keys, tool_kinds
 from app.model.underlay import Underlay
 
 

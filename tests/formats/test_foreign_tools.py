@@ -14,7 +14,8 @@ from app.core.errors import InputError
 from app.formats.tools.at_path import tools_at
 from app.formats.tools.files import read_tools, write_tools
 from app.formats.tools.library import read_library
-from app.model.tool import Tool, ToolKind, ToolMaterial
+from app.model.tool import Tool, ToolMaterial
+from app.model.tool_kind import ToolKind
 from tests.formats.foreign_tools import bit, bit_library, fusion_archive, fusion_json, fusion_tool, preset, vectric
 
 HOLDER = {

@@ -20,22 +20,14 @@ from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.face_operation import FaceOperation
-from app.model.hole_operations import BoreOperation, ThreadOperation
+from app.model.hole_operations import BoreOperation, DrillOperation, ThreadOperation
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
-from app.model.operation import (
-    CutParameters,
-    Direction,
-    DrillOperation,
-    Operation,
-    Order,
-    PocketOperation,
-    RestOperation,
-    Side,
-)
+from app.model.operation import CutParameters, Direction, Operation, Order, PocketOperation, RestOperation, Side
 from app.model.operation_kinds import declared
 from app.model.part import Part, Units
 from app.model.slot_operation import SlotOperation
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.model.vcarve_operation import VcarveOperation
 from tests.examples import examples
 

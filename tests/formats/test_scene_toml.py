@@ -40,7 +40,8 @@ from app.model.scene_shapes import (
     SweptShape,
     TorusShape,
 )
-from app.model.tool import FeedRow, Tool, ToolKind
+from app.model.tool import FeedRow, Tool
+from app.model.tool_kind import ToolKind
 from tests.examples import examples
 from tests.scene_text import write_scene
 

@@ -6,7 +6,8 @@ import pytest
 
 from app.core.errors import InputError
 from app.formats.tools.csv import read_tool_csv
-from app.model.tool import FeedRow, Tool, ToolKind
+from app.model.tool import FeedRow, Tool
+from app.model.tool_kind import ToolKind
 
 
 def read(text: str) -> tuple[Tool, ...]:

@@ -6,7 +6,8 @@ from app.core.errors import InputError
 from app.formats.tools.files import read_rows, read_tools, write_tools
 from app.formats.tools.library import ToolLibrary
 from app.model.part import Units
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 
 TOOLS = (Tool(1, 6.0, name="Six", length_offset=50.5, flutes=3), Tool(7, 3.0, ToolKind.BALL, name="Ball"))
 

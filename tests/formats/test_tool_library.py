@@ -19,7 +19,8 @@ from app.formats.tools.library import (
     read_library,
     write_library,
 )
-from app.model.tool import FeedRow, Tool, ToolKind, shape_keys, tool_kinds
+from app.model.tool import FeedRow, Tool
+from app.model.tool_kind import ToolKind, shape_keys, tool_kinds
 from tests.examples import examples
 
 TEXT = st.text(

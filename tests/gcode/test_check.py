@@ -21,7 +21,7 @@ from app.gcode.interpreter.reader import read_program
 from app.gcode.posts import Coolant, Post, load_post, post_names
 from app.gcode.writer.write import NcFile, write_files, writing_tolerance
 from app.model.job import OriginXY, OriginZ
-from app.model.motion import arc_paths
+from app.model.motion_path import arc_paths
 from app.model.moves import Program
 from app.model.part import Units
 from tests.examples import examples

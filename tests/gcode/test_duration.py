@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from app.gcode.interpreter.program import Event, EventKind, ModalState, NcProgram
 from app.gcode.timing.duration import duration
-from app.model.motion import Motions, Nurbs, Plane, lengths
+from app.model.motion import Motions, Nurbs, Plane
+from app.model.motion_path import lengths
 from tests.examples import examples
 from tests.gcode.motion_programs import Course, machine
 

@@ -10,7 +10,8 @@ import pytest
 from app.gcode.interpreter.program import ModalState, NcProgram
 from app.gcode.interpreter.reader import read_program
 from app.gcode.timing.extent import extent, misfits
-from app.model.motion import Motions, Nurbs, Plane, arc_paths, lengths, reach, spline_points
+from app.model.motion import Motions, Nurbs, Plane
+from app.model.motion_path import arc_paths, lengths, reach, spline_points
 from tests.gcode.motion_programs import Course, machine
 
 

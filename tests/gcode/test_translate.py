@@ -24,7 +24,7 @@ from app.gcode.posts import load_post
 from app.gcode.translate.program import translated
 from app.gcode.writer.blocks import Blocks
 from app.model.motion import MotionKind, Motions
-from app.model.motion import lengths as lengths_of
+from app.model.motion_path import lengths as lengths_of
 from tests.examples import examples
 from tests.gcode.interpreter.rs274_motions import assert_same, rs274
 from tests.gcode.rs274_oracle import RS274

@@ -17,7 +17,8 @@ from app.model.contour_operation import ContourOperation
 from app.model.job import Job
 from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Part, Units
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from tests.gcode.one_file import write_program
 from tests.gcode.programs import Path, job, square, two_tools
 from tests.gcode.rs274_oracle import canonical_calls

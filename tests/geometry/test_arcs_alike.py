@@ -10,7 +10,8 @@ import pytest
 from app.geometry.arcs.alike import arcs_of_all
 from app.geometry.arcs.arcs import LinesAndArcs, lines_and_arcs
 from app.geometry.arcs.bezier import pieces_of
-from app.geometry.primitives import DistanceField, contour_rows
+from app.geometry.distance import DistanceField
+from app.geometry.primitives import contour_rows
 from app.model.curves import Arc, Circle, Spline
 from app.model.part import Contour
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.geometry.distance import DistanceField
 from app.geometry.primitives import (
-    DistanceField,
     boxes,
     contour_rows,
     lengths,

@@ -11,10 +11,11 @@ import pytest
 from numpy.typing import NDArray
 
 from app.core.errors import GeometryError
+from app.geometry.distance import DistanceField
 from app.geometry.medial_axis import axis as medial_axis_module
 from app.geometry.medial_axis.axis import MedialAxis, medial_axes
 from app.geometry.outlines import nest, polygon_contour
-from app.geometry.primitives import DistanceField, Primitives, pack
+from app.geometry.primitives import Primitives, pack
 from app.model.curves import Arc, Circle, Line, Primitive
 from app.model.part import Contour
 

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.geometry.distance import DistanceField
 from app.geometry.kernels import DEPTH
 from app.geometry.offset import (
     clearance_kernels as offset_clearance_kernels,
@@ -21,7 +22,7 @@ from app.geometry.offset import (
     trim_kernels as offset_trim_kernels,
 )
 from app.geometry.offset.offset import offset_levels
-from app.geometry.primitives import DistanceField, Primitives, Rows, contour_rows, points_at
+from app.geometry.primitives import Primitives, Rows, contour_rows, points_at
 from tests.examples import examples
 from tests.part_shapes import random_star, square
 

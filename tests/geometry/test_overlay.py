@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from app.geometry.chaining.chain import crossings
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
 from app.geometry.outlines import nest, polygon_contour, reversed_contour
 from app.geometry.overlay.overlay import without_crossings
-from app.geometry.primitives import DistanceField, contour_rows, pack, signed_area
+from app.geometry.primitives import contour_rows, pack, signed_area
 from tests import plain_distance
 from tests.part_shapes import circle, random_part, square
 

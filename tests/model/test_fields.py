@@ -28,11 +28,13 @@ from app.gcode.writer.write import write_files
 from app.model import operation_kinds as operations
 from app.model.contour_operation import ContourOperation
 from app.model.fields import Unit, built, check_ranges, declared_of, parameter, parameters_of, with_values
+from app.model.hole_operations import DrillOperation
 from app.model.job import Job
-from app.model.operation import CutParameters, DrillOperation, Operation, Side
+from app.model.operation import CutParameters, Operation, Side
 from app.model.operation_kinds import register
 from app.model.part import Part
-from app.model.tool import FeedRow, Tool, ToolKind, ToolMaterial
+from app.model.tool import FeedRow, Tool, ToolMaterial
+from app.model.tool_kind import ToolKind
 from app.usecases.job.options import job_with_options
 from app.usecases.making.report import _parameters
 from app.usecases.manual.parameter_table import parameter_table

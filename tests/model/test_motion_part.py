@@ -6,8 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.geometry.arcs.nurbs import flattened_all
-from app.model.motion import MotionKind, Motions, Nurbs, Plane, arc_paths, lengths
+from app.model.motion import MotionKind, Motions, Nurbs, Plane
 from app.model.motion_part import part_of, place_on
+from app.model.motion_path import arc_paths, lengths
 from tests.simulation.courses import arc, polyline
 
 ARCS = {

@@ -21,7 +21,8 @@ from app.model.scene_shapes import (
     SphereShape,
     TorusShape,
 )
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 
 ZERO, X = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
 BALL = SphereShape(ZERO, 1.0)

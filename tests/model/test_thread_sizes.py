@@ -42,7 +42,7 @@ def test_every_thread_is_sound() -> None:
 
 
 def test_no_core_is_less_than_what_a_tool_is_taken_to_have() -> None:
-    from app.model.tool import ToolKind, ToolShape, core_radius
+    from app.model.tool_kind import ToolKind, ToolShape, core_radius
 
     for each in ThreadSize:
         if "UN" not in each.value:

@@ -8,7 +8,8 @@ from dataclasses import replace
 import pytest
 
 from app.core.errors import ParameterError
-from app.model.tool import FeedRow, Tool, ToolKind, tool_kinds
+from app.model.tool import FeedRow, Tool
+from app.model.tool_kind import ToolKind, tool_kinds
 
 BULL = Tool(
     3,

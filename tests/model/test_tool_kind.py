@@ -23,7 +23,8 @@ from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts import load_post
 from app.gcode.writer.write import write_files
-from app.model.tool import Tool, ToolKind, ToolProfile, register, tool_kind, tool_kinds, withdraw
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind, ToolProfile, register, tool_kind, tool_kinds, withdraw
 from app.simulation.cutter import cutter_of
 from app.surfaces.cutter_contact.drop_cutter import shape_of
 from app.toolpath.rest_material import flat_radius

@@ -9,8 +9,9 @@ import pytest
 import shapely
 
 from app.core.errors import ParameterError
+from app.geometry.distance import DistanceField
 from app.geometry.outlines import nested, polygon_contour
-from app.geometry.primitives import DistanceField, pack
+from app.geometry.primitives import pack
 from app.model.chamfer_operation import ChamferOperation
 from app.model.curve_selectors import on_layers
 from app.model.finding import FindingKind
@@ -18,7 +19,8 @@ from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program, Purpose
 from app.model.operation import CutParameters, Direction, Side
 from app.model.part import Contour
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.compute import compute
 from tests.part_shapes import circle, layered_part, square
 

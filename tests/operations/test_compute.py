@@ -12,9 +12,10 @@ from app.geometry.outlines import polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.curves import Line
 from app.model.finding import FindingKind
+from app.model.hole_operations import DrillOperation
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import CutParameters, Direction, DrillOperation, Order, PocketOperation, Side
+from app.model.operation import CutParameters, Direction, Order, PocketOperation, Side
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute

@@ -15,11 +15,13 @@ from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.curves import Arc
 from app.model.finding import Finding, FindingKind
+from app.model.hole_operations import DrillOperation
 from app.model.job import Copies, Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import CutParameters, DrillOperation, PocketOperation, Side
+from app.model.operation import CutParameters, PocketOperation, Side
 from app.model.part import Contour
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.compute import compute
 from app.toolpath.drawn_contours import drawn_contours
 from app.toolpath.drill_holes import circle_of, holes_of, tip_depth

@@ -16,7 +16,8 @@ from app.model.job import Job, OriginZ, Stock
 from app.model.moves import MoveKind, Program, Purpose
 from app.model.operation import CutParameters, PocketOperation
 from app.model.stock_box import stock_box, work_origin
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.compute import compute
 from tests.part_shapes import layered_part
 

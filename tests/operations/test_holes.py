@@ -9,12 +9,20 @@ import numpy as np
 import pytest
 
 from app.core.errors import ParameterError
-from app.model.hole_operations import BoreOperation, CountersinkOperation, ReamOperation, TapOperation, ThreadOperation
+from app.model.hole_operations import (
+    BoreOperation,
+    CountersinkOperation,
+    DrillOperation,
+    ReamOperation,
+    TapOperation,
+    ThreadOperation,
+)
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program, Purpose
-from app.model.operation import CutParameters, Direction, DrillOperation, Operation
+from app.model.operation import CutParameters, Direction, Operation
 from app.model.thread_sizes import ThreadSize
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.bore.paths import ways_of
 from app.operations.compute import compute
 from app.operations.thread.form import correction, flank_error

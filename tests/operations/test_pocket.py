@@ -9,9 +9,10 @@ import pytest
 
 from app.core.errors import ParameterError
 from app.formats.readers import read_drawing
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.outlines import nest, polygon_contour
-from app.geometry.primitives import DistanceField, lengths, pack
+from app.geometry.primitives import lengths, pack
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.moves import Purpose

@@ -18,7 +18,8 @@ from app.model.moves import MoveKind, Program
 from app.model.operation import CutParameters
 from app.model.part import Contour
 from app.model.slot_operation import SlotOperation
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.compute import compute
 from app.toolpath.coverage.areas import lines as shapes_of
 from app.toolpath.coverage.areas import move_rows

@@ -9,7 +9,8 @@ import shapely
 
 from app.model.moves import MoveKind, Purpose
 from app.model.scene import Strategy
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.parallel.surface_moves import PLUNGE_ANGLE, PassFamily, SurfaceMoves, surface_moves
 from app.surfaces.passes.path import Follower, FollowOptions, cutter_path
 from app.surfaces.sections.compound import NO_SURFACE

@@ -9,14 +9,16 @@ import pytest
 
 from app.core.errors import ParameterError
 from app.core.progress import NO_PROGRESS
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
 from app.geometry.outlines import nested, polygon_contour
-from app.geometry.primitives import DistanceField, pack, within_half_turn
+from app.geometry.primitives import pack, within_half_turn
 from app.model.finding import FindingKind
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program
 from app.model.operation import CutParameters, PocketOperation
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.model.vcarve_operation import VcarveOperation
 from app.operations.compute import compute
 from app.operations.vcarve.branches import AxisBranch

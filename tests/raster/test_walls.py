@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from app.geometry.distance import DistanceField
 from app.geometry.outlines import nest
-from app.geometry.primitives import DistanceField, contour_rows, points_at, signed_area
+from app.geometry.primitives import contour_rows, points_at, signed_area
 from app.raster.border import borders_of
 from app.raster.frame import BitmapFrame
 from app.raster.levels import offset_area

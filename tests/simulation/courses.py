@@ -8,7 +8,8 @@ import numpy as np
 
 from app.model.motion import Floats, MotionKind, Motions, Plane
 from app.model.stock_box import StockBox
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.cutter import Cutter, cutter_of
 from app.simulation.field.workpiece import BoxStock, Grid, Workpiece
 from app.simulation.sweeps.course import Course, TrimOptions

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.model.motion import Floats, MotionKind, Motions, Nurbs, Plane, arc_paths
+from app.model.motion import Floats, MotionKind, Motions, Nurbs, Plane
+from app.model.motion_path import arc_paths
 from app.model.stock_box import StockBox
 from app.simulation.field.workpiece import BoxStock, Grid
 from app.simulation.sweeps.course import TrimOptions

@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.ndimage import maximum_filter, minimum_filter
 
-from app.model.motion import Floats, Motions, Plane, arc_paths
+from app.model.motion import Floats, Motions, Plane
+from app.model.motion_path import arc_paths
 from app.simulation.cutter import Cutter
 from app.simulation.field.workpiece import Heights, Workpiece
 from app.simulation.sweeps.course import TrimOptions

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from app.core.errors import ParameterError
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.cutter import cutter_of
 from app.simulation.gpu.wedges_picture import FINENESS, has_wedges, wedges_picture
 

@@ -11,7 +11,8 @@ from app.core.errors import InputError, ParameterError
 from app.core.memory import MemoryShortError, within
 from app.model.motion import Floats
 from app.model.stock_box import StockBox
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.cutter import Cutter, cutter_of
 from app.simulation.field import workpiece
 from app.simulation.field.solid import SolidStock, read_solid

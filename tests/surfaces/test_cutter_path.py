@@ -12,7 +12,8 @@ import trimesh
 from app.core.progress import Progress
 from app.model.scene_curves import SectionCurve
 from app.model.scene_shapes import SweptShape, TorusShape
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.surfaces.cutter_contact.drop_cutter import drop
 from app.surfaces.passes.path import ALLOWED, Follower, FollowOptions, cutter_path
 from app.surfaces.passes.point_kernels import BOUNDARY, NEW, X, Y, Z

@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.surfaces.cutter_contact.drop_cutter import NONE, drop
 from app.surfaces.patches.facets import SurfaceFacets
 from tests.examples import examples

@@ -10,7 +10,8 @@ import pytest
 from app.core.errors import ParameterError
 from app.formats.scene.toml import sources_of
 from app.model.scene import Passes, Scene, Surface
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.surfaces.passes.scallop import stepover_for_scallop
 from app.surfaces.sections.compound import NO_SURFACE
 from app.usecases.scene.compute import compute

@@ -11,7 +11,8 @@ from app.core.errors import Cancelled, GeometryError
 from app.core.progress import Progress
 from app.model.scene import KeptSide, Surface, Trim
 from app.model.scene_shapes import BsplineShape, Shape
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.surfaces.cutter_contact.drop_cutter import drop
 from app.surfaces.passes.path import Follower, FollowOptions, cutter_path
 from app.surfaces.patches.build import build_surface

@@ -18,14 +18,16 @@ from app.core.errors import Cancelled, ParameterError
 from app.core.progress import Progress
 from app.formats.readers import read_drawing
 from app.gcode.posts import load_post
+from app.geometry.distance import DistanceField
 from app.geometry.outlines import nest, polygon_contour
 from app.geometry.overlay.overlay import without_crossings
-from app.geometry.primitives import DistanceField, pack
+from app.geometry.primitives import pack
 from app.model.contour_operation import ContourOperation
 from app.model.job import Job
 from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.compute import compute, regions_of
 from app.toolpath.advice.advise import Advice, CuttingPlan, RegionAdvice, SizedPlace, advise, distances, times
 from app.toolpath.advice.reach import FITS, centres

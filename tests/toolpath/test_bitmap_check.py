@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import pytest
 
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.outlines import nest
 from app.geometry.overlay.overlay import without_crossings
-from app.geometry.primitives import DistanceField, pack
+from app.geometry.primitives import pack
 from app.model.part import Contour
 from app.toolpath.bitmap_check import BitmapCheck, check_on_bitmap
 from tests.part_shapes import circle, fig2, random_part, square

@@ -10,9 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core import tolerances
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
 from app.geometry.outlines import nest, polygon_contour
-from app.geometry.primitives import DistanceField, lengths, pack, points_at
+from app.geometry.primitives import lengths, pack, points_at
 from app.model.moves import Purpose
 from app.model.part import Contour
 from app.toolpath.build import Stroke

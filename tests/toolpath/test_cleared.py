@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.geometry.primitives import contour_rows
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.toolpath.rest_material import ClearedGround, flat_radius
 from tests.examples import examples
 from tests.part_shapes import circle

@@ -24,7 +24,8 @@ from app.model.moves import MoveKind, Program
 from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Region
 from app.model.stock_box import stock_box
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.compute import compute
 from app.toolpath.coverage.areas import move_rows
 from app.toolpath.engagement import engagement as engagement_field

@@ -15,9 +15,10 @@ from app.core.errors import Cancelled
 from app.core.progress import Progress
 from app.formats.readers import read_drawing
 from app.model.contour_operation import ContourOperation
+from app.model.hole_operations import DrillOperation
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program
-from app.model.operation import CutParameters, DrillOperation, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.tool import Tool
 from app.operations.compute import compute
 from app.toolpath.coverage.areas import move_rows

@@ -8,10 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core import tolerances
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.outlines import nest, polygon_contour
 from app.geometry.overlay.overlay import without_crossings
-from app.geometry.primitives import DistanceField, lengths, pack, points_at, signed_area
+from app.geometry.primitives import lengths, pack, points_at, signed_area
 from app.model.moves import Purpose
 from app.model.operation import Direction
 from app.model.part import Contour

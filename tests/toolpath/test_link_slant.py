@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 
 from app.core import tolerances
 from app.formats.readers import read_drawing
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
 from app.geometry.outlines import nest
 from app.geometry.overlay.overlay import without_crossings
-from app.geometry.primitives import DistanceField, lengths, pack, points_at
+from app.geometry.primitives import lengths, pack, points_at
 from app.model.job import Job
 from app.model.moves import Purpose
 from app.model.operation import Direction

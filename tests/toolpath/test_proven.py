@@ -14,7 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import affinity
 
-from app.geometry.primitives import DistanceField, Rows, within_half_turn
+from app.geometry.distance import DistanceField
+from app.geometry.primitives import Rows, within_half_turn
 from app.toolpath.coverage import proven
 from app.toolpath.coverage.proven import uncertain
 from tests.examples import examples

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from app.core.progress import NO_PROGRESS
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
 from app.geometry.outlines import nest
-from app.geometry.primitives import DistanceField, lengths, pack
+from app.geometry.primitives import lengths, pack
 from app.toolpath.linking.rest_runs import RestCells, RingChunks, runs
 from app.toolpath.machining_areas import MachiningArea
 from app.toolpath.rest_material import LEAST, CentreReach, CutGround, core_cells, suspects

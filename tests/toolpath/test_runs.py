@@ -11,10 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core import tolerances
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.outlines import nest, polygon_contour
 from app.geometry.overlay.overlay import without_crossings
-from app.geometry.primitives import DistanceField, Primitives, Rows, lengths, pack, points_at, sample, within_half_turn
+from app.geometry.primitives import Primitives, Rows, lengths, pack, points_at, sample, within_half_turn
 from app.model.part import Contour
 from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke

@@ -15,11 +15,13 @@ from app.drafting.document import Document
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import read_selectors
 from app.model.finding import FindingKind
+from app.model.hole_operations import DrillOperation
 from app.model.job import Copies, Job
 from app.model.moves import Program
-from app.model.operation import CutParameters, DrillOperation, Operation, PocketOperation, Side
+from app.model.operation import CutParameters, Operation, PocketOperation, Side
 from app.model.part import Contour
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.compute import compute
 from app.toolpath.coverage.areas import region_shapes
 from app.toolpath.coverage.coverage import measure

@@ -12,8 +12,9 @@ from app.geometry.outlines import nest, polygon_contour
 from app.geometry.overlay.overlay import without_outlines
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
+from app.model.hole_operations import DrillOperation
 from app.model.job import Copies, Job
-from app.model.operation import CutParameters, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from app.model.operation import CutParameters, Operation, PocketOperation, RestOperation, Side
 from app.model.part import Contour, Region
 from app.model.tool import Tool
 from app.toolpath.coverage.areas import region_shapes

@@ -16,8 +16,9 @@ from hypothesis import strategies as st
 from app.core.errors import Cancelled, ParameterError
 from app.core.progress import NO_PROGRESS, Progress
 from app.formats.readers import read_drawing
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
-from app.geometry.primitives import DistanceField, lengths, pack
+from app.geometry.primitives import lengths, pack
 from app.model.job import Job
 from app.model.moves import Purpose
 from app.model.operation import Direction

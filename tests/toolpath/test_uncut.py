@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 
 from app.core.errors import Cancelled
 from app.core.progress import Progress
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.outlines import nest
 from app.geometry.overlay.overlay import without_crossings
-from app.geometry.primitives import DistanceField, Rows, pack
+from app.geometry.primitives import Rows, pack
 from app.model.part import Contour
 from app.operations.pocket.paths import pocket_distances, without_empty
 from tests import plain_distance

@@ -13,10 +13,10 @@ from app.geometry.arcs.bezier import pieces_of
 from app.geometry.arcs.chord_kernels import chords
 from app.geometry.chaining import chain
 from app.geometry.chaining.chain import ChainingResult
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import grown_lines
 from app.geometry.outlines import NestingResult, Outlines
 from app.geometry.overlay import overlay as overlay_net
-from app.geometry.primitives import DistanceField
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.finding import FindingKind
 from app.model.job import Job

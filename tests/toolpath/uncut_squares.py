@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 
 from app.core.progress import NO_PROGRESS, Progress
 from app.geometry import kernels
+from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import OffsetLevel
-from app.geometry.primitives import DistanceField, Rows, boxes, within_half_turn
+from app.geometry.primitives import Rows, boxes, within_half_turn
 from app.toolpath.coverage import uncut_kernels
 from tests.toolpath import uncut_squares_kernels
 

@@ -11,7 +11,8 @@ from PySide6.QtCore import Qt
 from app.core.resources import resource
 from app.model.contour_operation import ContourOperation
 from app.model.operation import CutParameters
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.model.vcarve_operation import VcarveOperation
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.figures import clock

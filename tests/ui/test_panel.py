@@ -12,8 +12,9 @@ from app.drafting.document import Document
 from app.gcode.posts import post_titles
 from app.model.contour_operation import ContourOperation
 from app.model.entry import Lead, LeadKind, Tabs
+from app.model.hole_operations import DrillOperation
 from app.model.job import Job, OriginXY
-from app.model.operation import CutParameters, DrillOperation, Order, PocketOperation, Side
+from app.model.operation import CutParameters, Order, PocketOperation, Side
 from app.model.operation_kinds import OPERATION_KINDS
 from app.model.part import Part
 from app.model.tool import Tool

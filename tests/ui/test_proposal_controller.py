@@ -6,8 +6,8 @@ import pytest
 
 from app.model.chamfer_operation import ChamferOperation
 from app.model.contour_operation import ContourOperation
-from app.model.hole_operations import BoreOperation, CountersinkOperation
-from app.model.operation import DrillOperation, PocketOperation, Side
+from app.model.hole_operations import BoreOperation, CountersinkOperation, DrillOperation
+from app.model.operation import PocketOperation, Side
 from app.model.slot_operation import SlotOperation
 from app.ui.framework.computation import ComputationState
 from app.ui.panels.changes import Subject, SubjectKind

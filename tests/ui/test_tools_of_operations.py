@@ -15,7 +15,8 @@ from app.drafting.document import Document
 from app.model.job import Job, Stock
 from app.model.operation import CutParameters
 from app.model.operation_kinds import OPERATION_KINDS
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.ui.framework.computation import Computation, ComputationState
 from app.ui.framework.labels import Elided
 from app.ui.framework.worker import Worker

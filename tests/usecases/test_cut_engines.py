@@ -8,7 +8,8 @@ import pytest
 
 from app.core.errors import HitofudeError
 from app.core.progress import Progress
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.engines import Compute, Cutters, Engine, Graphics, quads
 from app.simulation.field.workpiece import Heights, Workpiece
 from app.simulation.gpu.graphics import is_software, renderer_of, standalone_context

@@ -18,10 +18,12 @@ from app.formats.dxf.dxf import read_dxf
 from app.formats.job.toml import read_job
 from app.formats.project.project import Project, read_project, write_project
 from app.model.drawn_depths import DepthSource, depth_words
+from app.model.hole_operations import DrillOperation
 from app.model.job import Job
-from app.model.operation import CutParameters, DrillOperation, Operation, PocketOperation
+from app.model.operation import CutParameters, Operation, PocketOperation
 from app.model.part import Part
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.usecases.job.drawn_depths import with_drawn_depths
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import make

@@ -14,8 +14,9 @@ from app.core.errors import InputError, ParameterError
 from app.core.resources import resource
 from app.formats.job.toml import JobFile, read_job
 from app.model.contour_operation import ContourOperation
+from app.model.hole_operations import DrillOperation
 from app.model.layer_rules import LayerRule, depth_in
-from app.model.operation import CutParameters, DrillOperation, PocketOperation, Side
+from app.model.operation import CutParameters, PocketOperation, Side
 from app.model.part import Layer
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import MakeResult, make

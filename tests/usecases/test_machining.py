@@ -16,11 +16,13 @@ from app.core.progress import Progress
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.entry import EntryKind, LeadKind
+from app.model.hole_operations import DrillOperation
 from app.model.job import Copies, Job
-from app.model.operation import CutParameters, DrillOperation, Order, PocketOperation, RestOperation, Side
+from app.model.operation import CutParameters, Order, PocketOperation, RestOperation, Side
 from app.model.operation_kinds import parameters
 from app.model.part import Layer, Part
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.usecases.job.machining import MachiningOptions, check_order
 from app.usecases.job.options import MakeOptions, Stepover, job_with_options, layers_of_drawing
 from app.usecases.making.make import export, make

@@ -22,7 +22,7 @@ from app.model.moves import MoveKind
 from app.model.operation import CutParameters, PocketOperation, RestOperation
 from app.model.part import Part, Units
 from app.model.stock_box import stock_box, work_origin
-from app.model.tool import ToolKind
+from app.model.tool_kind import ToolKind
 from app.usecases.job.machining import MachiningOptions
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import MakeResult, finish, make

@@ -9,9 +9,11 @@ import pytest
 
 from app.model.contour_operation import ContourOperation
 from app.model.finding import FindingKind
+from app.model.hole_operations import DrillOperation
 from app.model.job import Job
-from app.model.operation import CutParameters, DrillOperation, PocketOperation, RestOperation
-from app.model.tool import Tool, ToolKind
+from app.model.operation import CutParameters, PocketOperation, RestOperation
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.usecases.making.make import MakeResult, export
 from app.usecases.making.program_lines import operation_of_line
 from app.usecases.mending import Fault, mends

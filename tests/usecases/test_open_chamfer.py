@@ -11,8 +11,9 @@ import pytest
 
 from app.core.errors import GeometryError
 from app.formats.job.toml import read_job
+from app.geometry.distance import DistanceField
 from app.geometry.outlines import polygon_contour
-from app.geometry.primitives import DistanceField, contour_rows
+from app.geometry.primitives import contour_rows
 from app.model.finding import FindingKind
 from app.model.moves import Purpose
 from app.operations.compute import compute

@@ -11,7 +11,8 @@ import pytest
 
 from app.core.errors import GeometryError, ParameterError
 from app.fitting.corner_smoothing.smooth import CornerSmoothingOptions
-from app.geometry.primitives import DistanceField, curve_rows, points_at
+from app.geometry.distance import DistanceField
+from app.geometry.primitives import curve_rows, points_at
 from app.model.contour_operation import ContourOperation
 from app.model.curves import Arc
 from app.model.finding import FindingKind

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.model.motion import MotionKind, anchored
+from app.model.motion import MotionKind
+from app.model.motion_path import anchored
 from app.model.stock_box import StockBox
 from app.model.tool import Tool
 from app.simulation.cutter import cutter_of

@@ -17,11 +17,12 @@ from app.formats.job.write import job_lines
 from app.formats.readers import read_drawing
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber
-from app.model.hole_operations import BoreOperation
+from app.model.hole_operations import BoreOperation, DrillOperation
 from app.model.job import Copies, Job
-from app.model.operation import DrillOperation, PocketOperation, RestOperation, Side
+from app.model.operation import PocketOperation, RestOperation, Side
 from app.model.stock_box import stock_box
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.compute import compute
 from app.toolpath.coverage.areas import region_shapes
 from app.usecases.job.machining import MachiningOptions

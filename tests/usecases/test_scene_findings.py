@@ -15,7 +15,8 @@ from app.cli.main import main
 from app.model.finding import FindingKind
 from app.model.moves import Moves
 from app.model.scene import Passes
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.parallel.surface_moves import SurfaceMoves
 from app.surfaces.meshes.holes import holes
 from app.usecases.scene.findings import floor_findings

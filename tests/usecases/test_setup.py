@@ -15,7 +15,8 @@ from app.model.finding import FindingKind
 from app.model.job import OriginXY, OriginZ
 from app.model.operation import PocketOperation, RestOperation
 from app.model.stock_box import StockBox
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.cutting.ready_setup import ReadySetup, SetupRequest, setup_of
 from app.usecases.cutting.setup_tools import ToolSource

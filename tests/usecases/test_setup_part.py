@@ -15,10 +15,12 @@ from app.gcode.writer.write import write_files
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers
 from app.model.entry import Lead, LeadKind
+from app.model.hole_operations import DrillOperation
 from app.model.job import Copies, Job
 from app.model.moves import Area, DogBone, Program, Tab
-from app.model.operation import CutParameters, DrillOperation, Operation, PocketOperation, Side
-from app.model.tool import Tool, ToolKind
+from app.model.operation import CutParameters, Operation, PocketOperation, Side
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.compute import followed_lines, machined_regions
 from app.toolpath.coverage.areas import region_shapes
 from app.toolpath.drawn_contours import drawn_contours

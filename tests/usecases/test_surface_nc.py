@@ -17,7 +17,8 @@ from app.model.finding import FindingKind
 from app.model.job import OriginXY, OriginZ
 from app.model.part import Units
 from app.model.scene import Boundary, CentreLimit, Passes, Scene, Surface
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.surfaces.sections.compound import NO_SURFACE
 from app.usecases.scene.compute import ComputedScene, compute
 from app.usecases.scene_program import nc as surface_nc

@@ -10,7 +10,8 @@ import shapely
 from scipy.spatial import cKDTree
 
 from app.formats.scene.toml import read_scene, sources_of
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.surfaces.patches.patch import patches_of
 from app.usecases.scene.compute import ComputedScene, compute
 from app.usecases.scene_program.nc import write_scene_nc

@@ -7,7 +7,8 @@ import pytest
 
 from app.model.finding import Finding, FindingKind
 from app.model.stock_box import StockBox
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.field.solid import SolidStock
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.cutting.cut import CutOptions, CutProgram, CutSetup, cut

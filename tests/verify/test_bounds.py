@@ -12,11 +12,13 @@ from app.geometry.outlines import polygon_contour
 from app.model.contour_operation import ContourOperation
 from app.model.curves import Circle, Line
 from app.model.finding import FindingKind
+from app.model.hole_operations import DrillOperation
 from app.model.job import Job, Stock
 from app.model.moves import Area, DogBone, Program, Tab
-from app.model.operation import CutParameters, DrillOperation, PocketOperation, RestOperation, Side
+from app.model.operation import CutParameters, PocketOperation, RestOperation, Side
 from app.model.part import Contour, Entity, Part, Region
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.toolpath.coverage.coverage import measure
 from app.toolpath.coverage.floor_target import floor_targets
 from app.usecases.making.make import export

@@ -11,8 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 from app.core.progress import NO_PROGRESS
+from app.geometry.distance import DistanceField
 from app.geometry.outlines import nested, polygon_contour
-from app.geometry.primitives import DistanceField, pack
+from app.geometry.primitives import pack
 from app.model.part import Contour
 from app.verify.carved_roof import ConePath, _Carving, _discs, _Elements, prove_roof
 from tests.part_shapes import circle, square

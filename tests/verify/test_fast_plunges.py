@@ -10,7 +10,8 @@ from app.cli.main import main
 from app.gcode.interpreter.program import HeaderNote
 from app.model.finding import Finding, FindingKind
 from app.model.stock_box import StockBox
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.cutting.cut import CutOptions, CutSetup, cut
 from app.verify import plunges

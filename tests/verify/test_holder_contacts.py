@@ -14,7 +14,8 @@ from app.core.errors import Cancelled
 from app.core.progress import Progress
 from app.model.motion import Floats, MotionKind, Motions, Plane
 from app.model.stock_box import StockBox
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.bodies.bodies import HolderPart, bodies_of
 from app.simulation.cutter import Cutter, cutter_of
 from app.simulation.field.workpiece import BoxStock, Grid, Workpiece

@@ -10,9 +10,10 @@ from app.core.resources import resource
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.model.finding import FindingKind
-from app.model.motion import anchored
+from app.model.motion_path import anchored
 from app.model.stock_box import StockBox
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.field.solid import SolidStock
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.cutting.cut import CutOptions, CutProgram, CutSetup, cut

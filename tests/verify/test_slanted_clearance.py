@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from app.geometry.distance import DistanceField
 from app.geometry.outlines import nested
-from app.geometry.primitives import DistanceField, pack, within_half_turn
+from app.geometry.primitives import pack, within_half_turn
 from app.verify.verdict import SlantedMoves, reach_beyond
 from tests.part_shapes import circle, random_star, square
 

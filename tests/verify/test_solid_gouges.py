@@ -13,7 +13,8 @@ import pytest
 from app.cli.main import main
 from app.model.finding import FindingKind
 from app.model.stock_box import StockBox
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.cutter import cutter_of
 from app.simulation.field.solid import SolidStock, read_solid
 from app.simulation.field.triangle_tree import TriangleTree

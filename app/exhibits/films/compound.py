@@ -12,7 +12,8 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...formats.plot.surface_plot import colour_of
 from ...formats.scene.toml import read_scene
 from ...gcode.interpreter.program import NcProgram
-from ...model.motion import Floats, anchored
+from ...model.motion import Floats
+from ...model.motion_path import anchored
 from ...model.scene import LineType
 from ...model.scene_curves import SceneFiles
 from ...surfaces.patches.patch import BsplineSurface

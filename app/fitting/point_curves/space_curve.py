@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from ...core.errors import GeometryError
 from ...geometry.arcs.bezier import cut_at_knots, elevated
 from ...geometry.arcs.nurbs import flattened
-from ...model.motion import ArcPaths, MotionKind, Motions, Nurbs, along_xyz, arc_paths
+from ...model.motion import MotionKind, Motions, Nurbs
+from ...model.motion_path import ArcPaths, along_xyz, arc_paths
 
 Floats = NDArray[np.float64]
 

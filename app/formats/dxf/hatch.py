@@ -109,7 +109,8 @@ def bounding_alone(rings: Sequence[tuple[Curve, ...]], drawn: Sequence[Curve], s
     Args:
         rings: boundaries, drawing units. drawn: curves that are machined, drawing units. size: of the unit, mm.
     """
-    from ...geometry.primitives import DistanceField, points_at
+    from ...geometry.distance import DistanceField
+    from ...geometry.primitives import points_at
     from ...geometry.sample import bounds, union
 
     around = union([bounds(curve) for ring in rings for curve in ring if has_place(curve)])

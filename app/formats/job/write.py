@@ -11,7 +11,8 @@ from ...model.fields import ParameterPlace, Unit, declared_of, parameters_of
 from ...model.job import Job
 from ...model.operation import Operation
 from ...model.part import Units
-from ...model.tool import Tool, shape_keys
+from ...model.tool import Tool
+from ...model.tool_kind import shape_keys
 from ..tools.library import shortest_degrees
 from .toml import SETTINGS, TOOL_KEYS, UNITS, WORDS, settings_of
 

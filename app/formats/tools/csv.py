@@ -20,7 +20,8 @@ from ...core.errors import MOST_QUOTED, HitofudeError, InputError, printable
 from ...core.toml_tables import QUOTED, brief
 from ...core.wording import together
 from ...model.fields import Unit, declared_of
-from ...model.tool import FeedRow, HolderPoint, Tool, ToolKind, ToolMaterial, tool_kinds
+from ...model.tool import FeedRow, HolderPoint, Tool, ToolMaterial
+from ...model.tool_kind import ToolKind, tool_kinds
 from .holders import outline_of
 from .library import ReadTools, ToolLibrary, check_numbers, shortest_degrees
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from ...core.errors import InputError
 from ...core.toml_tables import QUOTED, brief
-from ...model.tool import ToolKind
+from ...model.tool_kind import ToolKind
 from .foreign import ForeignTool, NotUnderstoodError, Unreadable, edges_of, label_of, library_of, quantity, whole_in
 from .library import ReadTools
 

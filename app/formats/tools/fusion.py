@@ -18,7 +18,8 @@ from typing import Any, NamedTuple
 
 from ...core.errors import MOST_QUOTED, InputError
 from ...core.toml_tables import QUOTED, brief
-from ...model.tool import FeedRow, HolderPoint, ToolKind
+from ...model.tool import FeedRow, HolderPoint
+from ...model.tool_kind import ToolKind
 from .foreign import (
     INCH,
     ForeignTool,

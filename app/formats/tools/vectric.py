@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 
 from ...core.errors import InputError
 from ...core.toml_tables import QUOTED, brief
-from ...model.tool import FeedRow, ToolKind
+from ...model.tool import FeedRow
+from ...model.tool_kind import ToolKind
 from .foreign import INCH, ForeignTool, NotUnderstoodError, Rates, Unreadable, label_of, library_of, number_in, whole_in
 from .library import ReadTools
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.motion import ArcPaths, Floats, MotionKind, Motions, arc_paths
+from ...model.motion import Floats, MotionKind, Motions
+from ...model.motion_path import ArcPaths, arc_paths
 from ...model.moves import MoveKind, Moves
 
 NOTHING = 1e-9
@@ -31,7 +32,7 @@ def distances(motions: Motions, reference: ReferencePath, owned: MotionOwners) -
     arc = reference.kind >= MoveKind.ARC_CW
     mine = arc[owned.move]
     for some in _portions(owned.move, np.flatnonzero(mine)):
-        np.maximum.at(found, owned.move[some], _along_arcs(motions, reference, (owned.rows[some], owned.move[some])))
+        np.maximum.at(found, owned.move[some], _along_arcs(motions, reference, owned.rows[some], owned.move[some]))
     still = np.flatnonzero(arc & (owned.count == 0) & (last >= 0))
     if len(still):
         found[still] = np.maximum(found[still], _still_on_arcs(reached[still], reference, still))
@@ -69,17 +70,16 @@ def _portions(move: Rows, mine: Rows) -> Iterator[Rows]:
         first = stop
 
 
-def _along_arcs(motions: Motions, reference: ReferencePath, at: tuple[Rows, Rows]) -> Floats:
+def _along_arcs(motions: Motions, reference: ReferencePath, rows: Rows, move: Rows) -> Floats:
     """Return a bound for each motion that stands for a stretch of an arc.
 
     Args:
-        at: row and move of each, in their order.
+        rows, move: row and move of each, in their order.
     """
     from .check_kernels import in_step
 
-    rows, move = at
     written = _written_arcs(motions, rows)
-    stops, begins = _fractions(motions, reference, at, written[:, 5])
+    stops, begins = _fractions(motions, reference, rows, move, written[:, 5])
     flat, ends = np.empty(len(rows)), np.column_stack([motions.start[rows, :2], motions.end[rows, :2]])
     in_step(written, ends, _meant_arcs(reference, move), np.column_stack([begins, stops]), flat)
     rise = reference.end[move, 2] - reference.start[move, 2]
@@ -114,7 +114,7 @@ def _written_arcs(motions: Motions, rows: Rows) -> Floats:
 
 
 def _fractions(
-    motions: Motions, reference: ReferencePath, at: tuple[Rows, Rows], sweep: Floats
+    motions: Motions, reference: ReferencePath, rows: Rows, move: Rows, sweep: Floats
 ) -> tuple[Floats, Floats]:
     """Return at which fractions of its arc each motion ends and begins.
 
@@ -122,7 +122,6 @@ def _fractions(
     both tell how far along the arc it is; each counts by the square of what it is worth in length. The last motion of a
     move has to end at 1.
     """
-    rows, move = at
     centre = reference.centre[move]
     first, last = motions.start[rows, :2] - centre, motions.end[rows, :2] - centre
     turn = np.arctan2(last[:, 1], last[:, 0]) - np.arctan2(first[:, 1], first[:, 0])

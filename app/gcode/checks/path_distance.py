@@ -8,7 +8,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.motion import ArcPaths, Floats, Motions, arc_paths, fine_spline_points
+from ...model.motion import Floats, Motions
+from ...model.motion_path import ArcPaths, arc_paths, fine_spline_points
 
 MOST_PIECES = 16_384
 """Chords that one arc or spline becomes at most."""

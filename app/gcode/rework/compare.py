@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.wording import together
-from ...model.motion import Floats, MotionKind, Motions, lengths
+from ...model.motion import Floats, MotionKind, Motions
+from ...model.motion_path import lengths
 from ..checks.path_distance import LargestDistance, Polyline, PolylinePaths, farthest, leash
 from ..interpreter.program import EventKind, ModalState, NcProgram
 from .align import AlignmentTable, MatchedRun, align

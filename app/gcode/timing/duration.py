@@ -22,17 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.machine import Machine
-from ...model.motion import (
-    ArcPaths,
-    Floats,
-    MotionKind,
-    Motions,
-    along_xyz,
-    arc_paths,
-    directions,
-    lengths,
-    spline_points,
-)
+from ...model.motion import Floats, MotionKind, Motions
+from ...model.motion_path import ArcPaths, along_xyz, arc_paths, directions, lengths, spline_points
 from ..interpreter.program import EventKind, ModalState, NcProgram
 
 STILL = 1e-9

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.machine import LinearAxis, Machine
-from ...model.motion import Floats, MotionKind, Motions, reach
+from ...model.motion import Floats, MotionKind, Motions
+from ...model.motion_path import reach
 from ..interpreter.program import NcProgram, ProgramProblem, Severity
 
 ROUNDING = 1e-6

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
-from ...model.motion import ArcPaths, Floats, MotionKind, Motions, Nurbs, arc_paths, fine_spline_points
+from ...model.motion import Floats, MotionKind, Motions, Nurbs
+from ...model.motion_path import ArcPaths, arc_paths, fine_spline_points
 from ..interpreter.block import BlockStep
 from ..interpreter.codes import CYCLES, ModalGroup
 from ..interpreter.dialect import DIALECT_RULES

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...model.motion import ArcPaths, Floats, MotionKind, Motions, Plane, arc_paths
+from ...model.motion import Floats, MotionKind, Motions, Plane
+from ...model.motion_path import ArcPaths, arc_paths
 from ..interpreter.program import ModalState
 from ..posts import Post
 from .nurbs import nurbs_blocks

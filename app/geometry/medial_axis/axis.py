@@ -23,8 +23,9 @@ from numpy.typing import NDArray
 
 from ...core.errors import GeometryError
 from ...core.progress import NO_PROGRESS, Progress
+from ..distance import DistanceField
 from ..offset import offset_kernels
-from ..primitives import CX, TURN, X0, X1, Y0, Y1, DistanceField, Indices, Primitives, R, Rows, boxes, signed_area
+from ..primitives import CX, TURN, X0, X1, Y0, Y1, Indices, Primitives, R, Rows, boxes, signed_area
 from . import cell_kernels
 
 Floats = NDArray[np.float64]

@@ -27,10 +27,10 @@ from ...core import tolerances
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.part import Contour
+from ..distance import DistanceField
 from ..primitives import (
     CX,
     TURN,
-    DistanceField,
     Indices,
     Primitives,
     Rows,

@@ -17,22 +17,9 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ..chaining.chain import contacts
 from ..chaining.pieces import near_pairs
+from ..distance import DistanceField
 from ..near_points import groups, nearest, pairs_within
-from ..primitives import (
-    CX,
-    CY,
-    TURN,
-    X0,
-    Y0,
-    DistanceField,
-    R,
-    Rows,
-    distances,
-    lengths,
-    points_at,
-    reversed_rows,
-    sweeps,
-)
+from ..primitives import CX, CY, TURN, X0, Y0, R, Rows, distances, lengths, points_at, reversed_rows, sweeps
 from . import overlay_kernels
 
 Floats = NDArray[np.float64]
@@ -332,7 +319,7 @@ def _refined(rows: Rows, angle: Floats, ends: Indices, first: Indices, stop: Ind
     busy = (stop - first > 2) & (high - low > 1)
     if not busy.any():
         return ends
-    score = _scores(rows[ends], angle[ends], (low, high), np.flatnonzero(busy))
+    score = _scores(rows[ends], angle[ends], low, high, np.flatnonzero(busy))
     return ends[np.lexsort((score, low))]
 
 
@@ -346,14 +333,13 @@ def _from_widest_gap(ends: Indices, gap: Floats, first: Indices, stop: Indices) 
     return ends[source], gap[source]
 
 
-def _scores(rows: Rows, angle: Floats, kind: tuple[Indices, Indices], busy: Indices) -> Floats:
+def _scores(rows: Rows, angle: Floats, low: Indices, high: Indices, busy: Indices) -> Floats:
     """Return for each place how many of its kind lie to the right of it; of those that are not busy: its place.
 
     Args:
         rows, angle: that set out at each place.
-        kind: first place of those that set out alike, and the place behind the last.
+        low, high: first place of those that set out alike, and the place behind the last.
     """
-    low, high = kind
     wide = high[busy] - low[busy]
     a = np.repeat(busy, wide)
     b = np.repeat(low[busy], wide) + np.arange(len(a)) - np.repeat(np.cumsum(wide) - wide, wide)

@@ -20,20 +20,10 @@ from ...core import tolerances
 from ...model.finding import Finding, FindingKind
 from ...model.part import Contour
 from ..chaining.findings import at
+from ..distance import DistanceField
 from ..even_odd import EvenOddMeasure, even_odd
 from ..near_points import groups
-from ..primitives import (
-    DistanceField,
-    R,
-    Rows,
-    boxes,
-    contour_rows,
-    lengths,
-    reversed_rows,
-    row_curve,
-    signed_area,
-    sweeps,
-)
+from ..primitives import R, Rows, boxes, contour_rows, lengths, reversed_rows, row_curve, signed_area, sweeps
 from .nodes import NodeOrder, PlanarEdges, RowPieces, edges_of, pieces_of, settled, turn_of
 
 Indices = NDArray[np.int64]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.primitives import DistanceField
+from ...geometry.distance import DistanceField
 from ...toolpath.linking.bridge import foot
 
 Floats = NDArray[np.float64]

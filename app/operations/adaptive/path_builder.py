@@ -10,7 +10,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.primitives import DistanceField, Rows, distances, within_half_turn
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import Rows, distances, within_half_turn
 from ...toolpath.build import split_row
 from ...toolpath.linking.bridge import foot, fraction_at
 from .chips import DiscArc, feed_pieces

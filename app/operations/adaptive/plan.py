@@ -10,8 +10,9 @@ import shapely
 from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
+from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
-from ...geometry.primitives import DistanceField, Primitives, Rows, sample
+from ...geometry.primitives import Primitives, Rows, sample
 from ...toolpath.machining_areas import BoxSides
 from .axis import RoughAxis, rough_axis
 from .cleared_discs import ClearedDiscs, Point, WallClearance

@@ -19,18 +19,9 @@ import numpy as np
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
+from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Ring, offset_levels
-from ...geometry.primitives import (
-    CX,
-    TURN,
-    DistanceField,
-    R,
-    contour_rows,
-    lengths,
-    points_at,
-    reversed_rows,
-    within_half_turn,
-)
+from ...geometry.primitives import CX, TURN, R, contour_rows, lengths, points_at, reversed_rows, within_half_turn
 from ...model.chamfer_operation import ChamferOperation
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.progress import Progress
-from ...geometry.primitives import CX, CY, TURN, DistanceField, Indices, R, Rows, boxes, lengths
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import CX, CY, TURN, Indices, R, Rows, boxes, lengths
 from ...model.finding import Finding, FindingKind
 from ...model.moves import DogBone
 from ...toolpath.leads.contour_path import Floats, fractions_at, headings_at, keep_clear, line_row

@@ -15,12 +15,12 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
+from ...geometry.distance import DistanceField
 from ...geometry.near_points import all_within
 from ...geometry.offset.offset import OffsetLevel
 from ...geometry.outlines import Outlines
 from ...geometry.primitives import (
     TURN,
-    DistanceField,
     Indices,
     Rows,
     boxes,

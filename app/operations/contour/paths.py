@@ -12,8 +12,9 @@ import numpy as np
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
+from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
-from ...geometry.primitives import TURN, DistanceField, R, Rows, lengths, points_at, reversed_rows
+from ...geometry.primitives import TURN, R, Rows, lengths, points_at, reversed_rows
 from ...model.contour_operation import ContourOperation
 from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...model.finding import Finding
-from ...model.operation import DrillOperation, Operation
+from ...model.hole_operations import DrillOperation
+from ...model.operation import Operation
 from ...toolpath.drill_holes import holes_of
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..registry import OperationMethod, register

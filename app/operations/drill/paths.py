@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 
 from ...core.progress import Progress
 from ...model.finding import Finding, FindingKind
+from ...model.hole_operations import DrillOperation
 from ...model.job import Job
 from ...model.moves import Purpose
-from ...model.operation import ALIKE, DrillOperation
+from ...model.operation import ALIKE
 from ...model.tool import Tool
 from ...toolpath.build import StrokeLabel
 from ...toolpath.drill_holes import CircleHole, DrillHoles, holes_of, tip_depth, tip_length

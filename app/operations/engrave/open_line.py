@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...core.progress import Progress
-from ...geometry.primitives import DistanceField, Rows, contour_rows, lengths, points_at, reversed_rows, signed_area
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import Rows, contour_rows, lengths, points_at, reversed_rows, signed_area
 from ...model.finding import Finding, FindingKind
 from ...model.operation import Direction
 from ...model.tool import Tool

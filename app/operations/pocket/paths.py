@@ -11,8 +11,9 @@ from ...core import tolerances
 from ...core.errors import ParameterError
 from ...core.memory import ask
 from ...core.progress import NO_PROGRESS, Progress
+from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, offset_levels
-from ...geometry.primitives import DistanceField, path_length
+from ...geometry.primitives import path_length
 from ...model.job import Job
 from ...model.operation import CutParameters, Operation, PocketOperation, Side
 from ...model.tool import Tool

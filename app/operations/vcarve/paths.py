@@ -12,9 +12,10 @@ import shapely
 from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...geometry.buffer import buffered
+from ...geometry.distance import DistanceField
 from ...geometry.medial_axis.axis import MedialAxis, medial_axes
 from ...geometry.offset.offset import Ring, offset_levels
-from ...geometry.primitives import CX, TURN, DistanceField, Primitives, R, Rows, sample, within_half_turn
+from ...geometry.primitives import CX, TURN, Primitives, R, Rows, sample, within_half_turn
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import Purpose

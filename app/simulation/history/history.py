@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.tolerances import LEVEL
-from ...model.motion import Floats, lengths
+from ...model.motion import Floats
+from ...model.motion_path import lengths
 from ..cutter import Cutter
 from ..field.workpiece import Workpiece, ensure_memory
 from ..sweeps.course import Course, Ints, Rapids, TrimOptions

@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.motion import Floats, MotionKind, anchored
+from ...model.motion import Floats, MotionKind
+from ...model.motion_path import anchored
 from ..cutter import Cutter
 from .course import Course
 from .pieces import PieceSplitter, SweepPieces

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from ...core.pool import pool
 from ...geometry.arcs.nurbs import flattened_all
-from ...model.motion import ArcPaths, Floats, MotionKind, Motions, along_xyz, arc_paths
+from ...model.motion import Floats, MotionKind, Motions
+from ...model.motion_path import ArcPaths, along_xyz, arc_paths
 
 CHORD = 1e-6
 """mm."""

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from ...core.errors import Cancelled
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
-from ...model.motion import Floats, MotionKind, Motions, Plane, anchored
+from ...model.motion import Floats, MotionKind, Motions, Plane
+from ...model.motion_path import anchored
 from ..cutter import Cutter
 from ..field.workpiece import Grid, Heights
 from .course import Course, Ints, Rapids, TrimOptions

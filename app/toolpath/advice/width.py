@@ -16,22 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
-from ...geometry.primitives import (
-    CX,
-    CY,
-    TURN,
-    X0,
-    X1,
-    Y0,
-    Y1,
-    DistanceField,
-    Indices,
-    Primitives,
-    R,
-    Rows,
-    lengths,
-    points_at,
-)
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, Primitives, R, Rows, lengths, points_at
 
 SHORTEST = 0.1
 """mm; a wall shorter than this is part of a corner, and no cutter is chosen for it."""

@@ -18,8 +18,9 @@ from shapely import Geometry as Shape
 from ...core import tolerances
 from ...core.pool import in_bands
 from ...geometry.buffer import buffered
+from ...geometry.distance import DistanceField
 from ...geometry.outlines import Outlines, polygons
-from ...geometry.primitives import TURN, DistanceField, R, Rows, pack, points_of, sweeps
+from ...geometry.primitives import TURN, R, Rows, pack, points_of, sweeps
 from ...model.moves import MoveKind, Moves
 from ...model.part import Region
 from . import reachable_kernels as kernels

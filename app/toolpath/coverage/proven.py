@@ -22,22 +22,9 @@ from shapely import Geometry as Shape
 from ...core.memory import portion
 from ...core.pool import in_bands
 from ...core.progress import NO_PROGRESS, Progress
+from ...geometry.distance import DistanceField
 from ...geometry.near_points import groups
-from ...geometry.primitives import (
-    CX,
-    CY,
-    TURN,
-    X0,
-    X1,
-    Y0,
-    Y1,
-    DistanceField,
-    Indices,
-    R,
-    Rows,
-    sweeps,
-    within_half_turn,
-)
+from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, R, Rows, sweeps, within_half_turn
 from ...model.job import Job
 from ...model.moves import Area, Program
 from ...model.operation import Side

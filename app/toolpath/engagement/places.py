@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from ...geometry.primitives import CX, CY, TURN, Rows, lengths, points_at
 from ...model.moves import MoveKind, Moves
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
+from ...model.tool_kind import ToolKind
 from ..coverage.areas import move_rows
 
 Floats = NDArray[np.float64]

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core import tolerances
+from ...geometry.distance import DistanceField
 from ...geometry.kernels import point_distance
-from ...geometry.primitives import CX, TURN, DistanceField, Rows, lengths, path_length, points_at
+from ...geometry.primitives import CX, TURN, Rows, lengths, path_length, points_at
 from ...model.curves import Point
 from ...model.entry import Entry, EntryKind
 from ...model.finding import Finding, FindingKind

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 from ...model.machine import Machine
 from ...model.stock_material import StockMaterial
-from ...model.tool import LEAST_RATE, FeedRow, Tool, ToolKind, ToolMaterial
+from ...model.tool import LEAST_RATE, FeedRow, Tool, ToolMaterial
+from ...model.tool_kind import ToolKind
 from . import mechanics
 from .mechanics import Chip
 

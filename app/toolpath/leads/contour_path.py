@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.pool import in_bands
+from ...geometry.distance import DistanceField
 from ...geometry.outlines import Outlines
-from ...geometry.primitives import CX, CY, TURN, X0, Y0, DistanceField, Indices, Rows, lengths, points_at, sweeps
+from ...geometry.primitives import CX, CY, TURN, X0, Y0, Indices, Rows, lengths, points_at, sweeps
 from . import contour_path_kernels as path_kernels
 
 Floats = NDArray[np.float64]

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.wording import together
-from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, DistanceField, Indices, R, Rows, points_at, turns
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, R, Rows, points_at, turns
 from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind
 from ...model.operation import Operation

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.primitives import DistanceField, points_at
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import points_at
 from ...model.contour_operation import ContourOperation
 from ...model.curves import Point
 from ...model.entry import Tabs

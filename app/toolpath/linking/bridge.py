@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...geometry import kernels
+from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring
 from ...geometry.outlines import Outlines
 from ...geometry.primitives import (
@@ -21,7 +22,6 @@ from ...geometry.primitives import (
     X1,
     Y0,
     Y1,
-    DistanceField,
     Indices,
     Rows,
     fraction_on,

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ...core.pool import in_bands
 from ...core.progress import NO_PROGRESS, Progress
-from ...geometry.primitives import DistanceField, Indices, Rows, sweeps
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import Indices, Rows, sweeps
 from ...geometry.triangulation import neighbours
 from ...model.moves import Purpose
 from ..build import Stroke
@@ -354,7 +355,7 @@ class LinkGraph:
         places = chunks.rows[spots, :2]
         air = corridor.in_air(np.hstack([places, places]))
         a, b, kind, count, size = _along(chunks, spots)
-        c, d = _across((places, ring), corridor, longest)
+        c, d = _across(places, ring, corridor, longest)
         far = np.hypot(*(places[c] - places[d]).T)
         zero = np.zeros(len(c), np.int64)
         start, end = np.concatenate([a, c, d]), np.concatenate([b, d, c])
@@ -430,14 +431,13 @@ def _along(chunks: RingChunks, spots: Indices) -> tuple[Indices, Indices, Indice
     )
 
 
-def _across(spots: tuple[Floats, Indices], corridor: Corridor, longest: float) -> tuple[Indices, Indices]:
+def _across(places: Floats, ring: Indices, corridor: Corridor, longest: float) -> tuple[Indices, Indices]:
     """Return (from, to) of straight ways between places near one another that are clear: edges of a Delaunay
     triangulation.
 
     Args:
-        spots: places (n, 2) and the ring of each; those that follow one another round a ring have their way along it.
+        places: (n, 2). ring: of each; those that follow one another round a ring have their way along it.
     """
-    places, ring = spots
     edges = neighbours(places)
     edges = edges[(ring[edges[:, 0]] != ring[edges[:, 1]]) | (edges[:, 1] - edges[:, 0] > 1)]
     ways = np.hstack([places[edges[:, 0]], places[edges[:, 1]]])

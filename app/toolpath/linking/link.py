@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.tolerances import LEVEL
+from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring
-from ...geometry.primitives import CX, CY, TURN, DistanceField, R, Rows, lengths, path_length, reversed_rows, sweeps
+from ...geometry.primitives import CX, CY, TURN, R, Rows, lengths, path_length, reversed_rows, sweeps
 from ...model.moves import Purpose
 from ...model.operation import Direction
 from ..build import Stroke

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.pool import in_bands
+from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel
-from ...geometry.primitives import X1, Y1, DistanceField, Indices, Rows, lengths, points_at, reversed_rows
+from ...geometry.primitives import X1, Y1, Indices, Rows, lengths, points_at, reversed_rows
 from .. import rest_kernels
 from ..rest_material import CentreReach
 

@@ -25,10 +25,11 @@ import shapely
 from numpy.typing import NDArray
 
 from ...core.pool import pool
+from ...geometry.distance import DistanceField
 from ...geometry.near_points import groups_within
 from ...geometry.offset.offset import OffsetLevel, Ring
 from ...geometry.outlines import Outlines
-from ...geometry.primitives import DistanceField, Indices, Rows, lengths, path_length, points_at, reversed_rows, samples
+from ...geometry.primitives import Indices, Rows, lengths, path_length, points_at, reversed_rows, samples
 from ..coverage import uncut_kernels
 from . import runs_kernels
 from .bridge import RingField, RingPlace, is_clear, part_of, straight

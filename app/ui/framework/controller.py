@@ -12,8 +12,8 @@ from .verdict import VerdictSummary
 
 
 @dataclass(frozen=True, eq=False)
-class DocumentMend:
-    """A change of what a view shows that mends a finding; it can be undone there.
+class OfferedMend:
+    """A change of the job, or of what a view shows in its place, that mends a finding; it can be undone.
 
     Attributes:
         words: on the button. change: what becomes of it, in words. act: makes the change.
@@ -40,7 +40,7 @@ class ShownDocument:
     verdict: VerdictSummary | None
     findings: tuple[Finding, ...] = ()
     look_at: Callable[[Finding], None] | None = None
-    mends: Callable[[Finding], Sequence[DocumentMend]] | None = None
+    mends: Callable[[Finding], Sequence[OfferedMend]] | None = None
 
 
 class Controller(QObject):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QLocale, QObject
+from PySide6.QtCore import QLocale
 from PySide6.QtWidgets import QStyledItemDelegate
 
 from .catalogue import tr
@@ -10,9 +10,6 @@ from .catalogue import tr
 
 class TranslatedItems(QStyledItemDelegate):
     """Looks up what a row says when it is painted; the row itself stays as it is."""
-
-    def __init__(self, parent: QObject) -> None:
-        super().__init__(parent)
 
     def displayText(self, value: object, locale: QLocale | QLocale.Language) -> str:  # noqa: N802 (Qt's name)
         """Return what is painted of a row."""

@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QLabel
 
 from ...model.fields import declared_of
 from ...model.job import Job
-from ...model.tool import LEAST_RATE, Tool, ToolKind, ToolMaterial, shape_keys, tool_kind
+from ...model.tool import LEAST_RATE, Tool, ToolMaterial
+from ...model.tool_kind import ToolKind, shape_keys, tool_kind
 from ..framework.fields import ListField, NumberField, NumberSpec
 from ..framework.form import FormSection
 from .changes import for_material, material_of, with_tool

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 
 from ...core.resources import resource
-from ...model.tool import ToolKind, ToolShape, tool_kinds
+from ...model.tool_kind import ToolKind, ToolShape, tool_kinds
 
 _SAMPLE = ToolShape(radius=3.0, corner_radius=1.0, tip_radius=1.0, half_angle=0.5)
 """A cutter with every number that a kind may have, mm and radians: its profile tells whether the end is rounded."""

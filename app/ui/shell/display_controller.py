@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
@@ -13,7 +14,7 @@ from ...geometry.sample import bounds, union
 from ...model.finding import Finding
 from ...model.part import Part
 from ..framework.computation import ComputationState
-from ..framework.controller import Controller, DocumentMend, ShownDocument
+from ..framework.controller import Controller, OfferedMend, ShownDocument
 from ..framework.missing import NOTHING
 from ..framework.samples import PathLineKind
 from ..framework.verdict import VerdictLevel, VerdictSummary, verdict_summary
@@ -88,7 +89,6 @@ class DisplayController(QObject):
         window.status.badge.clicked.connect(self.open_findings)
         window.findings_list.picked.connect(self.go_to)
         window.findings_list.left_out.connect(self.leave_out)
-        window.findings_list.mended.connect(self.mend)
         window.canvas.tool_changed.connect(lambda _: self.show_missing())
         window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
         log = window.command_line.log.model()
@@ -310,7 +310,7 @@ class DisplayController(QObject):
         mends = self._mends if self._computation.state is ComputationState.CURRENT else None
         self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown, mends)
 
-    def _mends(self, finding: Finding) -> tuple[Mend, ...]:
+    def _mends(self, finding: Finding) -> tuple[OfferedMend, ...]:
         """Return what mends a finding on the job's program."""
         from ...formats.tools.library import load_libraries
         from ...usecases.making.program_lines import operation_of_line
@@ -321,15 +321,11 @@ class DisplayController(QObject):
             return ()
         index = operation_of_line(made, 0, finding.line) if len(made.files) == 1 else None
         library = [tool for each in load_libraries().libraries.values() for tool in each.tools]
-        return mends(made.job, Fault.of(finding, index), library)
+        found = mends(made.job, Fault.of(finding, index), library)
+        return tuple(OfferedMend(mend.words, mend.change, partial(self._mend, mend)) for mend in found)
 
-    def mend(self, mend: Mend | DocumentMend) -> None:
-        """Change the job, or what is at the front in its place, so that a finding is mended; one undoable step, and
-        computed again.
-        """
-        if isinstance(mend, DocumentMend):
-            mend.act()
-            return
+    def _mend(self, mend: Mend) -> None:
+        """Change the job so that a finding is mended; one undoable step, and computed again."""
         self._document.change_job(mend.words, mend.job)
         self._computation.start()
 

@@ -8,7 +8,7 @@ from ...formats.tools.library import load_libraries
 from ...formats.tools.materials import stock_materials
 from ...model.job import Job, Stock
 from ...model.part import Part
-from ...model.tool import ToolKind
+from ...model.tool_kind import ToolKind
 from ..panels.changes import for_material
 
 MATERIALS = ("aluminium", "wood", "plastics", "steel")

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.primitives import Rows, boxes, contour_rows, samples
-from ...model.motion import MotionKind, Motions, motion_rows, spline_points
+from ...model.motion import MotionKind, Motions
+from ...model.motion_path import motion_rows, spline_points
 from ...model.moves import MoveKind, Program
 from ...toolpath.coverage.areas import move_rows
 

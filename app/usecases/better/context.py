@@ -14,7 +14,8 @@ from ...gcode.interpreter.dialect_guess import guess_dialect
 from ...gcode.interpreter.program import NcProgram
 from ...gcode.posts import Post, load_post
 from ...model.motion import MotionKind
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
+from ...model.tool_kind import ToolKind
 from ...simulation.cutter import cutter_of
 from ...simulation.sweeps.probe import PathProbe
 from ...verify.course import course_of

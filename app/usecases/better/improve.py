@@ -19,7 +19,8 @@ from ...fitting.point_curves.smoothness import of_points
 from ...formats.scene.toml import sources_of
 from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.program import NcProgram
-from ...model.motion import MotionKind, lengths
+from ...model.motion import MotionKind
+from ...model.motion_path import lengths
 from ...model.scene import Scene
 from ...model.stock_box import StockBox
 from ..cutting.cut import CutProgram, cut

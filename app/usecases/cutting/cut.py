@@ -14,7 +14,8 @@ from ...core.effort import Reckoning, announce
 from ...core.progress import NO_PROGRESS, Progress
 from ...gcode.interpreter.program import NcProgram
 from ...model.finding import Finding, FindingKind, worst_first
-from ...model.motion import Floats, lengths
+from ...model.motion import Floats
+from ...model.motion_path import lengths
 from ...model.stock_box import StockBox
 from ...model.tool import Tool
 from ...simulation.cutter import Cutter, cutter_of

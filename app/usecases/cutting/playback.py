@@ -12,8 +12,9 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...formats.machine_toml import DEFAULT_MACHINE, load_machine
 from ...gcode.timing.duration import duration
 from ...model.machine import Machine
-from ...model.motion import Floats, MotionKind, anchored
+from ...model.motion import Floats, MotionKind
 from ...model.motion_part import part_of
+from ...model.motion_path import anchored
 from ...simulation.cutter import cutter_of
 from ...simulation.field.workpiece import Heights
 from ...simulation.history.history import History, HistoryOptions, Playhead, changed_box

@@ -15,7 +15,8 @@ from ...core.wording import counted, minutes_words
 from ...gcode.interpreter.program import Severity
 from ...gcode.timing.duration import TIME_METHOD
 from ...model.finding import Finding, FindingKind, worst_first
-from ...model.motion import Floats, MotionKind, lengths
+from ...model.motion import Floats, MotionKind
+from ...model.motion_path import lengths
 from ...model.tool import Tool
 from ...simulation.engines import Engine, EngineReport
 from ...simulation.field.workpiece import TOLERANCE

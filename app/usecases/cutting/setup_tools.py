@@ -15,7 +15,8 @@ from ...gcode.interpreter.program import NcProgram, ToolNote
 from ...gcode.timing.duration import duration
 from ...model.finding import Finding, FindingKind
 from ...model.motion import MotionKind
-from ...model.tool import HolderPoint, Tool, ToolKind, shape_keys
+from ...model.tool import HolderPoint, Tool
+from ...model.tool_kind import ToolKind, shape_keys
 from ..examine import ExaminedProgram
 
 NAMELESS = 0

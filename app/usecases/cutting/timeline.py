@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...gcode.timing.duration import Duration
-from ...model.motion import Floats, Motions, lengths
+from ...model.motion import Floats, Motions
 from ...model.motion_part import place_on
+from ...model.motion_path import lengths
 
 Ints = NDArray[np.int32]
 

@@ -10,10 +10,12 @@ from ...core.errors import ParameterError
 from ...core.toml_tables import known_words
 from ...core.wording import either
 from ...model.fields import ParameterPlace, parameters_of, with_values
+from ...model.hole_operations import DrillOperation
 from ...model.job import Copies, Job
-from ...model.operation import CutParameters, DrillOperation, Operation, Order
+from ...model.operation import CutParameters, Operation, Order
 from ...model.operation_kinds import OPERATION_KINDS, parameters
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
+from ...model.tool_kind import ToolKind
 
 
 @dataclass(frozen=True)

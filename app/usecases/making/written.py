@@ -23,7 +23,8 @@ from ...gcode.writer.write import NcFile, write_files
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.machine import Machine
-from ...model.motion import MotionKind, Motions, anchored, lengths
+from ...model.motion import MotionKind, Motions
+from ...model.motion_path import anchored, lengths
 from ...model.moves import Program
 from ...model.operation_motions import OperationMotions
 from ...model.part import Units

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
-from ...geometry.primitives import DistanceField, boxes, contour_rows, pack
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import boxes, contour_rows, pack
 from ...model.part import Region
 from ...raster.fill import draw
 from ...raster.frame import PATH_BYTES, BitmapFrame, Plane

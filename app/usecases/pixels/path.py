@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from ...fitting.corner_smoothing.smooth import CornerSmoothingOptions, as_it_is, astray, moved, smooth, without
 from ...fitting.corner_smoothing.smoothed_path import SmoothedPath
-from ...geometry.primitives import DistanceField, R, Rows, lengths, points_at
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import R, Rows, lengths, points_at
 from ...raster.frame import BitmapFrame
 from ...raster.trace import PixelChain
 from ...raster.walls import Mask

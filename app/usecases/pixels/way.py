@@ -17,8 +17,9 @@ from ...core.errors import ParameterError
 from ...core.progress import NO_PROGRESS, Progress
 from ...fitting.corner_smoothing.smooth import CornerSmoothingOptions
 from ...fitting.corner_smoothing.smoothed_path import SmoothedPath
+from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring
-from ...geometry.primitives import DistanceField, Rows, lengths, pack, points_at, signed_area, within_half_turn
+from ...geometry.primitives import Rows, lengths, pack, points_at, signed_area, within_half_turn
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import Program

@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -42,13 +43,20 @@ class ContourSort(Enum):
     ISLAND = "island"
 
 
+class HolesOfSize(NamedTuple):
+    """Circles of one diameter, mm."""
+
+    size: float
+    circles: tuple[Contour, ...]
+
+
 @dataclass(frozen=True)
 class SortedContours:
     """The contours of a drawing, once a contour however often the part is copied.
 
     Attributes:
         outlines: that lie in no other one.
-        holes: circles that hold nothing, by their diameters, mm, rising.
+        holes: circles that hold nothing, by their diameters, rising.
         bores: slots, and other holes that are round over half a turn.
         pockets: other contours that lie in an odd number of others; islands: those that stand in them.
         lines: open lines, and all curves of a layer that has more of these than closed contours and no outline.
@@ -57,7 +65,7 @@ class SortedContours:
     """
 
     outlines: tuple[Contour, ...] = ()
-    holes: tuple[tuple[float, tuple[Contour, ...]], ...] = ()
+    holes: tuple[HolesOfSize, ...] = ()
     bores: tuple[Contour, ...] = ()
     pockets: tuple[Contour, ...] = ()
     islands: tuple[Contour, ...] = ()
@@ -140,8 +148,8 @@ def _is_round(contour: Contour) -> bool:
     return bool(total.max() >= _HALF_TURN)
 
 
-def by_diameter(circles: Sequence[Contour]) -> tuple[tuple[float, tuple[Contour, ...]], ...]:
-    """Return circles in groups of one diameter, mm, rising."""
+def by_diameter(circles: Sequence[Contour]) -> tuple[HolesOfSize, ...]:
+    """Return circles in groups of one diameter, rising."""
     sizes = [(2 * circle.radius, each) for each in circles if (circle := as_circle(each)) is not None]
     groups: list[tuple[float, list[Contour]]] = []
     for size, each in sorted(sizes, key=lambda pair: pair[0]):
@@ -149,7 +157,7 @@ def by_diameter(circles: Sequence[Contour]) -> tuple[tuple[float, tuple[Contour,
             groups[-1][1].append(each)
         else:
             groups.append((size, [each]))
-    return tuple((round(size, 4), tuple(some)) for size, some in groups)
+    return tuple(HolesOfSize(round(size, 4), tuple(some)) for size, some in groups)
 
 
 def _gap(line: Contour) -> float:

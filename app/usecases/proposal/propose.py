@@ -24,16 +24,16 @@ from ...model.contour_operation import ContourOperation
 from ...model.curve_selectors import Selector
 from ...model.entry import Entry, EntryKind, Lead, Tabs
 from ...model.finding import Finding
-from ...model.hole_operations import BoreOperation
+from ...model.hole_operations import BoreOperation, DrillOperation
 from ...model.job import Copies, Job, Stock
-from ...model.operation import CutParameters, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from ...model.operation import CutParameters, Operation, PocketOperation, RestOperation, Side
 from ...model.part import Contour, Region
 from ...model.stock_box import extent
 from ...model.tool import Tool
 from ...toolpath.advice.advise import CuttingPlan, advise
 from ...toolpath.drawn_contours import DrawnContours, drawn_contours
 from ...toolpath.drill_holes import tip_length
-from .contour_sorts import SortedContours, selectors_for, sorted_contours
+from .contour_sorts import HolesOfSize, SortedContours, selectors_for, sorted_contours
 from .rack import Rack, room
 
 ENGRAVED = 0.3
@@ -202,11 +202,12 @@ def propose(job: Job, options: ProposalOptions | None = None, progress: Progress
 
 
 @dataclass(frozen=True)
-class HolesOfSize:
-    """Circles of one diameter, mm."""
+class _Milling:
+    """How holes are milled: bored, or along their walls, so that what is within them may be loose and fall out."""
 
-    size: float
-    circles: tuple[Contour, ...]
+    cut: CutParameters
+    bores: bool
+    loose: bool
 
 
 @dataclass
@@ -263,26 +264,23 @@ class ProposalWork:
         """Return the holes for which there is no drill, milled along their walls, down on a helix: those that differ in
         their diameter alone in one operation, so that the tool crosses the part once.
         """
-        groups: dict[Operation, list[HolesOfSize]] = {}
-        for size, circles in self.found.holes:
-            if self.rack.drill(size) is None:
-                groups.setdefault(self._milled(size), []).append(HolesOfSize(size, circles))
-        return [self._holes_milled(operation, sizes) for operation, sizes in groups.items()]
+        groups: dict[_Milling, list[HolesOfSize]] = {}
+        for holes in self.found.holes:
+            if self.rack.drill(holes.size) is None:
+                groups.setdefault(self._milling(holes.size), []).append(holes)
+        return [self._holes_milled(milling, sizes) for milling, sizes in groups.items()]
 
-    def _milled(self, size: float) -> Operation:
-        """Return what mills holes of one size, the curves not yet named, nor the tabs where something falls out."""
+    def _milling(self, size: float) -> _Milling:
+        """Return how holes of one size are milled."""
         tool = self.rack.boring(size, self.thickness)
-        cut = self.cut(tool, self.thickness, ())
-        loose = size > 2 * tool.diameter
-        if BoreOperation(cut).takes(size, tool) and not loose:
-            return BoreOperation(cut)
-        return ContourOperation(cut, Side.INSIDE, tabs=Tabs(int(loose)))
+        cut, loose = self.cut(tool, self.thickness, ()), size > 2 * tool.diameter
+        return _Milling(cut, BoreOperation(cut).takes(size, tool) and not loose, loose)
 
-    def _holes_milled(self, operation: Operation, sizes: Sequence[HolesOfSize]) -> ProposedOperation:
+    def _holes_milled(self, milling: _Milling, sizes: Sequence[HolesOfSize]) -> ProposedOperation:
         """Return an operation that mills holes of some sizes."""
         circles = [circle for each in sizes for circle in each.circles]
         curves = [curve for each in sizes for curve in selectors_for(each.circles, self.seen, as_circles=True)]
-        (tool,) = (each for each in self.rack.taken if each.number == operation.cut.tool)
+        (tool,) = (each for each in self.rack.taken if each.number == milling.cut.tool)
         named = [f"{each.size:g}" for each in sizes]
         why = (
             f"{_counted(len(circles), 'hole')} of {together(named)} mm, through: the library has no "
@@ -291,12 +289,14 @@ class ProposalWork:
         )
         if len(sizes) > 1:
             why += ", by short ways over all diameters"
-        if isinstance(operation, ContourOperation) and operation.tabs.count:
+        cut = replace(milling.cut, curves=tuple(dict.fromkeys(curves)))
+        if milling.bores:
+            return ProposedOperation(BoreOperation(cut), why)
+        tabs = Tabs()
+        if milling.loose:
             tabs = tabs_for(circles, math.pi * tool.diameter)
-            operation = replace(operation, tabs=tabs)
             why += f", with {tabs.count} tabs to hold what falls out"
-        cut = replace(operation.cut, curves=tuple(dict.fromkeys(curves)))
-        return ProposedOperation(replace(operation, cut=cut), why)
+        return ProposedOperation(ContourOperation(cut, Side.INSIDE, tabs=tabs), why)
 
     def pockets(self, progress: Progress) -> list[ProposedOperation]:
         """Return the pockets with their islands."""

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field, replace
 from ...core.errors import ParameterError
 from ...geometry.primitives import pack
 from ...model.part import Region
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
+from ...model.tool_kind import ToolKind
 from ...toolpath.advice.reach import FITS
 from ...toolpath.advice.width import Walls, widths
 

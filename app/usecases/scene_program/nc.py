@@ -21,7 +21,8 @@ from ...gcode.timing.duration import duration
 from ...gcode.writer.header import safe_name, shape_numbers, tool_words, unit_sign
 from ...gcode.writer.write import NcFile, Remarks, write_moves
 from ...model.finding import Finding, FindingKind
-from ...model.motion import MotionKind, Motions, anchored
+from ...model.motion import MotionKind, Motions
+from ...model.motion_path import anchored
 from ...model.tool import Tool
 from ...surfaces.passes.path import ALLOWED
 from ...surfaces.sections.compound import NO_SURFACE, BoundaryKind

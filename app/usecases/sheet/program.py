@@ -15,7 +15,8 @@ from ...formats.plot.picture import POCKET, RAPID
 from ...formats.sheet.content import SetupPicture, SetupSheet, SheetColumn, SheetFact, SheetProof, SheetTable
 from ...gcode.interpreter.program import Severity
 from ...model.finding import FindingKind
-from ...model.motion import MotionKind, Motions, motion_rows, spline_points
+from ...model.motion import MotionKind, Motions
+from ...model.motion_path import motion_rows, spline_points
 from ..cutting.cut import CutProgram
 from ..cutting.ready_setup import ReadySetup
 from ..cutting.report import CutReport

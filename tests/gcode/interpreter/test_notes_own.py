@@ -16,21 +16,15 @@ from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import on_layers, read_selector
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.fields import parameters_of
+from app.model.hole_operations import DrillOperation
 from app.model.job import Copies, Job, OriginXY, OriginZ
 from app.model.moves import DogBone, Tab
-from app.model.operation import (
-    CutParameters,
-    Direction,
-    DrillOperation,
-    Operation,
-    PocketOperation,
-    RestOperation,
-    Side,
-)
+from app.model.operation import CutParameters, Direction, Operation, PocketOperation, RestOperation, Side
 from app.model.part import Units
 from app.model.read_options import AS_DRAWN
 from app.model.read_options import DrawingOptions as Reading
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from tests.gcode.programs import job, two_tools
 
 BULL = Tool(1, 6.0, ToolKind.BULL, corner_radius=0.5)

@@ -11,7 +11,8 @@ from app.formats.machine_toml import load_machine
 from app.formats.tools.materials import read_materials, stock_material, stock_materials
 from app.model.machine import LinearAxis, Machine, SpindleRange
 from app.model.stock_material import StockMaterial
-from app.model.tool import FeedRow, Tool, ToolKind, ToolMaterial
+from app.model.tool import FeedRow, Tool, ToolMaterial
+from app.model.tool_kind import ToolKind
 from app.toolpath.feeds import mechanics
 from app.toolpath.feeds.mechanics import Chip
 from app.toolpath.feeds.proposal import LEAST_CHIP, MOST_DEFLECTION, POWER_SHARE, CutEngagement, proposed_feeds

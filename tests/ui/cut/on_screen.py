@@ -8,7 +8,8 @@ from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QWidget
 
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.ui.framework.theme import DARK, LIGHT
 from app.ui.views.cut.surface import GlSurface
 from app.ui.views.cut.view import CutView

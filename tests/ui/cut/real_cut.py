@@ -6,10 +6,11 @@ import numpy as np
 
 from app.drafting.document import Document
 from app.gcode.interpreter.reader import read_program
-from app.model.motion import anchored
+from app.model.motion_path import anchored
 from app.model.operation import CutParameters, PocketOperation
 from app.model.stock_box import StockBox
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.operations.compute import regions_of
 from app.simulation.field.workpiece import BoxStock
 from app.ui.views.cut.cell_colours import CutColourBy

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
-from app.model.tool import Tool, ToolKind, tool_kinds
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind, tool_kinds
 from app.simulation.engines import Engine
 from app.ui.framework.view import View
 from app.ui.views.cut.setup_form import as_kind

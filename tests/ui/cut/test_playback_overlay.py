@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.gpu.wedges_picture import wedges_picture
 from app.ui.framework.theme import DARK, LIGHT
 from app.ui.views.cut.cell_colours import CutColourBy

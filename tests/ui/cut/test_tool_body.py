@@ -6,7 +6,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.ui.views.cut.camera import Camera, StandardView
 from app.ui.views.cut.cell_colours import CutColourBy, cell_colours
 from app.ui.views.cut.cell_picking import SectionPlane

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from app.model.tool import Tool, ToolKind, tool_kinds
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind, tool_kinds
 from app.simulation.cutter import cutter_of
 from app.ui.views.cut.tool_outline import ToolPart, outline_of
 from tests.examples import examples

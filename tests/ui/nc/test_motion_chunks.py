@@ -13,7 +13,7 @@ from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.notes_operation import contour_motions
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.model.motion import anchored
+from app.model.motion_path import anchored
 from app.ui.framework.theme import LIGHT
 from app.ui.views.canvas.view_transform import ViewTransform
 from app.ui.views.nc.motion_hover import describe_motion, nearest_motion

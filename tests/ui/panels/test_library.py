@@ -11,10 +11,12 @@ from app.core.resources import resource
 from app.drafting.document import Document
 from app.formats.tools.files import read_tools, write_tools
 from app.formats.tools.library import ToolLibrary, load_libraries, own_folder
+from app.model.hole_operations import DrillOperation
 from app.model.job import Job
-from app.model.operation import CutParameters, DrillOperation
+from app.model.operation import CutParameters
 from app.model.part import Part, Units
-from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
+from app.model.tool import FeedRow, Tool
+from app.model.tool_kind import ToolKind, shape_keys
 from app.simulation.cutter import cutter_of
 from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of

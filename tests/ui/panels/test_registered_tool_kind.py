@@ -9,7 +9,8 @@ from app.core.resources import resource
 from app.drafting.document import Document
 from app.model.job import Job
 from app.model.part import Part
-from app.model.tool import Tool, ToolKind, register, withdraw
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind, register, withdraw
 from app.simulation.cutter import cutter_of
 from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind

@@ -9,7 +9,8 @@ from app.model.contour_operation import ContourOperation
 from app.model.job import Job
 from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Part
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.ui.views.session1986.answers import EnteredOffsets, amount, job_of, offered
 from app.ui.views.session1986.draft import ShapeDraft
 from app.ui.views.session1986.screen import BOTTOM, TOP

@@ -26,11 +26,12 @@ from app.geometry.transform import Similarity
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import read_selectors
 from app.model.finding import Finding, FindingKind
-from app.model.hole_operations import TapOperation
+from app.model.hole_operations import DrillOperation, TapOperation
 from app.model.job import Job, OriginXY, OriginZ, Stock
-from app.model.operation import CutParameters, DrillOperation, PocketOperation, Side
+from app.model.operation import CutParameters, PocketOperation, Side
 from app.model.thread_sizes import ThreadSize
-from app.model.tool import Tool, ToolKind
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.usecases.making.make import MakeResult, export
 from app.usecases.sheet.common import offset_fact
 from app.usecases.sheet.made import made_sheet

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QPaintEvent
@@ -21,17 +20,14 @@ from PySide6.QtWidgets import (
 )
 
 from ....model.finding import Finding
-from ...framework.controller import DocumentMend
+from ...framework.controller import OfferedMend
 from ...framework.fields import restyle
 from ...framework.figures import counted
 from ...framework.labels import muted
 from ...framework.section import ListRow, heading
 from ...framework.verdict import VerdictLevel, VerdictSummary, finding_level, short, worst_first
 
-if TYPE_CHECKING:
-    from ....usecases.mending import Mend
-
-    MendsOf = Callable[[Finding], Sequence[Mend | DocumentMend]]
+MendsOf = Callable[[Finding], Sequence[OfferedMend]]
 
 _TURN = "◐◓◑◒"
 _TURN_MS = 150
@@ -109,13 +105,11 @@ class FindingsList(QFrame):
     """Every finding, worst first; a click goes to its place, a button mends what one button can.
 
     Signals:
-        picked(finding). left_out(layer): what is on it shall not be machined. mended(Mend or DocumentMend): the job, or
-            what is at the front, shall be changed so.
+        picked(finding). left_out(layer): what is on it shall not be machined.
     """
 
     picked = Signal(Finding)
     left_out = Signal(str)
-    mended = Signal(object)
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
@@ -212,10 +206,10 @@ class FindingsList(QFrame):
         button.clicked.connect(lambda: self.left_out.emit(layer))
         return button
 
-    def _mending(self, mend: Mend | DocumentMend) -> QPushButton:
+    def _mending(self, mend: OfferedMend) -> QPushButton:
         tip = f"{mend.words}: {mend.change}. The paths are computed again; Ctrl+Z takes it back."
         button = self._button(mend.words, tip)
-        button.clicked.connect(lambda: self.mended.emit(mend))
+        button.clicked.connect(lambda: mend.act())
         return button
 
     def _button(self, words: str, tip: str) -> QPushButton:
@@ -231,7 +225,7 @@ class FindingsList(QFrame):
         self.picked.emit(finding)
 
 
-def _no_mends(_: Finding) -> tuple[Mend, ...]:
+def _no_mends(_: Finding) -> tuple[OfferedMend, ...]:
     return ()
 
 

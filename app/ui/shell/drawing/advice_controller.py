@@ -14,7 +14,8 @@ from ....core.progress import Progress
 from ....drafting.document import DocumentChange
 from ....model.job import Job
 from ....model.operation import Operation
-from ....model.tool import Tool, ToolKind
+from ....model.tool import Tool
+from ....model.tool_kind import ToolKind
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
 from ...panels.changes import with_library_tool

@@ -17,21 +17,21 @@ class UnseenController(QObject):
     def __init__(self, canvas: Canvas, lines: CommandRunner, workspace: Workspace) -> None:
         super().__init__(canvas)
         self._canvas, self._document, self._notice = canvas, workspace.document, workspace.notice
-        self._newest = 0
+        self._next_id = 1
         self._document.subscribe(self._on_change)
         lines.ran.connect(lambda _, well: self._look() if well else None)
 
     def _on_change(self, change: DocumentChange) -> None:
         if change & DocumentChange.LOADED:
-            self._newest = max(self._document.part.ids(), default=0)
+            self._next_id = self._document.part.next_id()
 
     def _look(self) -> None:
         """Offer to show what is new, if nothing of it is seen beside what was there before."""
-        entities, before = self._document.part.entities, self._newest
-        self._newest = max((entity.id for entity in entities), default=before)
-        if self._newest <= before or entities[0].id > before or not self._canvas.isVisible():
+        part, fresh = self._document.part, self._next_id
+        self._next_id = part.next_id()
+        if self._next_id <= fresh or not part.entities or part.entities[0].id >= fresh or not self._canvas.isVisible():
             return
-        box = union([bounds(entity.curve) for entity in entities if entity.id > before])
+        box = union([bounds(entity.curve) for entity in part.entities if entity.id >= fresh])
         if box is not None and not _overlap(box, self._canvas.view.world_box(self._canvas.area)):
             self._notice.ask(
                 "What was drawn lies outside of the picture.",

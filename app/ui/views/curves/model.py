@@ -111,7 +111,7 @@ def smoothed(was: ShownProgram, options: SmoothOptions, side: ViewSide, progress
         HitofudeError: it cannot be; a sentence.
         Cancelled: the job was asked to stop.
     """
-    from ....model.motion import anchored
+    from ....model.motion_path import anchored
     from ....usecases.smoothing.smooth import smooth
 
     done = smooth(was.source.name, was.source.bytes(), replace(options, dialect=was.dialect), progress.part(0.0, 0.7))

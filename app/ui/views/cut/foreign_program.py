@@ -13,7 +13,8 @@ from ....core.errors import InputError
 from ....core.progress import Progress
 from ....model.finding import Finding, FindingKind
 from ....model.stock_box import StockBox
-from ....model.tool import Tool, ToolKind
+from ....model.tool import Tool
+from ....model.tool_kind import ToolKind
 from ..nc.program_reader import ProgramSource
 from .cell_colours import CutColourBy
 from .shown_cut import ProgramFile, ShownCut, shown_cut

@@ -13,7 +13,8 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from ....core.errors import HitofudeError
-from ....model.tool import Tool, ToolKind, shape_keys, tool_kind, tool_kinds
+from ....model.tool import Tool
+from ....model.tool_kind import ToolKind, shape_keys, tool_kind, tool_kinds
 from ...framework.fields import ChoiceField, ListField, NumberField, NumberSpec
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch

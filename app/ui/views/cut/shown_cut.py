@@ -175,7 +175,7 @@ def picture_of(cut: CutProgram, moves: CutMoves, paths: CutPaths | None = None) 
 
 def _pieces(program: NcProgram, shapes: MotionShapes) -> tuple[Floats, Floats, Bytes]:
     """Return start, end and look of straight pieces of the tool's way, in the order of going."""
-    from ....model.motion import arc_paths
+    from ....model.motion_path import arc_paths
 
     motions, arcs = program.motions, arc_paths(program.motions)
     elsewhere = shapes.home.any(axis=1) | shapes.away.any(axis=1)

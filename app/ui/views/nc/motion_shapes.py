@@ -12,7 +12,8 @@ from PySide6.QtGui import QPainterPath
 
 from ....gcode.interpreter.program import NcProgram
 from ....gcode.timing.extent import at_home
-from ....model.motion import MotionKind, arc_paths, lengths, spline_points
+from ....model.motion import MotionKind
+from ....model.motion_path import arc_paths, lengths, spline_points
 from ..canvas.painting.curve_path import CURVE_DATA, CURVE_TO, ELEMENT, LINE_TO, MOVE_TO, PIECE, Elements, path_of
 
 Floats = NDArray[np.float64]

@@ -118,7 +118,7 @@ def read_shown(source: ProgramSource, side: ViewSide, progress: Progress) -> Sho
     from ....gcode.interpreter.notes_operation import contour_motions
     from ....gcode.interpreter.reader import read_program
     from ....gcode.timing.duration import duration
-    from ....model.motion import anchored
+    from ....model.motion_path import anchored
 
     progress.step(0.0, f"Reading {source.name}")
     data = source.bytes()

@@ -12,7 +12,8 @@ from ....drafting.expressions.numbers import length
 from ....model.contour_operation import ContourOperation
 from ....model.job import Job
 from ....model.operation import CutParameters, Operation, PocketOperation
-from ....model.tool import Tool, ToolKind
+from ....model.tool import Tool
+from ....model.tool_kind import ToolKind
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,7 @@ from ....model.finding import Finding, FindingKind
 from ....model.scene import Scene
 from ....usecases.scene.solid_files import SOLIDS, STEPS
 from ....usecases.step_extra import fetch_step_reader, step_files_readable
-from ...framework.controller import Controller, DocumentMend, ShownDocument
+from ...framework.controller import Controller, OfferedMend, ShownDocument
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
 from ..nc.program_reader import ProgramReader, ProgramSource
@@ -356,13 +356,13 @@ class SceneController(Controller):
         self._side.panel.awaited = (name, number)
         self._change(lambda text: with_table(text, name, made))
 
-    def _mends(self, finding: Finding) -> tuple[DocumentMend, ...]:
+    def _mends(self, finding: Finding) -> tuple[OfferedMend, ...]:
         """Return what clears metal that passes have left."""
         across = passes_across(self.work.scene) if self.work.scene is not None else None
         if finding.kind is not FindingKind.LEFT_REACHABLE or across is None or self.work.busy:
             return ()
         change = f"T{across['tool']} at {across['angle_deg']:g} degrees"
-        return (DocumentMend("Add passes across", change, lambda: self._add("passes", lambda _: across)),)
+        return (OfferedMend("Add passes across", change, lambda: self._add("passes", lambda _: across)),)
 
     def _show_in_text(self, name: str, number: int) -> None:
         self._side.show_page(TEXT)

@@ -12,7 +12,8 @@ from ....formats.job.toml import ORIGIN_XY, ORIGIN_Z
 from ....formats.job.write import word_of
 from ....model.scene import LineType, Passes, Scene, Strategy, Surface
 from ....model.scene_shapes import ProfileOrientation, Shape
-from ....model.tool import LEAST_RATE, Tool, shape_keys, tool_kind, tool_kinds
+from ....model.tool import LEAST_RATE, Tool
+from ....model.tool_kind import shape_keys, tool_kind, tool_kinds
 
 Place = tuple[str | int, ...]
 Choices = tuple[tuple[object, str], ...]

@@ -20,10 +20,12 @@ from ....gcode.interpreter.options import ReadOptions, ToolOffset
 from ....gcode.interpreter.program import NcProgram
 from ....gcode.interpreter.reader import read_program
 from ....gcode.writer.write import NcFile
-from ....geometry.primitives import CX, CY, TURN, X0, Y0, DistanceField, R, Rows, boxes, pack, points_at
+from ....geometry.distance import DistanceField
+from ....geometry.primitives import CX, CY, TURN, X0, Y0, R, Rows, boxes, pack, points_at
 from ....model.finding import Finding, FindingKind
 from ....model.job import Job
-from ....model.motion import MotionKind, anchored
+from ....model.motion import MotionKind
+from ....model.motion_path import anchored
 from ....model.moves import Program, Purpose
 from ....model.operation import Operation
 from ....verify.verdict import pair_distance

@@ -205,7 +205,7 @@ class CutScene:
         target = metal.framebuffer
         target.use()
         target.clear(*frame.look.canvas, 1.0, depth=1.0)
-        if (standing := self._whole.standing()) is not None and self.picture is not None:
+        if (standing := self._whole.standing) is not None and self.picture is not None:
             self._ground.draw(frame, Foot(standing, float(self.picture.low[2])), plain)
         for field, extent in zip((self._whole, self._part), extents, strict=False):
             target.use()

@@ -75,7 +75,11 @@ def block_heights(heights: Heights, rows: slice, columns: slice) -> Heights:
 
 
 class StockTextures:
-    """Heights and colours of one picture as textures."""
+    """Heights and colours of one picture as textures.
+
+    Attributes:
+        standing: what of the plane has metal over it, mm, but for the breadth of a block; None = nothing has.
+    """
 
     def __init__(self, ctx: moderngl.Context, program: moderngl.Program, palette: moderngl.Texture) -> None:
         self._ctx, self._program, self._palette = ctx, program, palette
@@ -85,6 +89,7 @@ class StockTextures:
         self._cells: Heights = np.zeros((1, 1), np.float32)
         self._tops = self._cells
         self._highest, self._averaged = 0.0, True
+        self.standing: Rectangle | None = None
         self._heights, self._blocks = (ctx.texture((1, 1), 1, dtype="f4") for _ in range(2))
         self._values, self._relief, self._walls = (ctx.texture((1, 1), bands) for bands in (1, 4, 4))
 
@@ -95,13 +100,14 @@ class StockTextures:
         every = (slice(0, count // BLOCK + 1) for count in picture.heights.shape)
         self._tops = block_heights(picture.heights, *every)
         self._blocks = self._filled(self._blocks, self._tops)
+        self.standing = self._standing()
         self._relief = self._filled(self._relief, picture.relief[..., :4])
         self._walls = self._filled(self._walls, picture.relief[..., 4:])
         for texture in (self._heights, self._blocks, self._walls):
             texture.filter = (ctx.NEAREST, ctx.NEAREST)
         self._highest, self._averaged = picture.highest, False  # averaged when it rests: that takes a while
 
-    def standing(self) -> Rectangle | None:
+    def _standing(self) -> Rectangle | None:
         """Return what of the plane has metal over it, mm, but for the breadth of a block; None = nothing has."""
         if self._picture is None:
             return None
@@ -188,7 +194,7 @@ class StockTextures:
         )
         own = block_heights(self._cells, rows, columns)
         self._tops[rows, columns] = own
-        self._highest = float(self._tops.max())
+        self._highest, self.standing = float(self._tops.max()), self._standing()
         self._blocks.write(own, viewport=(columns.start, rows.start, own.shape[1], own.shape[0]), alignment=1)
 
     def _rows_in_sight(self, frame: CutFrame, picture: CutPicture) -> tuple[int, int]:
