@@ -106,7 +106,9 @@ def meeting_heights(curves, sides):
                 if curves[k, LOW] < two[n] < top:
                     if count == len(found):
                         more = np.empty(2 * count)
-                        more[:count] = found
+                        # number by number: see `kernels.enlarged`
+                        for c in range(count):
+                            more[c] = found[c]
                         found = more
                     found[count] = two[n]
                     count += 1

@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from ..core.jit import kernel
+from .sort_kernels import order_of, sort_numbers
 
 LEAF = 4
 INF = math.inf
@@ -146,13 +147,13 @@ def build_tree(boxes):
     for i in range(1, n):
         x0, y0, x1, y1 = min(x0, boxes[i, 0]), min(y0, boxes[i, 1]), max(x1, boxes[i, 2]), max(y1, boxes[i, 3])
     size = max(x1 - x0, y1 - y0, 1e-12)
-    codes = np.empty(n, np.int64)
+    codes = np.empty(n)
     for i in range(n):
         u = int((boxes[i, 0] + boxes[i, 2] - 2 * x0) / 2 / size * 65535)
         v = int((boxes[i, 1] + boxes[i, 3] - 2 * y0) / 2 / size * 65535)
         codes[i] = spread(u) | (spread(v) << 1)
     # Morton order: rows that follow one another in it lie near one another, so leaves are small
-    order = np.argsort(codes)
+    order = order_of(codes)
     leaves = 1
     while leaves * LEAF < n:
         leaves *= 2
@@ -472,7 +473,8 @@ def inside_on_lines(rows, order, nodes, heights, first, places, result):
                     if x < INF:
                         found[count] = x
                         count += 1
-        crossed = np.sort(found[:count])
+        crossed = found[:count]
+        sort_numbers(crossed)
         for i in range(first[line], first[line + 1]):
             low, high = 0, count  # how many lie before the point
             while low < high:

@@ -52,13 +52,15 @@ def program(tmp_path: Path) -> Path:
         "app/room",
     ):
         (tmp_path / package / "__init__.py").touch()
-    for name in ("errors.py", "progress.py"):
+    for name in ("errors.py", "progress.py", "resources.py"):
         shutil.copy(ROOT / "app" / "core" / name, tmp_path / "app" / "core" / name)
     shutil.copytree(
         ROOT / "app" / "core" / "jit", tmp_path / "app" / "core" / "jit", ignore=shutil.ignore_patterns("__pycache__")
     )
     (tmp_path / "app" / "room" / "inner_kernels.py").write_text(INNER)
     (tmp_path / "app" / "room" / "outer_kernels.py").write_text(OUTER)
+    (tmp_path / "resources").mkdir()
+    (tmp_path / "resources" / "usual_kernels.txt").touch()
     return tmp_path
 
 
@@ -130,6 +132,26 @@ print(outer(1.0))
 """
     assert run(program, change).stdout.split() == ["4.0"], "what was imported is what counts"
     assert run(program, SHORT).stdout.split() == ["202.0"]
+
+
+def test_what_a_job_usually_takes_is_compiled_ahead_of_its_import(program: Path) -> None:
+    (program / "resources" / "usual_kernels.txt").write_text("room.outer_kernels:outer\n")
+    code = """
+import time
+from app.core.jit.compilers import compilers
+from app.room.inner_kernels import inner
+print(inner(1.0))
+while compilers().share < 1.0:
+    time.sleep(0.05)
+"""
+    assert run(program, code).stdout.split() == ["2.0"]
+    assert set(entries(program)) == {"outer", "inner", "_twice"}
+
+
+def test_what_is_not_usual_waits_for_somebody_who_waits(program: Path) -> None:
+    code = "from app.room.outer_kernels import outer; from app.room.inner_kernels import inner; print(inner(1.0))"
+    assert run(program, f"{code}; import time; time.sleep(2.0)").stdout.split() == ["2.0"]
+    assert "outer" not in entries(program), "the cores are for what the program computes"
 
 
 def test_an_inner_kernel_has_no_door_for_python(program: Path) -> None:

@@ -1,5 +1,5 @@
-"""As many compiling processes as there are cores: what somebody waits for first, then what the imported modules may
-want.
+"""As many compiling processes as there are cores: what somebody waits for first, then what a job usually wants, then
+what else the imported modules may want.
 
 They are processes and not threads since compiling holds the interpreter, which would freeze the window. A kernel is
 given out once the kernels that it calls are in the store, so that none is compiled twice.
@@ -16,9 +16,11 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 from ..progress import report_wait
+from ..resources import PACKAGE, resource
 from . import numba_loader
 from .compiled import REGISTERED, Kernel
 from .compiler_process import DONE
@@ -38,6 +40,7 @@ class _Plan:
         requested: entries to compile, by name in the order of their turn: a kernel behind all that it calls.
         done: entries that are in the store, or that cannot be; given: that a process has.
         failed: why, by entry.
+        awaited: entries that somebody waits for, or waited.
         rooms: modules of which something was waited for: more of these is likely to be wanted next.
     """
 
@@ -45,6 +48,7 @@ class _Plan:
     done: set[str] = field(default_factory=set)
     given: set[str] = field(default_factory=set)
     failed: dict[str, str] = field(default_factory=dict)
+    awaited: set[str] = field(default_factory=set)
     rooms: set[str] = field(default_factory=set)
 
     def ask(self, kernels: Iterable[Kernel], kept: Store, first: bool) -> None:
@@ -59,11 +63,13 @@ class _Plan:
                         self.done.add(each.entry)
                     else:
                         requested[each.entry] = each
+        if first:
+            self.awaited.update(requested)
         self.requested = requested | self.requested if first else self.requested | requested
 
     def next(self) -> Kernel | None:
-        """Take one whose callees are there, the likeliest to be wanted soon; None where all wait for others, or nothing
-        is left.
+        """Take one whose callees are there, the likeliest to be wanted soon; None where all wait for others, nothing is
+        left, or nobody waits and none is usual.
         """
         left = (
             kernel for entry, kernel in self.requested.items() if entry not in self.done and entry not in self.given
@@ -71,9 +77,19 @@ class _Plan:
         ready = [kernel for kernel in left if all(each.entry in self.done for each in kernel.callees)]
         if not ready:
             return None
-        chosen = next((kernel for kernel in ready if kernel.__module__ in self.rooms), ready[0])
+        chosen = min(ready, key=self._turn)
+        if self._turn(chosen) > 1 and self.awaited <= self.done:
+            return None  # the cores are for what the program computes
         self.given.add(chosen.entry)
         return chosen
+
+    def _turn(self, kernel: Kernel) -> int:
+        """Return how likely a kernel is to be wanted soon, 0 = the likeliest."""
+        if kernel.entry in self.awaited:
+            return 0
+        if kernel.name.partition(".")[2] in usual_kernels():
+            return 1
+        return 2 if kernel.__module__ in self.rooms else 3
 
     @property
     def over(self) -> bool:
@@ -88,6 +104,21 @@ def _with_callees(kernel: Kernel, seen: set[str]) -> Iterator[Kernel]:
     for each in kernel.callees:
         yield from _with_callees(each, seen)
     yield kernel
+
+
+@cache
+def usual_kernels() -> frozenset[str]:
+    """Return the names, without the package's, of the kernels that the sample part's program takes: while one process
+    compiles what somebody waits for, the others are best at what will be waited for next.
+    """
+    return frozenset(resource("usual_kernels.txt").read_text(encoding="utf-8").split())
+
+
+@cache
+def _import_usual() -> None:
+    """Import the modules of the usual kernels, so that these can be compiled ahead of the stage that imports them."""
+    for module in sorted({name.partition(":")[0] for name in usual_kernels()}):
+        import_module(f"{PACKAGE}.{module}")
 
 
 class Compilers:
@@ -110,6 +141,7 @@ class Compilers:
         """
         if self._kept.folder is None:
             return
+        _import_usual()
         with self._changed:
             self._plan.ask(kernels, self._kept, first=True)
             self._plan.ask(REGISTERED, self._kept, first=False)
@@ -137,8 +169,8 @@ class Compilers:
         return 1.0 - len(self._plan.requested.keys() - self._plan.done) / max(1, len(self._plan.requested))
 
     def _tell(self) -> None:
-        missing = self._plan.requested
-        done = len(missing.keys() & self._plan.done)
+        missing = self._plan.awaited
+        done = len(missing & self._plan.done)
         self._changed.release()
         try:
             report_wait(f"Compiling inner loops, this first time only: {done} of {len(missing)}")

@@ -332,6 +332,15 @@ def _do_plain(ints, reals, data, columns, states):
         ints[STATES] = before
 
 
+@kernel("void(int64[::1], float64[::1], int64[::1], float64[::1])", counts=False)
+def _copy(ints, reals, to_ints, to_reals):
+    """Copy a state; number by number, see `geometry.kernels.enlarged`."""
+    for k in range(INTS):
+        to_ints[k] = ints[k]
+    for k in range(REALS):
+        to_reals[k] = reals[k]
+
+
 @kernel(
     f"void(Array(uint8, 1, 'C', True), {_INTS}, {_REALS}, float64[::1], {_COLUMNS}, Tuple(({_RECORDS}, {_RECORDS})))"
 )
@@ -362,7 +371,7 @@ def run_lines(data, ints, reals, parameters, columns, records):
         if ints[LINES_LEFT] <= 0 or ints[OFFSET] >= len(data):
             break
         # a line that is not surely right is done by the reader instead: of it nothing may be left behind
-        old_ints[:], old_reals[:] = ints, reals
+        _copy(ints, reals, old_ints, old_reals)
         behind = read_block(data, ints[OFFSET], ints[LONGEST], parameters, line, values, waiting, ints[COMPUTES] != 0)
         known = (
             behind >= 0
@@ -371,7 +380,7 @@ def run_lines(data, ints, reals, parameters, columns, records):
             and _moved(ints, reals, line, slots, columns, records)
         )
         if not known:
-            ints[:], reals[:] = old_ints, old_reals
+            _copy(old_ints, old_reals, ints, reals)
             break
         if slots[_STOP] >= 0:
             note(ints, records[1], OPTIONAL_STOP if slots[_STOP] == 100 else STOP, 0.0)

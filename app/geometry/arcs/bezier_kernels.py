@@ -151,7 +151,9 @@ def blossoms(points, knots, spans, result):  # type: ignore[no-untyped-def]
     for n in range(len(spans)):
         span = spans[n]
         for j in range(p + 1):
-            work[:] = points[span - p : span + 1]
+            for i in range(p + 1):
+                for axis in range(points.shape[1]):
+                    work[i, axis] = points[span - p + i, axis]
             for level in range(1, p + 1):
                 t = knots[span + 1] if level <= j else knots[span]
                 for i in range(p - level + 1):
@@ -159,7 +161,8 @@ def blossoms(points, knots, spans, result):  # type: ignore[no-untyped-def]
                     share = (t - low) / (knots[span + 1 + i] - low)
                     for axis in range(points.shape[1]):
                         work[i, axis] = work[i, axis] * (1.0 - share) + work[i + 1, axis] * share
-            result[n, j] = work[0]
+            for axis in range(points.shape[1]):
+                result[n, j, axis] = work[0, axis]
 
 
 @kernel(f"boolean({_CONTROL}, boolean, float64, float64, float64)")

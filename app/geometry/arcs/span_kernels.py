@@ -114,7 +114,8 @@ def _longest(control, first, last, step, target, still, work, places, trial, row
         error = _trial(control, first, end, still, work, places, trial)
         factor = 0.95 * (target / max(error, target * 1e-3)) ** (1.0 / 3.0)
         if error <= target:
-            row[:] = trial
+            for c in range(COLUMNS):
+                row[c] = trial[c]
             if end == last or factor < 1.2 or held:
                 return (end - first) * min(max(factor, 0.7), 2.0)
             held, step = True, (end - first) * min(factor, 2.0)
@@ -124,7 +125,8 @@ def _longest(control, first, last, step, target, still, work, places, trial, row
         step = (end - first) * min(max(factor, 0.1), 0.7)
         if step < _SMALLEST:
             break
-    row[:] = trial
+    for c in range(COLUMNS):
+        row[c] = trial[c]
     row[TURN], row[PARTS] = 0.0, 1.0
     return 1e-3
 
@@ -186,6 +188,17 @@ def _bound(control, first, last, part, products, work, piece):  # type: ignore[n
     return worst
 
 
+@kernel(f"void({_FOUND}, int64, int64, int64, {_FOUND})")
+def _take(row, start, end, centre, part):  # type: ignore[no-untyped-def]
+    """Write the piece of a row that begins, ends and has its centre and turn from these columns on: x0, y0, x1, y1, cx,
+    cy, turn. Number by number, see `geometry.kernels.enlarged`.
+    """
+    for k in range(2):
+        part[k], part[2 + k] = row[start + k], row[end + k]
+    for k in range(3):
+        part[4 + k] = row[centre + k]
+
+
 @kernel(f"void({_CONTROL}, {_PIECE}, {_CONTROL}, {_FOUND})")
 def bounds(control, rows, products, found):  # type: ignore[no-untyped-def]
     """Write for each row (k, COLUMNS) a bound of its distance from the span that it replaces, both ways, mm.
@@ -196,13 +209,13 @@ def bounds(control, rows, products, found):  # type: ignore[no-untyped-def]
     work, piece, part, here = np.empty((control.shape[1], 3)), np.empty((control.shape[1], 3)), np.empty(7), np.empty(4)
     for k in range(len(rows)):
         row = rows[k]
-        part[0:2], part[2:4], part[4:7] = row[X0:X1], row[X2:CX], row[CX:DX]
+        _take(row, X0, X2, CX, part)
         if row[PARTS] == 1.0:
             part[6] = 0.0
             found[k] = _bound(control, row[FIRST], row[LAST], part, products, work, piece)
             continue
         shared = _share(control, row, work, here)
-        part[2:4] = row[X1:X2]
+        _take(row, X0, X1, CX, part)
         found[k] = _bound(control, row[FIRST], shared, part, products, work, piece)
-        part[0:2], part[2:4], part[4:7] = row[X1:X2], row[X2:CX], row[DX:PARTS]
+        _take(row, X1, X2, DX, part)
         found[k] = max(found[k], _bound(control, shared, row[LAST], part, products, work, piece))

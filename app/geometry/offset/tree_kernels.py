@@ -13,6 +13,7 @@ import numpy as np
 
 from ...core.jit import kernel
 from ..kernels import INF, LEAF, spread
+from ..sort_kernels import sort_integers
 
 
 @kernel("void(float64[:, ::1], int64[::1], int64, float64[:, ::1])", counts=False)
@@ -99,7 +100,7 @@ def build_runs(rows, boxes):
         v = int(((boxes[i, 1] + boxes[j, 3]) / 2 - y0) * scale)
         # the run's number in the low half: sorting needs no second array, and ties keep their order
         keys[k] = ((spread(u) | (spread(v) << 1)) << 32) | k
-    keys.sort()
+    sort_integers(keys)
     order = np.full(runs * LEAF, -1)
     for place in range(runs):
         k = keys[place] & 0xFFFFFFFF

@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
+from ...geometry.sort_kernels import sort_numbers
 from ..patches.patch_kernels import place
 from .section_kernels import ERROR, S0, S1, U0, U1, V0, V1, Z0, Z1
 
@@ -319,8 +320,10 @@ def envelope(pieces, patch, owner, control, plane, spans, marks):  # type: ignor
         spans: (k, SPANS). marks: (l, MARKS).
     """
     m = len(pieces)
-    events = np.concatenate((pieces[:, S0], pieces[:, S1]))
-    events.sort()
+    events = np.empty(2 * m)
+    for k in range(m):
+        events[k], events[m + k] = pieces[k, S0], pieces[k, S1]
+    sort_numbers(events)
     active, chosen = np.empty(m, np.int64), np.empty(_MOST, np.int64)
     heights, waiting = np.empty((3, _MOST)), np.empty(_DEEP + 1)
     state = np.array([0.0, 0.0, -1.0, -1.0, 0.0, 0.0])

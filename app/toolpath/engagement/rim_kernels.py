@@ -15,6 +15,7 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
+from ...geometry.sort_kernels import sort_numbers
 
 _SHAPES = "float64[:, ::1]"
 _HALF, _TURN = math.pi / 2, 2 * math.pi
@@ -79,7 +80,8 @@ def uncovered(shapes, circle, less, window):
             if angle < size:
                 angles[count] = angle
                 count += 1
-    angles = np.sort(angles[:count])
+    angles = angles[:count]
+    sort_numbers(angles)
     bare = 0.0
     for i in range(count - 1):
         wide = angles[i + 1] - angles[i]

@@ -5,8 +5,6 @@ from __future__ import annotations
 import heapq
 import math
 
-import numpy as np
-
 from ...core.jit import kernel
 from ...geometry.kernels import nearest_from
 from ..cleared_kernels import keeps_off
@@ -55,10 +53,10 @@ def clear_rows(rows, order, nodes, path, turn, distance, slack, out):
 
 
 @kernel(
-    "int64(int64[::1], int64[::1], float64[::1], int64[::1], int64[:, ::1], float64, int64, int64[:, ::1], "
-    "float64[::1])"
+    "int64(int64[::1], int64[::1], float64[::1], int64[::1], int64[:, ::1], float64, int64, float64[::1], int64[::1], "
+    "int64[:, ::1], float64[::1])"
 )
-def nearest_goals(first, to, cost, label, sources, limit, most, found, costs):
+def nearest_goals(first, to, cost, label, sources, limit, most, way, touched, found, costs):
     """Write (source, goal) and the cost of the way for the goals nearest to each source; return how many.
 
     Args:
@@ -66,10 +64,10 @@ def nearest_goals(first, to, cost, label, sources, limit, most, found, costs):
         label: of each node; those of 0 or more are goals.
         sources: (n, 2) node, and a label that is no goal for it.
         limit: longest way, mm. most: goals a source.
+        way: (n,) of each node, infinite, as it is again afterwards: only what a search has seen is put back, so that a
+            search costs what it has seen and not the whole net. touched: room for the nodes.
         found, costs: room for `most` a source.
     """
-    way = np.full(len(label), math.inf)
-    touched = np.empty(len(label), np.int64)
     count = 0
     for s in range(len(sources)):
         start, own, got, touches = sources[s, 0], sources[s, 1], 0, 1
@@ -92,20 +90,24 @@ def nearest_goals(first, to, cost, label, sources, limit, most, found, costs):
                         touches += 1
                     way[other] = total
                     heapq.heappush(heap, (total, other))
-        # only what was written is put back, so a source costs what it has seen and not the whole net
         for k in range(touches):
             way[touched[k]] = math.inf
     return count
 
 
-@kernel("int64(int64[::1], int64[::1], float64[::1], int64, int64, float64, int64[::1])")
-def cheapest_way(first, to, cost, start, goal, limit, out):
+@kernel(
+    "int64(int64[::1], int64[::1], float64[::1], int64[::1], int64, int64, float64, float64[::1], int64[::1], "
+    "int64[::1])"
+)
+def cheapest_way(first, to, cost, come_from, start, goal, limit, way, came, out):
     """Write the edges of the cheapest way from a node to another, last first; return how many (0 where there is
     none).
+
+    Args:
+        first, to, cost, limit, way: as of `nearest_goals`. come_from: of each edge.
+        came: room for the edge by which each node was come to. out: room for the nodes, and for the edges.
     """
-    way = {start: 0.0}
-    came = {start: np.int64(-1)}
-    origin = {start: start}
+    way[start], out[0], touches = 0.0, start, 1
     heap = [(0.0, start)]
     while len(heap) > 0:
         gone, node = heapq.heappop(heap)
@@ -115,14 +117,18 @@ def cheapest_way(first, to, cost, start, goal, limit, out):
             break
         for e in range(first[node], first[node + 1]):
             other, total = to[e], gone + cost[e]
-            if total <= limit and (other not in way or total < way[other]):
-                way[other], came[other], origin[other] = total, np.int64(e), node
+            if total < way[other] and total <= limit:
+                if way[other] == math.inf:
+                    out[touches] = other
+                    touches += 1
+                way[other], came[other] = total, e
                 heapq.heappush(heap, (total, other))
-    if goal not in way:
-        return 0
+    reached = way[goal] < math.inf
+    for k in range(touches):
+        way[out[k]] = math.inf
     count, node = 0, goal
-    while node != start:
+    while reached and node != start:
         out[count] = came[node]
         count += 1
-        node = origin[node]
+        node = come_from[came[node]]
     return count

@@ -10,6 +10,7 @@ down there.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -171,10 +172,9 @@ def _candidates(net: LinkGraph, tied: _Ties, longest: float) -> Indices:
     here = np.stack([free, first[place[free]], np.zeros(len(free), np.int64)], 1)
     here = here[(here[:, 1] >= 0) & (here[:, 0] != here[:, 1])]
     sources = np.ascontiguousarray(np.stack([place[free], chain], 1))
-    found, costs = np.empty((_MOST * len(free), 2), np.int64), np.empty(_MOST * len(free))
-    count = chain_kernels.nearest_goals(net.first, net.to, net.cost, label, sources, longest, _MOST, found, costs)
-    pairs = np.concatenate([here[:, :2], np.stack([free[found[:count, 0]], first[found[:count, 1]]], 1)])
-    order = np.argsort(np.concatenate([np.zeros(len(here)), costs[:count]]), kind="stable")
+    found, costs = net.nearest(label, sources, longest, _MOST)
+    pairs = np.concatenate([here[:, :2], np.stack([free[found[:, 0]], first[found[:, 1]]], 1)])
+    order = np.argsort(np.concatenate([np.zeros(len(here)), costs]), kind="stable")
     return np.asarray(pairs[order], np.int64)
 
 
@@ -224,14 +224,10 @@ class _Thread:
         where there is none.
         """
         start, none = self._place(end), np.zeros(0, np.int64)
-        found, costs = np.empty((1, 2), np.int64), np.empty(1)
         if self.net.air[start]:
             return none, 0.0
-        label = np.where(self.net.air, 0, -1)
-        count = chain_kernels.nearest_goals(
-            self.net.first, self.net.to, self.net.cost, label, np.array([[start, -1]]), self.longest, 1, found, costs
-        )
-        return (self.net.way(int(found[0, 1]), start, np.inf), float(costs[0])) if count else (none, np.inf)
+        found, costs = self.net.nearest(self.net.air_labels, np.array([[start, -1]]), self.longest, 1)
+        return (self.net.way(int(found[0, 1]), start, np.inf), float(costs[0])) if len(found) else (none, np.inf)
 
     def _pulled(self, edges: Indices) -> Rows:
         """Return the rows of a way, with straight ways past places where these are as clear."""
@@ -368,11 +364,37 @@ class LinkGraph:
             places, spots, first, end[order], cost[order], kinds[order], start[order], counts[order], air, ends
         )
 
+    @cached_property
+    def air_labels(self) -> Indices:
+        """0 where the ground under the cutter is cut, -1 elsewhere."""
+        return np.where(self.air, 0, -1)
+
+    @cached_property
+    def _room(self) -> tuple[Floats, Indices, Indices]:
+        """Room that all searches share: the way to each place, inf between searches, and two of indices."""
+        size = len(self.places) + 1
+        return np.full(size, np.inf), np.empty(size, np.int64), np.empty(size, np.int64)
+
+    def nearest(self, label: Indices, sources: Indices, longest: float, most: int) -> tuple[Indices, Floats]:
+        """Return (source, place) (m, 2) and the costs of the ways to the places nearest to each source.
+
+        Args:
+            label, sources: as `chain_kernels.nearest_goals` wants them. longest: way, mm. most: places a source.
+        """
+        found, costs = np.empty((most * len(sources), 2), np.int64), np.empty(most * len(sources))
+        way, touched, _ = self._room
+        count = chain_kernels.nearest_goals(
+            self.first, self.to, self.cost, label, sources, longest, most, way, touched, found, costs
+        )
+        return found[:count], costs[:count]
+
     def way(self, start: int, goal: int, limit: float) -> Indices:
         """Return the edges of the cheapest way between two places."""
-        out = np.empty(len(self.places) + 1, np.int64)
-        count = chain_kernels.cheapest_way(self.first, self.to, self.cost, start, goal, limit, out)
-        return out[:count][::-1]
+        way, came, out = self._room
+        count = chain_kernels.cheapest_way(
+            self.first, self.to, self.cost, self.come_from, start, goal, limit, way, came, out
+        )
+        return out[:count][::-1].copy()
 
     def rows(self, chunks: RingChunks, edge: int) -> Rows:
         """Return the rows of an edge."""

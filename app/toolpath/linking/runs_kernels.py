@@ -9,6 +9,7 @@ import numpy as np
 from ...core.jit import kernel
 from ...geometry.kernels import LEAF, box_distance, enlarged, nearest, point_distance, query_box
 from ...geometry.offset.offset_kernels import blocked_parts
+from ...geometry.sort_kernels import order_of
 from ..coverage.uncut_kernels import beyond
 
 SHORTEST = 1e-5  # mm; what is shorter is rounding
@@ -46,7 +47,7 @@ def uncovered(rows, paths, order, nodes, around, reach):
     """
     found, count = np.empty((2 * len(rows) + 16, 3)), 0
     shape, box, limits = np.empty(6), np.empty(4), np.empty(6)
-    near = np.empty(len(paths), np.int64)
+    near, starts = np.empty(len(paths), np.int64), np.empty(0)
     limits[0], limits[1], limits[2], limits[3] = reach, 0.0, 0.0, 1.0
     for k in range(len(rows)):
         _shape(rows, k, shape)
@@ -62,7 +63,11 @@ def uncovered(rows, paths, order, nodes, around, reach):
         if count + blocks + 1 > len(found):
             found = enlarged(found, count, 2 * len(found) + blocks)
         at = 0.0
-        for b in np.argsort(blocked[:blocks, 0]):
+        if blocks > len(starts):
+            starts = np.empty(2 * blocks)
+        for b in range(blocks):
+            starts[b] = blocked[b, 0]
+        for b in order_of(starts[:blocks]):
             if blocked[b, 0] - at > least:
                 found[count, 0], found[count, 1], found[count, 2] = k, at, blocked[b, 0]
                 count += 1
