@@ -23,7 +23,7 @@ def test_a_ring_that_both_sides_of_are_painted_bounds_nothing() -> None:
     drawing = read(f'<path d="{OUTER}{INNER}"/>')
     assert len(drawing.part.entities) == 4
     assert [each.text for each in drawing.findings] == [
-        "1 outline lies within the area that the path paints (fill-rule nonzero) and cannot be seen; left out."
+        "1 outline lies within the area that the path paints (fill-rule: nonzero) and cannot be seen; left out."
     ]
 
 

@@ -36,7 +36,7 @@ def _within(content: SvgContent) -> Iterator[Finding]:
     if content.within:
         what = "1 outline lies" if content.within == 1 else f"{content.within} outlines lie"
         yield remark(
-            f"{what} within the area that the path paints (fill-rule nonzero) and cannot be seen; left out.",
+            f"{what} within the area that the path paints (fill-rule: nonzero) and cannot be seen; left out.",
             float(content.within),
         )
 

@@ -112,6 +112,6 @@ def origin(text: str, box: str, basis: LengthBasis) -> Point:
     across, up = (length(_WORDS.get(word, word)) for word in words)
     shared = across.is_share or up.is_share
     of_page = box in ("", "view-box")
-    if shared and not (of_page and all(basis.viewport)) or not (of_page or across.user(basis) == up.user(basis) == 0):
+    if (shared and not (of_page and all(basis.viewport))) or not (of_page or across.user(basis) == up.user(basis) == 0):
         raise UnreadableError(text)
     return across.user(basis, "x"), up.user(basis, "y")
