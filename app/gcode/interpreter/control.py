@@ -89,7 +89,7 @@ class Control:
     def __init__(self, options: ReadOptions) -> None:
         """Stand at the start, as a control does when it is switched on."""
         self.options, self.rules = options, DIALECT_RULES[options.dialect]
-        self.modal = ModalState(retract_to_r=options.dialect is Dialect.LINUXCNC)
+        self.modal = ModalState(units=options.units or Units.MM, retract_to_r=options.dialect is Dialect.LINUXCNC)
         self.motion = "G80" if options.dialect is Dialect.LINUXCNC else "G0"
         self.feed = math.nan
         self.at: Place = options.start

@@ -79,6 +79,11 @@ def is_leader(text: bytes) -> bool:
     return _BLOCK_TEXT.search(text) is None
 
 
+def names_units(data: bytes) -> bool:
+    """Tell whether a program says somewhere what its lengths are in."""
+    return _UNITS.search(data) is not None
+
+
 def warn_of_numbers(control: Control, data: bytes) -> None:
     """Tell what a program leaves to the control's settings: what a number without a point counts in, and its units."""
     whole_length = _WHOLE_LENGTH.search(data, 0, LOOKED_AT) if control.rules.least_mm != 1.0 else None
@@ -88,9 +93,20 @@ def warn_of_numbers(control: Control, data: bytes) -> None:
             f"lengths without a decimal point count in {control.rules.least_mm:g} mm or {control.rules.least_inch:g} "
             "in here."
         )
-    if control.rules.fanuc_flow and data and _UNITS.search(data) is None:
+    if control.rules.fanuc_flow and data and not names_units(data) and control.options.units is None:
         control.line = 1
         control.warn("the program names no units (G20, G21); mm are taken.")
+
+
+def warn_of_uncalled(control: Control, flow: Flow) -> None:
+    """Tell of programs behind the end that the program does not call."""
+    others = flow.places.uncalled(flow.here)
+    if others:
+        control.line = others[0].at.line
+        more = (
+            f" and {len(others) - 1} more are programs of their own" if len(others) > 1 else " is a program of its own"
+        )
+        control.warn(f"O{others[0].label}{more} that nothing here calls; what stands there is not read.")
 
 
 def warn_of_rotary(control: Control, block: Block) -> None:
@@ -158,7 +174,7 @@ def call_macro(flow: Flow, control: Control, block: Block) -> None:
         _ARGUMENTS[letter]: value for letter, value in block.values.items() if letter in _ARGUMENTS
     }
     if count > 0:
-        flow.call(subroutine(flow, number), arguments, count)
+        flow.call(subroutine(flow, control, number), arguments, count)
 
 
 # Jumps in the manner of Fanuc and Haas: GOTO, IF, WHILE ... DO, M97, M98, M99.
@@ -219,13 +235,16 @@ def _goto(flow: Flow, control: Control, values: ValueReader) -> None:
     go_to(flow, whole(evaluated(values.value(), control.parameters), "the number behind GOTO"))
 
 
-def go_to(flow: Flow, number: int) -> None:
+def go_to(flow: Flow, number: int, at: int | None = None) -> None:
     """Go on at the block with an N word.
+
+    Args:
+        at: an offset in the program that the block is looked for in; None = in the one that is running.
 
     Raises:
         Fault: there is none.
     """
-    to = flow.places.number(number, flow.here.offset)
+    to = flow.places.number(number, flow.here.offset if at is None else at)
     if to is None:
         raise BlockFault(f"there is no block N{number} to go to.")
     flow.jump(to)
@@ -272,7 +291,7 @@ def call_or_return(flow: Flow, control: Control, block: Block) -> bool:
             back = block.get("p")
             flow.leave()
             if back is not None and control.rules.fanuc_flow:
-                go_to(flow, whole(back, "P of M99"))
+                go_to(flow, whole(back, "P of M99"), flow.next.offset - 1)  # in the line that called
             return True
         if block.has("p"):
             go_to(flow, whole(block.values["p"], "P of M99"))
@@ -297,14 +316,14 @@ def _called(control: Control, block: Block, code: str) -> tuple[int, int]:
 
 def _goal(flow: Flow, control: Control, code: str, number: int) -> Subroutine:
     if code == "M97":
-        to = flow.places.number(number, -1)
+        to = flow.places.number(number, flow.here.offset)
         if to is None:
             raise BlockFault(f"there is no block N{number} to call.", letter="p")
         return Subroutine(f"N{number}", to)
-    return subroutine(flow, number, plain=control.rules.ngc_flow)
+    return subroutine(flow, control, number, plain=control.rules.ngc_flow)
 
 
-def subroutine(flow: Flow, number: int, plain: bool = False) -> Subroutine:
+def subroutine(flow: Flow, control: Control, number: int, plain: bool = False) -> Subroutine:
     """Return a program to call.
 
     Args:
@@ -321,4 +340,8 @@ def subroutine(flow: Flow, number: int, plain: bool = False) -> Subroutine:
         )
     if plain and found.keyword == "sub":
         raise BlockFault(f"O{number} begins with sub, so O{number} call must call it, not M98.", letter="p")
+    if flow.places.is_behind_the_end(found.at):
+        control.warn(
+            f"O{number} stands behind the per cent sign that ends the program; load it into the control by itself.", "p"
+        )
     return Subroutine(str(number), flow.places.after(found.at))

@@ -75,6 +75,50 @@ def test_fanuc_loops() -> None:
     assert way(text, Dialect.FANUC) == [0, 1, 10, 11, 9]
 
 
+OTHER = "O2\nN10 G0 X77.\nN20 G0 X88.\nM99\n"
+"""A subroutine with block numbers that the main program has too."""
+
+
+@pytest.mark.parametrize(
+    ("text", "dialect", "expected"),
+    [
+        (f"O1\n#1=0\nN10 G0 X#1\n#1=#1+1\nIF [#1 LT 3] GOTO 10\nM98 P2\nM30\n{OTHER}", "fanuc", [0, 1, 2, 77, 88]),
+        ("O1\nM98 P2\nM30\nN50 G0 X9.\nM99\nO2\nM97 P50\nM99\nN50 G0 X7.\nM99\n", "haas", [7]),
+        ("O1\nM98 P2\nG0 X9.\nN20 G0 X1.\nM30\nO2\nG0 X3.\nM99 P20\nN20 G0 X8.\nM99\n", "fanuc", [3, 1]),
+        ("O1\nN20 G0 X1.\nIF [#1 EQ 1] GOTO 30\n#1=1\nM98 P2\nN30 M30\nO2\nG0 X3.\nM99 P20\n", "fanuc", [1, 3, 1]),
+    ],
+)
+def test_block_numbers_are_those_of_the_program_that_runs(text: str, dialect: str, expected: list[float]) -> None:
+    program = read(f"%\nG21\n{text}%\n", Dialect(dialect))
+    assert [end[0] for end in ends(program)] == expected and not program.problems
+
+
+@pytest.mark.parametrize("begin", ["", "%\n"])
+def test_a_subroutine_behind_the_per_cent_sign_is_called_and_told(begin: str) -> None:
+    program = read(f"%\nO1\nG21\nM98 P2\nM30\n%\n{begin}O2\nG0 X3.\nM99\n%\n", Dialect.FANUC)
+    assert [end[0] for end in ends(program)] == [3]
+    assert [each.text for each in program.problems] == [
+        "O2 stands behind the per cent sign that ends the program; load it into the control by itself."
+    ]
+
+
+def test_programs_that_nothing_calls_are_told() -> None:
+    text = "%\nO1\nG21\nG0 X1.\nM98 P5\nM30\nO3\nG0 X3.\nM30\nO4\nM30\nO5\nG0 X5.\nM99\n%\n"
+    program = read(text, Dialect.FANUC)
+    assert [end[0] for end in ends(program)] == [1, 5]
+    assert [each.text for each in program.problems] == [
+        "O3 and 1 more are programs of their own that nothing here calls; what stands there is not read."
+    ]
+    assert program.problems[0].line == 7
+
+
+def test_a_program_that_runs_on_into_the_next_is_told() -> None:
+    program = read("%\nO1\nG21\nG0 X1.\nO2\nG0 X2.\nM30\n%\n", Dialect.FANUC)
+    assert [each.text for each in program.problems] == [
+        "the program runs on into the next one, for no M30 or M99 stands before its number."
+    ]
+
+
 def test_haas_calls_a_block_of_the_same_program() -> None:
     assert way("M97 P100 L2\nG0 X9.\nM30\nN100 G91 G0 X1.\nM99\n", Dialect.HAAS) == [1, 2, 11]
 
