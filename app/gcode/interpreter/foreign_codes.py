@@ -4,9 +4,10 @@ their own.
 
 from __future__ import annotations
 
+import math
 import re
 
-from .block import Block
+from .block import Block, ParsedLine
 from .codes import ROTARY, ModalGroup
 from .control import Control
 from .dialect import Dialect
@@ -31,6 +32,9 @@ _PASSED = {
     "G107": "a cylinder",
     "G108": "look-ahead",
 }
+
+_ALARM = 3000
+"""The parameter that stops the program with a message, whatever it is set to."""
 
 _RIGID = "M29"
 """The spindle of the next tapping cycle follows the axis: how it turns, not where the tool goes."""
@@ -162,6 +166,16 @@ def _drop(block: Block, letters: str) -> None:
         block.values.pop(letter, None)
 
 
+def stop_at_alarm(parsed: ParsedLine) -> None:
+    """Stop where a program raises an alarm of its own.
+
+    Raises:
+        Fault: it does.
+    """
+    if any(key == _ALARM for key, _ in parsed.settings):
+        raise BlockFault(f"the program stops here with an alarm of its own (#{_ALARM}).", column=-1)
+
+
 def call_macro(flow: Flow, control: Control, block: Block) -> None:
     """Obey G65: call a program with arguments, which become #1 to #26 by their letters.
 
@@ -212,7 +226,8 @@ def obey_macro(flow: Flow, control: Control, code: str) -> int:
         return len(code)
     if code[values.at : values.at + 1] != "[":
         raise BlockFault(f"expected [ with a condition behind {word.upper()}.", column=-1 - values.at)
-    holds = evaluated(flow.first_value(values), control.parameters) != 0
+    value = evaluated(flow.first_value(values), control.parameters)
+    holds = value != 0 and not math.isnan(value)
     if word == "while":
         _while(flow, code[values.at :], holds)
         return len(code)

@@ -22,6 +22,7 @@ from .foreign_codes import (
     is_leader,
     is_macro,
     obey_macro,
+    stop_at_alarm,
     warn_of_numbers,
     warn_of_uncalled,
 )
@@ -272,6 +273,8 @@ class InterpreterRun:
 
     def _done(self, parsed: ParsedLine) -> bool:
         """Do a line's block; False at the end of the program."""
+        if self._rules.vacant:
+            stop_at_alarm(parsed)
         control, block = self._control, block_of(parsed, self._control.parameters)
         if self._watch is None:
             return self._execute(block)

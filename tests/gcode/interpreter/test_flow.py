@@ -119,6 +119,39 @@ def test_a_program_that_runs_on_into_the_next_is_told() -> None:
     ]
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("IF [#9 EQ #0] GOTO 5\nG0 X7.\nN5 G0 X1.\n", [1]),
+        ("#9=0\nIF [#9 EQ #0] GOTO 5\nG0 X7.\nN5 G0 X1.\n", [7, 1]),
+        ("IF [#9 NE 0] GOTO 5\nG0 X7.\nN5 G0 X1.\n", [1]),
+        ("IF [#9 GE 0] GOTO 5\nG0 X7.\nN5 G0 X1.\n", [1]),
+        ("IF [#9 LT 0] GOTO 5\nG0 X7.\nN5 G0 X1.\n", [7, 1]),
+        ("#8=#9\nIF [#8 EQ #0] GOTO 5\nG0 X7.\nN5 G0 X[#9+1]\n", [1]),
+        ("#9=3.\n#9=#0\nG0 X4.\nG0 X#9 Y1.\nG0 X-#9 Y2.\n", [4, 4, 4]),
+        ("G65 P2 X3.\nM30\nO2\nIF [#26 NE #0] THEN #1=9\nG0 X5.\nG0 X#25 Y1. Z#1\nG0 X#24\nM99\n", [5, 5, 3]),
+    ],
+)
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_what_nobody_has_set_is_vacant_in_macro_b(text: str, expected: list[float], dialect: Dialect) -> None:
+    assert way(f"%\nO1\nG21 G90\n{text}{'' if 'M30' in text else 'M30'}\n%\n", dialect) == expected
+
+
+def test_mach3_takes_what_nobody_has_set_for_0() -> None:
+    assert way("G21\nG0 X4\nG0 X#9 Y1\nM30\n", Dialect.MACH3) == [4, 0]
+
+
+def test_what_the_control_keeps_is_told_where_it_is_not_set() -> None:
+    program = read("G21\n#501=3.\nG0 X#501\nG0 Y#500 Z1.\nM30\n", Dialect.FANUC)
+    assert [(each.line, each.text.split(";")[0]) for each in program.problems] == [(4, "#500 is set nowhere before")]
+
+
+@pytest.mark.parametrize("text", ["#3000=1 (NO TOOL)\n", "IF [#9 EQ #0] THEN #3000=5\n"])
+def test_an_alarm_ends_the_reading(text: str) -> None:
+    found = told(f"G21\nG0 X1.\n{text}G0 X2.\nM30\n", Dialect.FANUC)
+    assert found.startswith("a.ngc:3") and "stops here with an alarm of its own (#3000)" in found
+
+
 def test_haas_calls_a_block_of_the_same_program() -> None:
     assert way("M97 P100 L2\nG0 X9.\nM30\nN100 G91 G0 X1.\nM99\n", Dialect.HAAS) == [1, 2, 11]
 
