@@ -74,6 +74,11 @@ _BLOCK_TEXT = re.compile(
 
 _WHOLE_LENGTH = re.compile(rb"^[^(;\n]*[xyzijr][ \t]*[-+]?[0-9]*[1-9][0-9]*(?![0-9.])", re.IGNORECASE | re.MULTILINE)
 
+_BLOCK_BEHIND = re.compile(
+    rb"[0-9.][ \t]*;[ \t]*(?:[a-z][ \t]*[-+]?[0-9.]+[ \t]*)+;?[ \t]*$", re.IGNORECASE | re.MULTILINE
+)
+"""A block, and behind the sign that ends it on Fanuc and Haas another one in the same line."""
+
 _UNITS = re.compile(rb"g[ \t]*[27][01](?![0-9.])", re.IGNORECASE)
 """G70 and G71 too: what they are on other controls than Mach3 is refused there."""
 
@@ -96,6 +101,12 @@ def warn_of_numbers(control: Control, data: bytes) -> None:
         control.warn(
             f"lengths without a decimal point count in {control.rules.least_mm:g} mm or {control.rules.least_inch:g} "
             "in here."
+        )
+    second = _BLOCK_BEHIND.search(data, 0, LOOKED_AT) if control.rules.vacant else None
+    if second is not None:
+        control.line = data.count(b"\n", 0, second.end()) + 1
+        control.warn(
+            "what stands behind ; is passed over as a comment, and looks like a block; write it in a line.", ";"
         )
     if control.rules.fanuc_flow and data and not names_units(data) and control.options.units is None:
         control.line = 1
@@ -314,8 +325,23 @@ def call_or_return(flow: Flow, control: Control, block: Block) -> bool:
         return False
     number, count = _called(control, block, code)
     if count:
-        flow.call(_goal(flow, control, code, number), None, count)
+        flow.call(_begun_at(flow, block, _goal(flow, control, code, number)), None, count)
     return True
+
+
+def _begun_at(flow: Flow, block: Block, called: Subroutine) -> Subroutine:
+    """Return a subroutine from the block on that Q numbers, as Fanuc's M98 has it.
+
+    Raises:
+        Fault: there is no such block in it.
+    """
+    if not block.has("q"):
+        return called
+    number = whole(block.values["q"], f"Q of {block.codes[ModalGroup.CALL]}")
+    to = flow.places.number(number, called.begin.offset - 1)  # in the line of the program's own number
+    if to is None:
+        raise BlockFault(f"there is no block N{number} in the program that is called.", letter="q")
+    return called._replace(begin=to)
 
 
 def _called(control: Control, block: Block, code: str) -> tuple[int, int]:

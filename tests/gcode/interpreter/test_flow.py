@@ -152,6 +152,22 @@ def test_an_alarm_ends_the_reading(text: str) -> None:
     assert found.startswith("a.ngc:3") and "stops here with an alarm of its own (#3000)" in found
 
 
+def test_a_subroutine_may_be_called_from_a_block_on() -> None:
+    text = "%\nO1\nG21\nM98 P2 Q{}\nM30\nN30 G0 X9.\nO2\nG0 X1.\nN20 G0 X2.\nM99\n%\n"
+    assert way(text.format(20), Dialect.FANUC) == [2]
+    assert "there is no block N30 in the program that is called" in told(text.format(30), Dialect.FANUC)
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [("G1 X9.; Y2.\n", [3]), ("G1 X9.;G1 Z-2.;\n", [3]), ("G1 X9.; T1 is it\n", []), ("; G1 X5.\nG1 X9.;\n", [])],
+)
+def test_a_block_behind_a_semicolon_is_told_on_controls_where_that_ends_one(text: str, lines: list[int]) -> None:
+    program = read(f"G21 F9.\nG0 X1.\n{text}M30\n", Dialect.FANUC)
+    assert [each.line for each in program.problems] == lines
+    assert not read(f"G21 F9\nG0 X1\n{text}M30\n").problems
+
+
 def test_haas_calls_a_block_of_the_same_program() -> None:
     assert way("M97 P100 L2\nG0 X9.\nM30\nN100 G91 G0 X1.\nM99\n", Dialect.HAAS) == [1, 2, 11]
 
