@@ -36,6 +36,7 @@ _SHAPES = frozenset(
     {
         "INSERT of a missing block",
         "INSERT of an external drawing",
+        "use of what is not in the file",
         "REGION",
         "3DSOLID",
         "BODY",

@@ -92,6 +92,11 @@ def test_a_place_or_form_that_is_not_followed_is_a_finding(body: str, what: str)
     assert found.counts and f"moved or formed by {what}, which is not followed" in found.text
 
 
+def test_what_lies_in_another_file_is_missing_from_the_part() -> None:
+    (found,) = read(f'<path d="{OUTER}"/><use href="other.svg#a"/>').findings
+    assert found.counts and found.text.startswith("Missing from the part: 1 use of what is not in the file,")
+
+
 def test_a_transform_of_the_page_is_a_finding() -> None:
     assert read(f'<path d="{OUTER}"/>', f'{PAGE} transform="rotate(90)"').findings[0].counts
     assert not read(f'<path d="{OUTER}"/>', f'{PAGE} transform="matrix(1,0,0,1,0,0)"').findings
