@@ -30,6 +30,8 @@ def examined_lines(examined: ExaminedProgram) -> list[str]:
         f"{examined.name}: {what} as {CONTROLS[report['control']]} reads it; {motions} "
         f"in {counted(report['lines'], 'line')}, {length['cut']:.1f} mm cut, {length['rapid']:.1f} mm rapid",
     )
+    if examined.unnamed:
+        lines.append("  units: the program names none (G20, G21) and is read in mm; say --units in if it is in inches")
     for title, box in (("cuts", examined.cut_box), ("all", examined.box)):
         sides = (
             f"{axis} {low:.3f} to {high:.3f}"

@@ -22,19 +22,25 @@ taken off.
 """
 
 
+_UNITS = {"mm": Units.MM, "in": Units.INCH}
+
+
 def add_check_options(parser: OptionParser) -> None:
     """Add the options of `hitofude check`."""
     parser.add_argument("program", metavar="PROGRAM.ngc", type=Path, help="the NC program")
     parser.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
     parser.add_argument("--tools", metavar="FILE", type=Path, help="tools: LinuxCNC's .tbl, or a library .toml or .csv")
     parser.add_argument(
-        "--tool-units", choices=["mm", "in"], default="mm", help="of the lengths in a .tbl (default mm)"
+        "--tool-units", choices=list(_UNITS), default="mm", help="of the lengths in a .tbl (default mm)"
     )
     parser.add_argument(
         "--block-delete",
         choices=["on", "off"],
         default="on",
         help="leave out the blocks that begin with a slash, or do them (default on)",
+    )
+    parser.add_argument(
+        "--units", choices=list(_UNITS), help="of the lengths in a program that names none, by G20 or G21 (default mm)"
     )
     parser.add_argument("--machine", metavar="NAME|FILE", type=typed(machine_named), help=MACHINE_HELP)
     parser.add_argument("--compare", metavar="OTHER.ngc", type=Path, help="another program: where its motion differs")
@@ -72,7 +78,9 @@ def examine_options(arguments: argparse.Namespace) -> ExamineOptions:
     """Return how the program is to be looked at, the control's tool table read."""
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
     offsets = _offsets(arguments.tools, arguments.tool_units)
-    return ExamineOptions(dialect, offsets, arguments.machine, arguments.block_delete == "on")
+    return ExamineOptions(
+        dialect, offsets, arguments.machine, arguments.block_delete == "on", _UNITS.get(arguments.units)
+    )
 
 
 def _offsets(path: Path | None, units: str) -> Mapping[int, ToolOffset]:
@@ -81,4 +89,4 @@ def _offsets(path: Path | None, units: str) -> Mapping[int, ToolOffset]:
     from ..formats.tools.files import read_rows
     from ..gcode.tool_offsets import tool_offsets
 
-    return tool_offsets(read_rows(path.name, read_input(path), Units.INCH if units == "in" else Units.MM))
+    return tool_offsets(read_rows(path.name, read_input(path), _UNITS[units]))

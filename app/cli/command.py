@@ -212,7 +212,11 @@ def number(what: str, *, least: float | None = None, unit: str = "mm") -> Callab
         try:
             value = length(text) if unit == "mm" else float(text)
         except CommandError as error:
-            raise argparse.ArgumentTypeError(f"is wrong: {error.reason}") from error
+            kind = text.partition(":")[0].isalpha() and ":" in text
+            reason = "its kind is not asked for here" if kind else error.reason
+            raise argparse.ArgumentTypeError(
+                f"is wrong: '{text}' is no {what} ({reason}); write a length in mm, such as 6, or 1/4in"
+            ) from error
         except ValueError as error:
             raise argparse.ArgumentTypeError(f"is wrong: '{text}' is no number; write the {what} in {unit}") from error
         if not math.isfinite(value) or value >= 1e5 or (value <= 0 if least is None else value < least):

@@ -298,7 +298,10 @@ def _part_options(group: argparse._ArgumentGroup) -> None:
     )
     add_reading_options(group)
     group.add_argument(
-        "--units", metavar="mm|in", type=typed(read_units), help="units of a part that names none (default mm)"
+        "--units",
+        metavar="mm|in",
+        type=typed(read_units),
+        help="units of a program or a part that names none (default mm)",
     )
     group.add_argument("--origin", metavar="WHERE", type=typed(parse_origin), help=ORIGIN_HELP)
     group.add_argument(

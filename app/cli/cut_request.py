@@ -61,7 +61,12 @@ def examined_programs(arguments: argparse.Namespace, progress: Progress) -> tupl
         Cancelled: the job was asked to stop.
     """
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
-    options = ExamineOptions(dialect, tool_offsets(_rows(arguments)), block_delete=arguments.block_delete == "on")
+    options = ExamineOptions(
+        dialect,
+        tool_offsets(_rows(arguments)),
+        block_delete=arguments.block_delete == "on",
+        units=arguments.units,
+    )
     count = len(arguments.programs)
     return tuple(
         examine(path.name, read_input(path), options, progress.part(k / count, (k + 1) / count))

@@ -32,6 +32,26 @@ MOVE = (
     "done on reading"
 )
 _GONE = {True: "is missing from the part", False: "are missing from the part"}
+_SHAPES = frozenset(
+    {
+        "INSERT of a missing block",
+        "INSERT of an external drawing",
+        "use of what is not in the file",
+        "REGION",
+        "3DSOLID",
+        "BODY",
+        "SURFACE",
+        "EXTRUDEDSURFACE",
+        "LOFTEDSURFACE",
+        "REVOLVEDSURFACE",
+        "SWEPTSURFACE",
+        "PLANESURFACE",
+        "NURBSURFACE",
+        "MPOLYGON",
+        "ACAD_PROXY_ENTITY",
+    }
+)
+"""What CAD programs show with outlines that are not read: a part of the drawing, and not of what is said about it."""
 _COUNTABLE = 1e10
 """mm; beyond, neighbouring doubles are further apart than WELD, so that no shape is left to be moved."""
 
@@ -295,7 +315,15 @@ def switched_off(part: Part, requested: tuple[str, ...]) -> Iterator[Finding]:
 
 
 def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
-    """Count what is no curve, by type, and what cannot be drawn, which is missing from the part."""
+    """Count what is no curve, by type, and what cannot be drawn or is elsewhere, which is missing from the part."""
+    absent = Counter({kind: count for kind, count in left_out.items() if kind in _SHAPES})
+    if absent:
+        text = (
+            f"{listed(absent, 'Missing from the part: ')}, whose outlines are not in the file or cannot be read; bind "
+            "or explode what this is in the CAD program, or draw round it, and save again."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(absent.total()))
+    left_out = left_out - absent
     damaged = Counter({kind: count for kind, count in left_out.items() if kind.endswith("(damaged)")})
     if damaged:
         text = f"{listed(damaged, 'Missing from the part: ')}, which cannot be read; repair or draw what this is again."

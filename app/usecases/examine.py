@@ -18,6 +18,7 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..formats.machine_toml import DEFAULT_MACHINE, load_machine
 from ..gcode.interpreter.dialect import DIALECT_RULES, Dialect
 from ..gcode.interpreter.dialect_guess import guess_dialect
+from ..gcode.interpreter.foreign_codes import names_units
 from ..gcode.interpreter.options import ReadOptions, ToolOffset
 from ..gcode.interpreter.program import EventKind, NcProgram, ProgramProblem, Severity
 from ..gcode.interpreter.reader import read_program
@@ -28,7 +29,7 @@ from ..model.job import Job
 from ..model.machine import Machine
 from ..model.motion import MotionKind
 from ..model.motion_path import anchored, lengths
-from ..model.part import Part
+from ..model.part import Part, Units
 
 Json = dict[str, Any]
 COORDINATES = "from the zero of the table of work offsets, tool length compensated"
@@ -50,12 +51,14 @@ class ExamineOptions:
         tools: the control's tool table.
         machine: that the program has to fit; None = timed on a usual one.
         block_delete: blocks that begin with a slash are left out, as the control does with its switch on.
+        units: of a program that names none; None = mm, which is told.
     """
 
     dialect: Dialect | None = None
     tools: Mapping[int, ToolOffset] = field(default_factory=dict)
     machine: Machine | None = None
     block_delete: bool = True
+    units: Units | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +72,7 @@ class ExaminedProgram:
         problems: of the text, and what the machine cannot do.
         machine: on which it is timed.
         time: how long it takes there.
+        unnamed: it moves, and names no units, nor has anybody said them.
     """
 
     name: str
@@ -77,6 +81,7 @@ class ExaminedProgram:
     problems: tuple[ProgramProblem, ...]
     machine: Machine
     time: Duration
+    unnamed: bool = False
 
     @property
     def box(self) -> Extent:
@@ -122,6 +127,7 @@ class ExaminedProgram:
             "file": self.name,
             "control": self.read.dialect.value,
             "block_delete": self.read.block_delete,
+            "units_assumed": self.unnamed,
             "lines": self.program.line_count,
             "problems": [
                 {
@@ -175,14 +181,19 @@ def examine(name: str, data: bytes, options: ExamineOptions, progress: Progress 
         Cancelled: the job was asked to stop.
     """
     read = ReadOptions(
-        dialect=options.dialect or guess_dialect(data), tool_table=options.tools, block_delete=options.block_delete
+        dialect=options.dialect or guess_dialect(data),
+        tool_table=options.tools,
+        block_delete=options.block_delete,
+        units=options.units,
     )
     program = read_program(data, read, progress)
     program = replace(program, motions=anchored(program.motions))
     machine = options.machine or load_machine(DEFAULT_MACHINE)
     time = duration(program, machine)
     fits = misfits(program, machine) if options.machine else ()
-    return ExaminedProgram(name, read, program, (*program.problems, *_feedless(program, time), *fits), machine, time)
+    problems = (*program.problems, *_feedless(program, time), *fits)
+    unnamed = options.units is None and len(program.motions) > 0 and not names_units(data)
+    return ExaminedProgram(name, read, program, problems, machine, time, unnamed)
 
 
 def compared(first: ExaminedProgram, name: str, data: bytes, progress: Progress = NO_PROGRESS) -> ProgramDifferences:

@@ -99,6 +99,31 @@ def test_every_control_reads_in_its_own_way(name: str, plate: Path, capsys: pyte
         assert ("plate.ngc:3:1: G64" if name == "grbl" else "plate.ngc:5:1: G43: G43 needs a word H") in shown
 
 
+@pytest.mark.parametrize("control", ["linuxcnc", "grbl"])
+def test_a_program_without_units_is_told_and_read_as_asked(
+    control: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "a.ngc"
+    path.write_text("G90\nG0 Z5\nG1 X10 F100\nM2\n")
+    assert checked(path, "--dialect", control) == 0
+    shown = capsys.readouterr().out
+    assert "  units: the program names none (G20, G21) and is read in mm; say --units in if it is in inches\n" in shown
+    assert "X 10.000 to 10.000" in shown
+    for units, x in (("in", "254.000"), ("mm", "10.000")):
+        assert checked(path, "--dialect", control, "--units", units) == 0
+        shown = capsys.readouterr().out
+        assert f"X {x} to {x}" in shown and "units:" not in shown
+
+
+def test_units_that_are_said_change_nothing_in_a_program_that_names_its_own(
+    plate: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert checked(plate) == 0
+    told = capsys.readouterr().out
+    assert checked(plate, "--units", "in") == 0
+    assert capsys.readouterr().out == told
+
+
 def test_tools_from_a_table(plate: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table = tmp_path / "tool.tbl"
     table.write_text("T1 P1 Z30 D8 ;end mill\n")

@@ -225,6 +225,10 @@ def test_help_of_make_names_every_option() -> None:
         ("--join-tolerance 1000", "oin tolerance is 1000 mm; use 0 to 10 mm"),
         ("--depth -1/4in", "--depth is -6.35 mm"),
         ("--depth nan", "--depth is wrong: 'nan' is no number"),
+        (
+            "--contour-tool flat:0.2",
+            "--contour-tool is wrong: 'flat:0.2' is no diameter (its kind is not asked for here); write a length in mm",
+        ),
         ("--depth deep", "--depth is wrong"),
         ("--stock-to-leave -0.1", "must be 0 to 9999 mm"),
         ("--stepover 120%", "--stepover is 120 %; it must be 1 % or more and not more than the tool's diameter"),

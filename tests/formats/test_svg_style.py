@@ -38,6 +38,17 @@ def curves(body: str) -> list[Curve]:
         '<rect style="fill-opacity:0.0" width="9" height="9"/>',
         '<g fill="none" stroke="red" stroke-opacity="0%"><rect width="9" height="9"/></g>',
         '<switch><g systemLanguage="ja"><rect width="9" height="9"/></g><g/></switch>',
+        '<style>@import url("a.css?b;c"); rect{display:none}</style><rect width="9" height="9"/>',
+        '<style>@import url(a.css?b;c) screen; rect{display:none}</style><rect width="9" height="9"/>',
+        '<style>@charset "UTF-8"; rect{display:none}</style><rect width="9" height="9"/>',
+        '<style>@font-face{src:url("a;b{c")} rect{display:none}</style><rect width="9" height="9"/>',
+        '<style>@supports (display:grid){@layer a{g{fill:red} rect{display:none}}}</style><rect width="9" height="9"/>',
+        '<style>@media screen, print{rect{display:none}}</style><rect width="9" height="9"/>',
+        '<style media="screen">rect{display:none}</style><rect width="9" height="9"/>',
+        '<rect fill="transparent" width="9" height="9"/>',
+        '<rect fill="rgba(1, 2, 3, 0)" stroke="#12340000" width="9" height="9"/>',
+        '<rect fill="hsl(9 9% 9% / 0%)" stroke="#1230" width="9" height="9"/>',
+        '<g color="transparent"><rect fill="currentColor" width="9" height="9"/></g>',
     ],
 )
 def test_what_a_variable_or_an_important_rule_hides_is_not_read(body: str) -> None:
@@ -79,6 +90,13 @@ def test_places_and_sizes_may_stand_in_a_style(body: str) -> None:
         '<style>.a{display:none} .b{display:inline}</style><rect class="b a" width="9" height="9"/>',
         '<rect style="fill-opacity:0" stroke="red" width="9" height="9"/>',
         '<switch><g systemLanguage="ja"><rect width="9" height="9"/></g></switch>',
+        '<style>@media print{g{fill:red} rect{display:none}}</style><rect width="9" height="9"/>',
+        '<style media="print">rect{display:none}</style><rect width="9" height="9"/>',
+        '<style>@media (prefers-color-scheme: dark){rect{fill:none}}</style><rect width="9" height="9"/>',
+        '<style>@keyframes a{from{opacity:0} to{opacity:1}}</style><rect width="9" height="9"/>',
+        '<rect fill="rgb(0,0,0)" width="9" height="9"/>',
+        '<rect fill="rgba(0,0,0,0.5)" width="9" height="9"/>',
+        '<rect fill="#1230" stroke="#000" width="9" height="9"/>',
     ],
 )
 def test_what_no_rule_hides_is_read(body: str) -> None:
@@ -92,6 +110,13 @@ def test_rules_that_cannot_be_followed_are_told() -> None:
     assert told == [
         "2 rules of the style sheet cannot be followed, the first for circle + rect; check that nothing hidden is read."
     ]
+
+
+def test_a_rule_for_some_windows_alone_is_told() -> None:
+    (found,) = read_drawing(
+        "a.svg", f"<svg {PAGE}><style>@media (width>9px){{.a,.b{{display:none}}}}</style>{RIM}</svg>".encode()
+    ).findings
+    assert found.text.startswith("1 rule of the style sheet cannot be followed, the first for @media (width>9px);")
 
 
 def test_a_selector_of_many_elements_ends_soon() -> None:

@@ -22,6 +22,7 @@ from .curves import (
     curves_of,
     drawn_heights,
     heights_of,
+    line_type_of,
     plane_of,
     widths_of,
 )
@@ -83,6 +84,15 @@ class WidePolyline:
 
 
 @dataclass(frozen=True)
+class BrokenLine:
+    """A curve that is drawn in a line type with gaps; where it begins, in drawing units."""
+
+    at: Point
+    line_type: str
+    layer: str
+
+
+@dataclass(frozen=True)
 class UnreadText:
     """A text of a sort that is not read, or a curve that cannot be drawn; its place in drawing units."""
 
@@ -115,7 +125,7 @@ class DxfContent:
         without_length: places of entities that draw nothing, None where there is no place.
         hidden: blocks inserted on frozen layers.
         negative: circles and arcs that nobody knows how to draw.
-        bands: polylines with a width.
+        bands: polylines with a width. broken: curves with gaps.
         unread: texts that are left out for what they are, and curves that cannot be drawn.
         heights: least and greatest Z seen, drawing units.
     """
@@ -129,6 +139,7 @@ class DxfContent:
     hidden: list[HiddenInsert] = field(default_factory=list)
     negative: list[NegativeRadius] = field(default_factory=list)
     bands: list[WidePolyline] = field(default_factory=list)
+    broken: list[BrokenLine] = field(default_factory=list)
     unread: list[UnreadText] = field(default_factory=list)
     heights: tuple[float, float] = (0.0, 0.0)
     any_height: bool = False
@@ -265,6 +276,9 @@ class DxfWalker:
         widths = widths_of(entity)
         if widths and curves:
             content.bands.append(WidePolyline(curves[0].start, min(widths), max(widths), entity.dxf.layer))
+        line_type = line_type_of(entity)
+        if line_type and curves:
+            content.broken.append(BrokenLine(curves[0].start, line_type, entity.dxf.layer))
         content.curves += [LayeredCurve(curve, entity.dxf.layer, lies) for curve in curves]
         for each in made:
             content.add(each)
@@ -290,8 +304,10 @@ class DxfWalker:
 
     def _insert(self, insert: Any, content: DxfContent) -> None:
         """Add every copy of a block; what is on its layer 0 takes the layer of the insert."""
-        if insert.block() is None:
-            content.left_out["INSERT of a missing block"] += 1
+        block = insert.block()
+        outside = block is not None and block.block.is_xref and not len(block)
+        if block is None or outside:
+            content.left_out[f"INSERT of {'an external drawing' if outside else 'a missing block'}"] += 1
             content.left_out["ATTRIB"] += len(insert.attribs)
             return
         inner = self._block(insert.dxf.name, insert)
@@ -356,6 +372,10 @@ class DxfWalker:
         content.unread += [
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.unread
+        ]
+        content.broken += [
+            replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
+            for each in inner.broken
         ]
         for each in inner.more():
             content.add(each.moved(place, outer))

@@ -14,6 +14,7 @@ from .splines import spline_curve
 
 _STRAIGHT = 1e-9
 """A bulge below this bends a segment by less than its length's rounding."""
+_UNBROKEN = ("", "continuous", "bylayer", "byblock")
 _SPLINE_FRAME = 16
 """Flag of a POLYLINE vertex that only steers the curve and is not on it."""
 
@@ -53,8 +54,10 @@ def heights_of(entity: Any) -> Iterable[float]:
         return (entity.dxf.elevation * entity.dxf.extrusion.z,)
     if kind == "POLYLINE":
         return [v.dxf.location.z for v in entity.vertices] if entity.is_3d_polyline else (entity.dxf.elevation.z,)
-    if kind == "SPLINE":
+    if kind in ("SPLINE", "HELIX"):
         return [p[2] for p in (entity.control_points or entity.fit_points)]
+    if kind == "MLINE":
+        return (entity.dxf.start_location.z,)
     if kind == "HATCH":
         return (entity.dxf.elevation.z * entity.dxf.extrusion.z,)
     if kind in ("TEXT", "ATTRIB", "MTEXT"):
@@ -70,6 +73,17 @@ def drawn_heights(entity: Any) -> CurveHeights:
     thickness = float(entity.dxf.thickness) if entity.dxf.hasattr("thickness") else 0.0
     up = float(entity.dxf.extrusion.z) if entity.dxf.hasattr("extrusion") else 1.0
     return CurveHeights(min(heights), max(heights), thickness * up) if heights else LEVEL_ZERO
+
+
+def line_type_of(entity: Any) -> str:
+    """Return the line type that an entity itself is drawn in; "" where that is unbroken, or its layer's."""
+    line_type = str(entity.dxf.get("linetype", ""))
+    return "" if is_unbroken(line_type) else line_type
+
+
+def is_unbroken(line_type: str) -> bool:
+    """Tell whether a line type of a layer has no gaps."""
+    return line_type.casefold() in _UNBROKEN
 
 
 def widths_of(entity: Any) -> tuple[float, ...]:
@@ -170,6 +184,16 @@ def _spline(entity: Any) -> list[Curve]:
     return [made]
 
 
+def _mline(entity: Any) -> list[Curve]:
+    """The lines of a multiple line, their joints and ends; what fills it is none."""
+    parts = [part for part in entity.virtual_entities() if part.dxftype() in ("LINE", "ARC")]
+    curves = [curve for part in parts for curve in (_line(part) if part.dxftype() == "LINE" else _arc(part))]
+    found = [curve for curve in curves if not isinstance(curve, Line) or curve.start != curve.end]
+    if not found:
+        raise NoLengthError(_flat(entity.dxf.start_location))
+    return found
+
+
 def segments_of(vertices: list[tuple[Point, float]], closed: bool) -> list[Curve]:
     """Return lines and arcs between vertices; repeated vertices are passed over."""
     if not vertices:
@@ -224,4 +248,6 @@ _READERS: dict[str, Callable[[Any], list[Curve] | None]] = {
     "LWPOLYLINE": _lwpolyline,
     "POLYLINE": _polyline,
     "SPLINE": _spline,
+    "HELIX": _spline,
+    "MLINE": _mline,
 }

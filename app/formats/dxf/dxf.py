@@ -50,9 +50,11 @@ from .blocks import DrawnCurves, DxfContent, DxfWalker, all_drawn
 from .findings import (
     about_unread,
     band_findings,
+    broken_line_findings,
     comma_findings,
     hatch_findings,
     hidden_insert_findings,
+    layer_findings,
     negative_radius_findings,
     text_findings,
 )
@@ -150,6 +152,8 @@ def read_dxf(
         *text_findings([each for each in content.letterings if machined(each.layer)], unit.size),
         *hatch_findings(drawn),
         *band_findings([each for each in content.bands if machined(each.layer)], unit.size),
+        *broken_line_findings([each for each in content.broken if machined(each.layer)], unit.size),
+        *layer_findings(document, Counter(each.layer for each in part.entities if machined(each.layer))),
         *switched_off(part, layers),
         *all_left_out(+left_out),
     ]

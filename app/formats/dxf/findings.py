@@ -5,12 +5,14 @@ hatches.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
-from ...core.wording import place_mm
+from ...core.wording import place_mm, together
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
-from .blocks import DrawnCurves, DxfContent, HiddenInsert, WidePolyline
+from .blocks import BrokenLine, DrawnCurves, DxfContent, HiddenInsert, WidePolyline
+from .curves import is_unbroken
 from .letters import TextCurves
 from .numbers import DecimalCommas
 
@@ -86,6 +88,50 @@ def band_findings(bands: Sequence[WidePolyline], size: float) -> Iterator[Findin
             amount=float(len(alike)),
             layer=layer,
         )
+
+
+def broken_line_findings(lines: Sequence[BrokenLine], size: float) -> Iterator[Finding]:
+    """Say that curves with gaps, as centre lines have, are machined, a sentence a layer.
+
+    Args:
+        lines: on layers that are machined. size: of the drawing's unit, mm.
+    """
+    for layer in dict.fromkeys(each.layer for each in lines):
+        alike = [each for each in lines if each.layer == layer]
+        kinds, count = together(list(dict.fromkeys(each.line_type for each in alike))), len(alike)
+        x, y = alike[0].at[0] * size, alike[0].at[1] * size
+        what = (
+            f"1 curve on layer {layer} at ({place_mm(x)}, {place_mm(y)}) is"
+            if count == 1
+            else f"{count} curves on layer {layer}, the first at ({place_mm(x)}, {place_mm(y)}), are"
+        )
+        text = (
+            f"{what} drawn in line type {kinds}, as centre lines and hidden edges are, and read like any other; what "
+            "is not to be machined belongs on a layer of its own, which --skip-layer leaves out."
+        )
+        yield Finding(FindingKind.ASSUMED, text, x, y, counts=False, amount=float(count), layer=layer)
+
+
+def layer_findings(document: Any, used: Mapping[str, int]) -> Iterator[Finding]:
+    """Say that layers are machined that never come on paper, or on which all is drawn as centre lines are.
+
+    Args:
+        document: of the library. used: how many curves each layer that is machined has.
+    """
+    for layer in document.layers:
+        name = layer.dxf.name
+        line_type, count = str(layer.dxf.get("linetype", "")), used.get(name, 0)
+        plotted = layer.dxf.get("plot", 1) and name.casefold() != "defpoints"
+        if count and not (plotted and is_unbroken(line_type)):
+            what = "its curve is" if count == 1 else f"its {count} curves are"
+            text = (
+                f"Layer {name} is drawn in line type {line_type}, as centre lines and hidden edges are; {what} read "
+                "like any other. --skip-layer leaves it out."
+                if plotted
+                else f"Layer {name} is never plotted, as layers of construction lines are; {what} read like any other. "
+                "--skip-layer leaves it out."
+            )
+            yield Finding(FindingKind.ASSUMED, text, counts=False, amount=float(count), layer=name)
 
 
 def hidden_insert_findings(content: DxfContent, size: float) -> Iterator[Finding]:

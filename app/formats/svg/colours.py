@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 _NAMES = """
     aliceblue f0f8ff antiquewhite faebd7 aqua 00ffff aquamarine 7fffd4 azure f0ffff beige f5f5dc bisque ffe4c4 black
@@ -34,6 +35,18 @@ _WORDS = _NAMES.split()
 _NAMED = dict(zip(_WORDS[::2], _WORDS[1::2], strict=True))
 _HEX = re.compile(r"#([0-9a-f]{3,4}|[0-9a-f]{6}|[0-9a-f]{8})\Z")
 _RGB = re.compile(r"rgba?\(\s*([\d.]+)(%?)[\s,]+([\d.]+)%?[\s,]+([\d.]+)%?\s*(?:[,/].*)?\)\Z")
+
+_ZERO = r"\s*[+-]?0*\.?0+%?\s*\)\Z"
+_CLEAR = re.compile(
+    rf"none\Z|transparent\Z|#[0-9a-f]{{3}}0\Z|#[0-9a-f]{{6}}00\Z|[a-z]+\((?:[^,()]*,){{3}}{_ZERO}|[a-z]+\([^,()/]*/{_ZERO}"
+)
+"""No paint, and colours whose fourth number, how opaque they are, is 0."""
+
+
+@lru_cache(256)
+def is_clear(text: str) -> bool:
+    """Tell whether a paint leaves nothing to see; none, or a colour of no opacity."""
+    return _CLEAR.match(text.strip().lower()) is not None
 
 
 def colour(text: str) -> str:

@@ -9,12 +9,12 @@ from dataclasses import dataclass, field, replace
 from itertools import chain, zip_longest
 from typing import NamedTuple
 
-from .colours import colour
+from .colours import colour, is_clear
 from .lengths import MEDIUM, letter_height, size_of_font
 from .selectors import Selector, Specificity, keys_of, selector
+from .style_rules import is_on_screen, written_rules
 from .xml import Node
 
-_COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)", re.DOTALL)
 _READ = (
     "display",
     "visibility",
@@ -28,11 +28,23 @@ _READ = (
     "mask",
     "transform",
     "transform-origin",
+    "transform-box",
     "font-size",
     "font",
+    "fill-rule",
+    "stroke-width",
+    "stroke-dasharray",
+    "vector-effect",
+    "marker",
+    "marker-start",
+    "marker-mid",
+    "marker-end",
 )
 _GEOMETRY = ("x", "y", "width", "height", "cx", "cy", "r", "rx", "ry")
 """Places and sizes of shapes, which a style sheet may give in the place of attributes."""
+
+_UNFOLLOWED = ("translate", "rotate", "scale", "offset-path", "d")
+"""What a style sheet may say of a shape's place and form that is not read; as attributes they are something else."""
 
 _VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,([^()]*))?\)", re.IGNORECASE)
 _ZERO = re.compile(r"[+-]?0*\.?0+%?")
@@ -40,10 +52,8 @@ _DEEPEST, _LONGEST = 10, 1000
 """Variables within variables, and letters of a value with all of them in place."""
 
 _LETTERS = ("color", "font-size", "font")
-_OF_THE_MOMENT = re.compile(
-    r"^\s*@|:(?:hover|active|focus|visited|link|target|before|after|selection)\b|::", re.IGNORECASE
-)
-"""What a drawing looks like under the mouse, on paper or in letters; it says nothing of its shapes."""
+_OF_THE_MOMENT = re.compile(r":(?:hover|active|focus|visited|link|target|before|after|selection)\b|::", re.IGNORECASE)
+"""What a drawing looks like under the mouse or in letters; it says nothing of its shapes."""
 
 _UNITS = re.compile(r"(?<=[\d.])(?:px|deg)\b")
 
@@ -62,6 +72,10 @@ class SvgStyle:
         variables: by name, --x, with what elements round it have set.
         geometry: places and sizes that style sheets give the element itself.
         em, rem: height of its letters, and of the root's, user units, which lengths may be in.
+        box: what the origin's shares are of, as written. evenodd: areas are filled by that rule.
+        width: of the outline, as written, "" = not said. scales: it grows with the drawing. dashed: it has gaps.
+        markers: values of the properties that put arrowheads and the like on it.
+        unfollowed: what is said of its place or form and not read.
     """
 
     shown: bool = True
@@ -78,21 +92,36 @@ class SvgStyle:
     geometry: Mapping[str, str] = field(default_factory=dict)
     em: float = MEDIUM
     rem: float = MEDIUM
+    box: str = ""
+    evenodd: bool = False
+    width: str = ""
+    scales: bool = True
+    dashed: bool = False
+    markers: Mapping[str, str] = field(default_factory=dict)
+    unfollowed: tuple[str, ...] = ()
 
     @property
     def draws(self) -> bool:
         """True when an outline or an area is painted."""
-        return self.outlined or (self.fill != "none" and not self.fill_clear)
+        return self.outlined or not (self.fill_clear or is_clear(self._resolved(self.fill)))
 
     @property
     def outlined(self) -> bool:
         """True when an outline is painted."""
-        return self.stroke != "none" and not self.stroke_clear
+        return not (self.stroke_clear or is_clear(self._resolved(self.stroke)))
+
+    @property
+    def marked(self) -> bool:
+        """True when something is drawn on its corners or ends."""
+        return any(value != "none" for value in self.markers.values())
 
     @property
     def ink(self) -> str:
         """Colour of the outline, "#rrggbb", or "" where there is none."""
-        return colour(self.color if self.stroke.lower() == "currentcolor" else self.stroke)
+        return colour(self._resolved(self.stroke))
+
+    def _resolved(self, paint: str) -> str:
+        return self.color if paint.lower() == "currentcolor" else paint
 
 
 class Declaration(NamedTuple):
@@ -125,14 +154,13 @@ class StyleSheet:
         self.unread: list[str] = []
         self._count = 0
         for node in root.every():
-            if node.tag == "style":
+            if node.tag == "style" and is_on_screen(node.attributes.get("media", "")):
                 self._add(node.text)
         if self._count:
             self._parents = {id(child): node for node in root.every() for child in node.children}
 
     def _add(self, text: str) -> None:
-        for block in _COMMENT.sub(" ", text).split("}"):
-            selectors, _, body = block.partition("{")
+        for selectors, body in written_rules(text):
             declared = list(declarations(body))
             for written in selectors.split(",") if declared else ():
                 self._count += 1
@@ -169,7 +197,7 @@ def declarations(text: str) -> Iterator[Declaration]:
         key, _, value = part.partition(":")
         name, kept = key.strip(), value.replace("!important", "").strip()
         name = name if name.startswith("--") else name.lower()
-        if kept and (name in _READ or name in _GEOMETRY or name.startswith("--")):
+        if kept and (name in _READ or name in _GEOMETRY or name in _UNFOLLOWED or name.startswith("--")):
             yield Declaration(name, kept, kept != value.strip())
 
 
@@ -215,6 +243,7 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
     }
     visibility = declared.get("visibility")
     size = declared.get("font-size", "") or size_of_font(f"{declared.get('font', '')} ")
+    markers = {key: value for key, value in declared.items() if key.startswith("marker")}
     hides = any(declared.get(key, "none") != "none" for key in ("clip-path", "mask"))
     return replace(
         outer,
@@ -231,4 +260,13 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
         variables=variables,
         geometry={key: declared[key] for key in _GEOMETRY if key in declared},
         em=letter_height(size, outer.em, outer.rem),
+        box=declared.get("transform-box", ""),
+        evenodd=declared["fill-rule"] == "evenodd" if "fill-rule" in declared else outer.evenodd,
+        width=declared.get("stroke-width", outer.width),
+        scales=declared.get("vector-effect") != "non-scaling-stroke",
+        dashed=any("1" <= digit <= "9" for digit in declared["stroke-dasharray"])
+        if "stroke-dasharray" in declared
+        else outer.dashed,
+        markers=({} if "marker" in markers else {**outer.markers}) | markers if markers else outer.markers,
+        unfollowed=tuple(key for key in _UNFOLLOWED if declared.get(key, "none") not in ("none", "auto")),
     )

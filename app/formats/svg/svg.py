@@ -40,6 +40,7 @@ from ..reading_question import (
     far_question,
     pixels_question,
 )
+from .findings import paint_findings
 from .generator import CSS_PER_INCH, KNOWN_PER_INCH, PixelDensity, density_of
 from .lengths import LengthBasis, WrittenLength, length
 from .numbers import UnreadableError, ViewBox, fitted, numbers, view_box
@@ -128,6 +129,7 @@ def read_svg(
         *_of_fonts(content),
         *without_length(content.nothing + found.nothing),
         *_clipped(content),
+        *paint_findings(content),
         *_unread_rules(content),
         *switched_off(part, layers),
         *all_left_out(content.left_out),

@@ -20,8 +20,10 @@ from .generator import INKSCAPE, SODIPODI
 from .joined import beziers_joined, joined
 from .lengths import FONT_LENGTH, LengthBasis, Viewport
 from .numbers import UnreadableError, ViewBox, fitted, transform, view_box
+from .painted import bounding
 from .path import SvgPath
 from .shapes import LENGTHS, SHAPES, measure, shape
+from .strokes import PaintedOutlines, origin
 from .style import StyleSheet, SvgStyle
 from .xml import DEEPEST, Node
 
@@ -29,7 +31,6 @@ _LINK = "http://www.w3.org/1999/xlink href"
 _NOT_CURVES = ("text", "image", "foreignObject", "flowRoot", "video", "audio", "iframe", "canvas")
 BLACK = "#000000"
 _TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
-_UNITS_OF_ZERO = re.compile("px|%")
 _ENGLISH = re.compile(r"(?:^|,)\s*en\b", re.IGNORECASE)
 _BREAK = re.compile(r"[\x00-\x1f]+")
 
@@ -71,6 +72,9 @@ class SvgContent:
         clipped: shapes that are read whole although the drawing hides a part of them.
         layers: by name, in order.
         unread_rules: selectors of style sheets that are not followed.
+        unfollowed: how many elements have a property that is not followed and that moves or forms them.
+        within: outlines within what their own path paints on both sides of them, so that nobody sees them.
+        painted: what is drawn on and along outlines.
     """
 
     curves: list[LayeredCurve] = field(default_factory=list)
@@ -82,6 +86,9 @@ class SvgContent:
     clipped: int = 0
     layers: dict[str, LayerNote] = field(default_factory=dict)
     unread_rules: list[str] = field(default_factory=list)
+    unfollowed: Counter[str] = field(default_factory=Counter)
+    within: int = 0
+    painted: PaintedOutlines = field(default_factory=PaintedOutlines)
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +142,7 @@ class SvgWalker:
         """
         self._size(self._root, {}, 0)
         style = self._styles.style(self._root, SvgStyle())
+        self._sheet.unfollowed.update(style.unfollowed + ("a transform of the page",) * _moves(style.transform))
         self._children(self._root.children, InheritedState(to, view, replace(style, rem=style.em)))
         return self._sheet
 
@@ -185,8 +193,9 @@ class SvgWalker:
     def _inside(self, node: Node, outer: InheritedState) -> InheritedState:
         """Return the state inside an element: its transform, its style, its layer."""
         style, to, layer = self._styles.style(node, outer.style), outer.to, outer.layer
+        self._sheet.unfollowed.update(style.unfollowed)
         if style.transform:
-            to = to.after(self._transform(node, style))
+            to = to.after(self._transform(node, style, outer.basis))
         named = "" if outer.copied else self._layer_name(node, outer.depth)
         if named:
             layer = named
@@ -197,14 +206,18 @@ class SvgWalker:
             style = replace(style, shown=outer.style.shown)
         return replace(outer, to=to, style=style, layer=layer, depth=outer.depth + 1)
 
-    def _transform(self, node: Node, style: SvgStyle) -> Affine:
+    def _transform(self, node: Node, style: SvgStyle, basis: LengthBasis) -> Affine:
         try:
             made = transform(style.transform)
         except UnreadableError:
             self._refuse(node, f"the transform {style.transform[:60]!r} cannot be read; ungroup it and save again")
-        if made != IDENTITY and _UNITS_OF_ZERO.sub("", style.origin).strip("0 "):
+        if made == IDENTITY or not style.origin:
+            return made
+        try:
+            x, y = origin(style.origin, style.box, basis)
+        except UnreadableError:
             self._refuse(node, f"a transform about {style.origin[:60]!r} cannot be read; ungroup it and save again")
-        return made
+        return Affine(x0=x, y0=y).after(made).after(Affine(x0=-x, y0=-y))
 
     def _layer_name(self, node: Node, depth: int) -> str:
         """Return the name of the layer that a group is; a file without Inkscape's layers has its top groups that are
@@ -267,7 +280,9 @@ class SvgWalker:
         try:
             drawn = shape(node, state.basis, MOST_CURVES)
             if drawn is not None and not style.outlined:
-                drawn.runs = [_area(run) for run in drawn.runs]
+                runs = [_area(run) for run in drawn.runs]
+                drawn.runs = runs if style.evenodd else bounding(runs)
+                content.within += len(runs) - len(drawn.runs)
             curves = self._placed(node, drawn, state.to) if drawn is not None else []
         except UnreadableError as error:
             content.unread.append(SvgFault(node.line, str(error.args[0])))
@@ -289,6 +304,9 @@ class SvgWalker:
         note.inks |= {style.ink or BLACK} if style.outlined else set()
         content.clipped += style.clipped
         content.of_font += _of_font(node)
+        pattern = self._ids.get(style.fill[5:].partition(")")[0]) if style.fill.startswith("url(#") else None
+        content.painted.patterned += pattern is not None and pattern.tag == "pattern"
+        content.painted.note(node, state, curves[0].start)
         content.curves += [LayeredCurve(curve, layer) for curve in curves]
         if len(content.curves) > MOST_CURVES:
             self._refuse(node, _TOO_MUCH)
@@ -328,6 +346,14 @@ def _area(run: list[Curve]) -> list[Curve]:
     if not run or run[0].start == run[-1].end or (len(run) == 1 and isinstance(run[0], Line)):
         return run
     return [*run, Line(run[-1].end, run[0].start)]
+
+
+def _moves(written: str) -> bool:
+    """Tell whether a transform changes anything; one that cannot be read may."""
+    try:
+        return transform(written) != IDENTITY
+    except UnreadableError:
+        return True
 
 
 def _of_font(node: Node) -> bool:

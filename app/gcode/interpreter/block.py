@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -200,6 +201,8 @@ def block_of(parsed: ParsedLine, parameters: Parameters) -> Block:
     block, numbered = Block(), False
     for word in parsed.words:
         value = evaluated(word.value, parameters)
+        if math.isnan(value):  # of a parameter that is vacant: the control passes over the word
+            continue
         if word.letter in "gm":
             _add_code(block, _code(word.letter, value), word)
         elif word.letter in block.values:

@@ -25,6 +25,8 @@ MOST_WARNINGS = 200
 
 _PLACES: dict[Key, int] = {5001: 0, 5002: 1, 5003: 2, 5420: 0, 5421: 1, 5422: 2, "_x": 0, "_y": 1, "_z": 2}
 """Parameters that say where the tool is along an axis: the program tells that as soon as it has moved it there."""
+_KEPT = range(500, 1000)
+"""Numbers of parameters that Fanuc and Haas keep while they are switched off."""
 _OF_THE_PROGRAM = (5220, 5400)
 """Numbers of work offset and tool."""
 
@@ -89,7 +91,7 @@ class Control:
     def __init__(self, options: ReadOptions) -> None:
         """Stand at the start, as a control does when it is switched on."""
         self.options, self.rules = options, DIALECT_RULES[options.dialect]
-        self.modal = ModalState(retract_to_r=options.dialect is Dialect.LINUXCNC)
+        self.modal = ModalState(units=options.units or Units.MM, retract_to_r=options.dialect is Dialect.LINUXCNC)
         self.motion = "G80" if options.dialect is Dialect.LINUXCNC else "G0"
         self.feed = math.nan
         self.at: Place = options.start
@@ -114,7 +116,9 @@ class Control:
         self.events: list[Event] = []
         self.homeward: list[int] = []
         self.warnings: dict[str, WordInLine] = {}
-        self.parameters = Parameters(self.own_parameter, 33 if self.rules.fanuc_flow else 30, self.set_own_parameter)
+        self.parameters = Parameters(
+            self.own_parameter, 33 if self.rules.fanuc_flow else 30, self.set_own_parameter, self.rules.vacant
+        )
         self.set_parameters = SetParameters()
         self.requested: dict[Key, int] = {}
         self._states: dict[ModalState, int] = {}
@@ -333,6 +337,13 @@ class Control:
         )
         return True
 
+    def _miss_kept(self, key: int) -> None:
+        """Tell of a parameter that the control keeps, where the program reads it and has not set it."""
+        if self.rules.vacant and key in _KEPT:
+            self.warn(
+                f"#{key} is set nowhere before; what the control keeps in it counts there, and is not known here."
+            )
+
     def own_parameter(self, key: Key) -> float | None:
         """Return a parameter that the control itself sets, None if it is another; those of tables are in mm."""
         if key in self.set_parameters.values:
@@ -345,6 +356,7 @@ class Control:
         if isinstance(key, str):
             return self._named(key) if key.startswith("_") else None
         if key < 5001:
+            self._miss_kept(key)
             return None
         if 5420 <= key <= 5422:
             return self.program_place[key - 5420] / self.unit

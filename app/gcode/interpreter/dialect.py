@@ -34,6 +34,7 @@ class DialectRules:
         tool_changes: M6 is known. splines: "G5" (LinuxCNC), "G6.2" (Fanuc) or "".
         calls: how deep subroutines may call one another.
         longest_line: bytes of a line, its end not counted where that is one byte.
+        vacant: a parameter that nobody has set is no number, as in Macro B, and not 0.
         missing: G words that other dialects have and this one refuses.
     """
 
@@ -49,6 +50,7 @@ class DialectRules:
     splines: str = "G5"
     calls: int = MANY
     longest_line: int = MANY
+    vacant: bool = False
     missing: frozenset[str] = frozenset()
 
 
@@ -119,6 +121,7 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         dwell_unit_s=0.001,
         length_from_tool=False,
         splines="G6.2",
+        vacant=True,
     ),
     Dialect.HAAS: DialectRules(
         "Haas",
@@ -129,6 +132,7 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         dwell_unit_s=0.001,
         length_from_tool=False,
         splines="",
+        vacant=True,
     ),
     Dialect.MACH3: DialectRules("Mach3", length_from_tool=False, splines="", ngc_flow=False, fanuc_flow=True),
 }

@@ -51,13 +51,16 @@ class Parameters:
         changes: how often a value became another one; alike at two times = nothing has changed between.
     """
 
-    def __init__(self, system: System, local_numbers: int, assign: Assign) -> None:
-        """Begin with every parameter 0.
+    def __init__(self, system: System, local_numbers: int, assign: Assign, vacant: bool = False) -> None:
+        """Begin with every parameter 0, or vacant.
 
         Args:
             system: asked first. assign: told first of a value that is set.
             local_numbers: #1 to this one belong to the subroutine that is running.
+            vacant: one that nobody has set is NaN, as #0 is: no word takes it, it equals nothing but another one, and
+                counts as 0 elsewhere.
         """
+        self._unset = math.nan if vacant else 0.0
         self._system, self._assign = system, assign
         self._local = slice(1, local_numbers + 1)
         self.plain: Floats = np.full(PLAIN + 1, math.nan)
@@ -76,8 +79,10 @@ class Parameters:
             number = float(self.plain[key])
             if math.isnan(number):
                 self._system(key)  # which is told that somebody asks for what nobody has set
-                return 0.0
+                return self._unset
             return number
+        if key == 0 and math.isnan(self._unset):
+            return self._unset
         own = self._system(key)
         if own is not None:
             return own
@@ -107,10 +112,12 @@ class Parameters:
         if isinstance(key, str) and self._system(key) is not None:
             raise BlockFault(f"#<{key}> is the control's own and cannot be set.")
         if isinstance(key, int) and key <= PLAIN:
-            if self.plain[key] != value:
+            before = self.plain[key]
+            if before != value and not (math.isnan(before) and math.isnan(value)):
                 self.changes += 1
                 self.plain[key] = value
             return
+        value = 0.0 if math.isnan(value) else value
         if isinstance(key, int) and self._assign(key, value):
             self.changes += 1
             return
@@ -246,6 +253,8 @@ def whole(value: float, what: str) -> int:
     Raises:
         Fault: it is none.
     """
+    if math.isnan(value):
+        raise BlockFault(f"{what} is a parameter that nobody has set; it must be a whole number.")
     if abs(value - round(value)) > ALIKE:
         raise BlockFault(f"{what} is {value:g}; it must be a whole number.")
     return round(value)
@@ -403,10 +412,22 @@ def _negative(value: Callable[[Parameters], float]) -> Value:
 def _applied(function: Callable[[float], float], value: Value) -> Value:
     if isinstance(value, float):
         return _computed(function, value)
-    return lambda parameters: _computed(function, value(parameters))
+    return lambda parameters: _computed(function, _number_of(value(parameters)))
 
 
 def _joined(function: Callable[[float, float], float], left: Value, right: Value) -> Value:
     if isinstance(left, float) and isinstance(right, float):
         return _computed(function, left, right)
-    return lambda parameters: _computed(function, evaluated(left, parameters), evaluated(right, parameters))
+    return lambda parameters: _of_both(function, evaluated(left, parameters), evaluated(right, parameters))
+
+
+def _of_both(function: Callable[[float, float], float], left: float, right: float) -> float:
+    """Return a function of two values; a vacant one equals another vacant one alone, and is 0 to all but EQ and NE."""
+    vacant = math.isnan(left), math.isnan(right)
+    if any(vacant) and function in (_BINARY["eq"], _BINARY["ne"]):
+        return float(all(vacant) == (function is _BINARY["eq"]))
+    return _computed(function, _number_of(left), _number_of(right))
+
+
+def _number_of(value: float) -> float:
+    return 0.0 if math.isnan(value) else value

@@ -4,9 +4,10 @@ their own.
 
 from __future__ import annotations
 
+import math
 import re
 
-from .block import Block
+from .block import Block, ParsedLine
 from .codes import ROTARY, ModalGroup
 from .control import Control
 from .dialect import Dialect
@@ -31,6 +32,9 @@ _PASSED = {
     "G107": "a cylinder",
     "G108": "look-ahead",
 }
+
+_ALARM = 3000
+"""The parameter that stops the program with a message, whatever it is set to."""
 
 _RIGID = "M29"
 """The spindle of the next tapping cycle follows the axis: how it turns, not where the tool goes."""
@@ -70,6 +74,11 @@ _BLOCK_TEXT = re.compile(
 
 _WHOLE_LENGTH = re.compile(rb"^[^(;\n]*[xyzijr][ \t]*[-+]?[0-9]*[1-9][0-9]*(?![0-9.])", re.IGNORECASE | re.MULTILINE)
 
+_BLOCK_BEHIND = re.compile(
+    rb"[0-9.][ \t]*;[ \t]*(?:[a-z][ \t]*[-+]?[0-9.]+[ \t]*)+;?[ \t]*$", re.IGNORECASE | re.MULTILINE
+)
+"""A block, and behind the sign that ends it on Fanuc and Haas another one in the same line."""
+
 _UNITS = re.compile(rb"g[ \t]*[27][01](?![0-9.])", re.IGNORECASE)
 """G70 and G71 too: what they are on other controls than Mach3 is refused there."""
 
@@ -77,6 +86,11 @@ _UNITS = re.compile(rb"g[ \t]*[27][01](?![0-9.])", re.IGNORECASE)
 def is_leader(text: bytes) -> bool:
     """Tell whether nothing in a text looks like a block, so that it is the leader before a program's per cent sign."""
     return _BLOCK_TEXT.search(text) is None
+
+
+def names_units(data: bytes) -> bool:
+    """Tell whether a program says somewhere what its lengths are in."""
+    return _UNITS.search(data) is not None
 
 
 def warn_of_numbers(control: Control, data: bytes) -> None:
@@ -88,9 +102,26 @@ def warn_of_numbers(control: Control, data: bytes) -> None:
             f"lengths without a decimal point count in {control.rules.least_mm:g} mm or {control.rules.least_inch:g} "
             "in here."
         )
-    if control.rules.fanuc_flow and data and _UNITS.search(data) is None:
+    second = _BLOCK_BEHIND.search(data, 0, LOOKED_AT) if control.rules.vacant else None
+    if second is not None:
+        control.line = data.count(b"\n", 0, second.end()) + 1
+        control.warn(
+            "what stands behind ; is passed over as a comment, and looks like a block; write it in a line.", ";"
+        )
+    if control.rules.fanuc_flow and data and not names_units(data) and control.options.units is None:
         control.line = 1
         control.warn("the program names no units (G20, G21); mm are taken.")
+
+
+def warn_of_uncalled(control: Control, flow: Flow) -> None:
+    """Tell of programs behind the end that the program does not call."""
+    others = flow.places.uncalled(flow.here)
+    if others:
+        control.line = others[0].at.line
+        more = (
+            f" and {len(others) - 1} more are programs of their own" if len(others) > 1 else " is a program of its own"
+        )
+        control.warn(f"O{others[0].label}{more} that nothing here calls; what stands there is not read.")
 
 
 def warn_of_rotary(control: Control, block: Block) -> None:
@@ -146,6 +177,16 @@ def _drop(block: Block, letters: str) -> None:
         block.values.pop(letter, None)
 
 
+def stop_at_alarm(parsed: ParsedLine) -> None:
+    """Stop where a program raises an alarm of its own.
+
+    Raises:
+        Fault: it does.
+    """
+    if any(key == _ALARM for key, _ in parsed.settings):
+        raise BlockFault(f"the program stops here with an alarm of its own (#{_ALARM}).", column=-1)
+
+
 def call_macro(flow: Flow, control: Control, block: Block) -> None:
     """Obey G65: call a program with arguments, which become #1 to #26 by their letters.
 
@@ -158,7 +199,7 @@ def call_macro(flow: Flow, control: Control, block: Block) -> None:
         _ARGUMENTS[letter]: value for letter, value in block.values.items() if letter in _ARGUMENTS
     }
     if count > 0:
-        flow.call(subroutine(flow, number), arguments, count)
+        flow.call(subroutine(flow, control, number), arguments, count)
 
 
 # Jumps in the manner of Fanuc and Haas: GOTO, IF, WHILE ... DO, M97, M98, M99.
@@ -196,7 +237,8 @@ def obey_macro(flow: Flow, control: Control, code: str) -> int:
         return len(code)
     if code[values.at : values.at + 1] != "[":
         raise BlockFault(f"expected [ with a condition behind {word.upper()}.", column=-1 - values.at)
-    holds = evaluated(flow.first_value(values), control.parameters) != 0
+    value = evaluated(flow.first_value(values), control.parameters)
+    holds = value != 0 and not math.isnan(value)
     if word == "while":
         _while(flow, code[values.at :], holds)
         return len(code)
@@ -219,13 +261,16 @@ def _goto(flow: Flow, control: Control, values: ValueReader) -> None:
     go_to(flow, whole(evaluated(values.value(), control.parameters), "the number behind GOTO"))
 
 
-def go_to(flow: Flow, number: int) -> None:
+def go_to(flow: Flow, number: int, at: int | None = None) -> None:
     """Go on at the block with an N word.
+
+    Args:
+        at: an offset in the program that the block is looked for in; None = in the one that is running.
 
     Raises:
         Fault: there is none.
     """
-    to = flow.places.number(number, flow.here.offset)
+    to = flow.places.number(number, flow.here.offset if at is None else at)
     if to is None:
         raise BlockFault(f"there is no block N{number} to go to.")
     flow.jump(to)
@@ -272,7 +317,7 @@ def call_or_return(flow: Flow, control: Control, block: Block) -> bool:
             back = block.get("p")
             flow.leave()
             if back is not None and control.rules.fanuc_flow:
-                go_to(flow, whole(back, "P of M99"))
+                go_to(flow, whole(back, "P of M99"), flow.next.offset - 1)  # in the line that called
             return True
         if block.has("p"):
             go_to(flow, whole(block.values["p"], "P of M99"))
@@ -280,8 +325,23 @@ def call_or_return(flow: Flow, control: Control, block: Block) -> bool:
         return False
     number, count = _called(control, block, code)
     if count:
-        flow.call(_goal(flow, control, code, number), None, count)
+        flow.call(_begun_at(flow, block, _goal(flow, control, code, number)), None, count)
     return True
+
+
+def _begun_at(flow: Flow, block: Block, called: Subroutine) -> Subroutine:
+    """Return a subroutine from the block on that Q numbers, as Fanuc's M98 has it.
+
+    Raises:
+        Fault: there is no such block in it.
+    """
+    if not block.has("q"):
+        return called
+    number = whole(block.values["q"], f"Q of {block.codes[ModalGroup.CALL]}")
+    to = flow.places.number(number, called.begin.offset - 1)  # in the line of the program's own number
+    if to is None:
+        raise BlockFault(f"there is no block N{number} in the program that is called.", letter="q")
+    return called._replace(begin=to)
 
 
 def _called(control: Control, block: Block, code: str) -> tuple[int, int]:
@@ -297,14 +357,14 @@ def _called(control: Control, block: Block, code: str) -> tuple[int, int]:
 
 def _goal(flow: Flow, control: Control, code: str, number: int) -> Subroutine:
     if code == "M97":
-        to = flow.places.number(number, -1)
+        to = flow.places.number(number, flow.here.offset)
         if to is None:
             raise BlockFault(f"there is no block N{number} to call.", letter="p")
         return Subroutine(f"N{number}", to)
-    return subroutine(flow, number, plain=control.rules.ngc_flow)
+    return subroutine(flow, control, number, plain=control.rules.ngc_flow)
 
 
-def subroutine(flow: Flow, number: int, plain: bool = False) -> Subroutine:
+def subroutine(flow: Flow, control: Control, number: int, plain: bool = False) -> Subroutine:
     """Return a program to call.
 
     Args:
@@ -321,4 +381,8 @@ def subroutine(flow: Flow, number: int, plain: bool = False) -> Subroutine:
         )
     if plain and found.keyword == "sub":
         raise BlockFault(f"O{number} begins with sub, so O{number} call must call it, not M98.", letter="p")
+    if flow.places.is_behind_the_end(found.at):
+        control.warn(
+            f"O{number} stands behind the per cent sign that ends the program; load it into the control by itself.", "p"
+        )
     return Subroutine(str(number), flow.places.after(found.at))

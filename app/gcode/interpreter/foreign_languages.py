@@ -41,6 +41,10 @@ _LANGUAGES = (
         "a program in Heidenhain's plain language", _telling(r"^\s*\d+\s+(?:BEGIN\s+PGM|TOOL\s+CALL|BLK\s+FORM)\b")
     ),
     _Language(
+        "a Heidenhain program in DIN/ISO",
+        _telling(r"^\s*%[^\n%]{1,60}\sG7[01]\s*\*?\s*$|^\s*(?:N\d+\s*)?G30\s+G17\s+X|^\s*N\d+\s[^\n*;]*\*\s*$"),
+    ),
+    _Language(
         "a Siemens Sinumerik program",
         _telling(
             r"^\s*%_N_|\bG(?:710|700|641|642)\b|\bCYCLE\d+\s*\(|\bPOCKET\d\s*\(|\bWORKPIECE\s*\(|\bCR\s*=|[XYZ]\s*=\s*(?:AC|IC)\s*\("

@@ -409,14 +409,30 @@ def _mismatch(control: Control) -> tuple[float, float]:
     return some, LINUXCNC_MOST * some
 
 
+_PROBES_THAT_MUST_TOUCH = ("G38.2", "G38.4")
+_PROBED_AT, _PROBE_TOUCHED = 5061, 5070
+"""Numbers of the parameters that hold X, and whether it touched."""
+
+
 def _probe(control: Control, block: Block) -> None:
     """Take the way to a probe's goal as fed all along: where it will stop nobody knows."""
     if not block.has(AXES + ROTARY):
         raise BlockFault(f"{control.motion} needs axis words: where to look for the work.", letter="g")
-    if block.has(AXES) and not block.has(ROTARY) and math.dist(control.at, control.target(block)) == 0.0:
+    nowhere = block.has(AXES) and not block.has(ROTARY) and math.dist(control.at, control.target(block)) == 0.0
+    if nowhere and control.motion in _PROBES_THAT_MUST_TOUCH:
         raise BlockFault(f"{control.motion} begins where it ends, so it can probe nothing.", letter="g")
     control.warn(f"{control.motion} stops where the probe touches; it is shown up to its end.", "g")
-    _line(control, block)
+    if not nowhere:
+        _line(control, block)
+    if not control.rules.fanuc_flow:
+        _note_probe(control)
+
+
+def _note_probe(control: Control) -> None:
+    """Set the parameters in which LinuxCNC tells where the probe stopped: at the end of its way, untouched."""
+    for axis, place in enumerate(control.program_place):
+        control.parameters.set(_PROBED_AT + axis, place / control.unit)
+    control.parameters.set(_PROBE_TOUCHED, 0.0)
 
 
 def _thread(control: Control, block: Block) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
+from ...model.part import Units
 from .own_header import MARK, MOST_BYTES, Comments, ProgramNotes, ProgramUnits, StockBoxNote, own_notes
 from .program import StockNote, ToolNote
 from .text import ProgramBuffer
@@ -25,7 +26,7 @@ _TOGETHER = 10
 _BOUNDS_AROUND = 200
 
 
-def notes(data: bytes) -> ProgramNotes:
+def notes(data: bytes, unnamed: Units = Units.MM) -> ProgramNotes:
     """Return the tools and the stock that comments tell of, in the order of the text.
 
     Our own header is believed alone (`own_header`); else what CAM systems and people say: "(T1 D=6. CR=0. - ZMIN=-5. -
@@ -35,6 +36,7 @@ def notes(data: bytes) -> ProgramNotes:
 
     Args:
         data: the file's bytes; any encoding, any line ends.
+        unnamed: units of a program that names none.
     """
     text = ProgramBuffer(data[:MOST_BYTES])
     comments = Comments(text.data, text.data.lower(), text.encoding)
@@ -42,7 +44,7 @@ def notes(data: bytes) -> ProgramNotes:
         return own_notes(comments)
     if not any(mark in comments.data for mark in (b"(", b";")):
         return ProgramNotes()
-    units = ProgramUnits(comments)
+    units = ProgramUnits(comments, unnamed)
     return ProgramNotes(_tools(comments, units), _stock(comments, units))
 
 

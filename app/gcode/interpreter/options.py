@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from ...model.part import Units
 from .dialect import Dialect
 
 
@@ -55,6 +56,7 @@ class ReadOptions:
         start: where the controlled point is before the first motion, mm.
         block_delete: leave out blocks that begin with a slash, as the control does with its switch on.
         limits: what is too much.
+        units: of a program that names none; None = mm, which is told.
     """
 
     dialect: Dialect = Dialect.LINUXCNC
@@ -62,3 +64,4 @@ class ReadOptions:
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     block_delete: bool = True
     limits: ReadLimits = ReadLimits()
+    units: Units | None = None

@@ -410,8 +410,9 @@ class Comments:
 class ProgramUnits:
     """What a length of the program means, place by place: G20 and G21 outside of comments."""
 
-    def __init__(self, comments: Comments) -> None:
-        """Look for the changes of units."""
+    def __init__(self, comments: Comments, unnamed: Units) -> None:
+        """Look for the changes of units; `unnamed` are those of a program that names none."""
+        self._unnamed = unnamed.value
         found = sorted(at for at in comments.places((b"g20", b"g21")) if self._changes(comments, at))
         self._at = found
         self._mm = [25.4 if comments.lower[at : at + 3] == b"g20" else 1.0 for at in found]
@@ -422,7 +423,7 @@ class ProgramUnits:
         return comments.lower[at + 3 : at + 4] not in _GOES_ON and comments.around(at) is None
 
     def mm_at(self, at: int) -> float:
-        """Return the mm of a unit: by the change before a place, else by the first after it; 1 where there is none."""
+        """Return the mm of a unit: by the change before a place, else by the first after it, else as unnamed."""
         if not self._at:
-            return 1.0
+            return self._unnamed
         return self._mm[max(0, bisect.bisect(self._at, at) - 1)]

@@ -87,15 +87,26 @@ class JumpTargets:
     def __init__(self, text: ProgramBuffer) -> None:
         """Look into a text."""
         self._text, self._end = text, len(text.data)
+        self._closed = self._end
         self._by_label: dict[str, list[Statement]] | None = None
         self._numbers: dict[int, list[Cursor]] | None = None
         self._loops: list[_LoopBound] | None = None
         self._subroutines: list[Statement] | None = None
+        self._begins: list[int] | None = None
         self._long: list[Cursor] | None = None
 
-    def end_at(self, offset: int) -> None:
-        """Look no farther than to an offset: what stands behind a program's closing per cent sign no control reads."""
-        self._end = offset
+    def end_at(self, offset: int, beyond: bool = False) -> None:
+        """Take note of a program's closing per cent sign.
+
+        Args:
+            offset: where it stands. beyond: programs behind it can be called; else no control reads what stands there.
+        """
+        self._closed = offset
+        self._end = len(self._text.data) if beyond else offset
+
+    def is_behind_the_end(self, at: Cursor) -> bool:
+        """Tell whether a line stands behind the closing per cent sign."""
+        return at.offset > self._closed
 
     def after(self, at: Cursor) -> Cursor:
         """Return the line behind the one at a place."""
@@ -155,15 +166,42 @@ class JumpTargets:
         found = next(iter(self._long[first : first + 1]), None)
         return found if found is not None and found.offset < end else None
 
-    def number(self, number: int, behind: int) -> Cursor | None:
-        """Return the line with an N word: the first one behind an offset, else the first of the text."""
+    def number(self, number: int, at: int) -> Cursor | None:
+        """Return the line with an N word in the program that holds an offset: the first one behind that, else its
+        first.
+        """
         if self._numbers is None:
             self._numbers = {}
             for found, line in self._found(_N_LINE):
                 self._numbers.setdefault(int(found[1]), []).append(Cursor(found.start(), line))
+        begin, end = self._program_round(at)
         lines = self._numbers.get(number, [])
-        first = bisect_right(lines, behind, key=lambda line: line.offset)
-        return lines[first if first < len(lines) else 0] if lines else None
+        own = lines[bisect_left(lines, begin, key=_offset) : bisect_left(lines, end, key=_offset)]
+        first = bisect_right(own, at, key=_offset)
+        return own[first if first < len(own) else 0] if own else None
+
+    def _program_round(self, at: int) -> tuple[int, int]:
+        """Return the offsets between which the program lies that holds one: from its number to the next one's."""
+        if self._begins is None:
+            self._statements("")
+            every = (each for own in (self._by_label or {}).values() for each in own)
+            self._begins = sorted(each.at.offset for each in every if not each.keyword)
+        next_one = bisect_right(self._begins, at)
+        begin = self._begins[next_one - 1] if next_one else 0
+        return begin, self._begins[next_one] if next_one < len(self._begins) else self._end
+
+    def uncalled(self, behind: Cursor) -> tuple[Statement, ...]:
+        """Return the programs behind a line that no P word of the whole text names, in their order."""
+        if _O_LINE.search(self._text.data, behind.offset, self._end) is None:
+            return ()
+        self._statements("")
+        every = [each for own in (self._by_label or {}).values() for each in own]
+        later = (each for each in every if each.at.offset > behind.offset and not each.keyword)
+        return tuple(sorted((each for each in later if not self._names(each.label)), key=lambda each: each.at.offset))
+
+    def _names(self, label: str) -> bool:
+        called = re.compile(rb"p[ \t]*[0-9]*%s(?![0-9])|p[ \t]*[#\[]" % label.encode(), re.IGNORECASE)
+        return called.search(self._text.data) is not None
 
     def loop_end(self, number: int, behind: int) -> Cursor | None:
         """Return the line with END n that belongs to the WHILE ... DO n at an offset."""
@@ -204,6 +242,10 @@ class JumpTargets:
             line += data.count(b"\n", counted, match.start())
             counted = match.start()
             yield _MatchInLine(match, line)
+
+
+def _offset(at: Cursor) -> int:
+    return at.offset
 
 
 def label_of(text: str) -> str:

@@ -8,13 +8,24 @@ from collections.abc import Iterator
 
 from ...core.errors import MOST_QUOTED, shortened
 from ...core.progress import Progress
+from ...model.part import Units
 from .block import SLASH, Block, BlockStep, ParsedLine, Watch, block_of, parse
 from .codes import CYCLES, TAKES, ModalGroup
 from .control import Control
 from .dialect import Dialect
 from .fast_lane import FastLane
 from .flow import MOST_KEPT, Flow
-from .foreign_codes import adapt, call_macro, call_or_return, is_leader, is_macro, obey_macro, warn_of_numbers
+from .foreign_codes import (
+    adapt,
+    call_macro,
+    call_or_return,
+    is_leader,
+    is_macro,
+    obey_macro,
+    stop_at_alarm,
+    warn_of_numbers,
+    warn_of_uncalled,
+)
 from .foreign_languages import foreign_language
 from .moves import move
 from .notes import notes
@@ -115,6 +126,8 @@ class InterpreterRun:
                     break
             else:
                 self._miss_end()
+            if self._rules.fanuc_flow and not self.stopped:
+                warn_of_uncalled(self._control, self._flow)
             if self._control.compensation is not None and not self.stopped:
                 self._control.compensation.flush(self._control.columns)
         except BlockFault as fault:
@@ -134,7 +147,7 @@ class InterpreterRun:
         foreign = foreign_language(self._text.data) if self._problems else None
         if foreign is not None:
             warnings.append(foreign)
-        noted = notes(self._text.data)
+        noted = notes(self._text.data, self._options.units or Units.MM)
         motions = control.columns.motions(control.splines, control.known_from())
         # a block that fails has named its way, and not gone it
         homeward = tuple(row for row in control.homeward if row < len(motions))
@@ -178,7 +191,7 @@ class InterpreterRun:
             offset = self._text.line_end(found.end()) + 1
             self._flow.next = Cursor(offset, data.count(b"\n", 0, offset) + 1)
             closed = _CLOSED.search(data, offset)
-            self._flow.places.end_at(closed.start() if closed else len(data))
+            self._flow.places.end_at(closed.start() if closed else len(data), self._rules.fanuc_flow)
             self._opened = True
 
     def _step(self) -> bool:
@@ -260,6 +273,8 @@ class InterpreterRun:
 
     def _done(self, parsed: ParsedLine) -> bool:
         """Do a line's block; False at the end of the program."""
+        if self._rules.vacant:
+            stop_at_alarm(parsed)
         control, block = self._control, block_of(parsed, self._control.parameters)
         if self._watch is None:
             return self._execute(block)
@@ -314,6 +329,8 @@ class InterpreterRun:
         elif not self._rules.fanuc_flow:
             raise BlockFault(f"{self._rules.title} knows no O words.", column=-1)
         else:
+            if self._control.row:
+                self._control.warn("the program runs on into the next one, for no M30 or M99 stands before its number.")
             code = _PROGRAM_NUMBER.sub(r"\1n", code, count=1)  # a number, and so as long that columns stay
             return self._parse(code)
         return None

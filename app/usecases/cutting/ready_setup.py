@@ -135,6 +135,7 @@ def setup_of(
     of_stock = _wound("the stock", stock.stock) if isinstance(stock.stock, SolidStock) else ()
     found = (
         *_unfollowed(programs),
+        *_without_units(programs),
         *known.findings,
         *of_stock,
         *((stock.assumed,) if stock.assumed is not None else ()),
@@ -153,6 +154,17 @@ def _unfollowed(programs: tuple[ExaminedProgram, ...]) -> Iterator[Finding]:
                     "on the machine."
                 )
                 yield Finding(FindingKind.LEFT_OUT, text, line=problem.line)
+
+
+def _without_units(programs: tuple[ExaminedProgram, ...]) -> Iterator[Finding]:
+    """Say of each program that names no units in which it was read."""
+    for each in programs:
+        if each.unnamed:
+            text = (
+                f"{each.name} names no units (G20, G21) and is read in mm; say --units in if it is in inches, or write "
+                "G20 into it."
+            )
+            yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
 
 
 def _header(programs: tuple[ExaminedProgram, ...]) -> HeaderNote:

@@ -75,6 +75,99 @@ def test_fanuc_loops() -> None:
     assert way(text, Dialect.FANUC) == [0, 1, 10, 11, 9]
 
 
+OTHER = "O2\nN10 G0 X77.\nN20 G0 X88.\nM99\n"
+"""A subroutine with block numbers that the main program has too."""
+
+
+@pytest.mark.parametrize(
+    ("text", "dialect", "expected"),
+    [
+        (f"O1\n#1=0\nN10 G0 X#1\n#1=#1+1\nIF [#1 LT 3] GOTO 10\nM98 P2\nM30\n{OTHER}", "fanuc", [0, 1, 2, 77, 88]),
+        ("O1\nM98 P2\nM30\nN50 G0 X9.\nM99\nO2\nM97 P50\nM99\nN50 G0 X7.\nM99\n", "haas", [7]),
+        ("O1\nM98 P2\nG0 X9.\nN20 G0 X1.\nM30\nO2\nG0 X3.\nM99 P20\nN20 G0 X8.\nM99\n", "fanuc", [3, 1]),
+        ("O1\nN20 G0 X1.\nIF [#1 EQ 1] GOTO 30\n#1=1\nM98 P2\nN30 M30\nO2\nG0 X3.\nM99 P20\n", "fanuc", [1, 3, 1]),
+    ],
+)
+def test_block_numbers_are_those_of_the_program_that_runs(text: str, dialect: str, expected: list[float]) -> None:
+    program = read(f"%\nG21\n{text}%\n", Dialect(dialect))
+    assert [end[0] for end in ends(program)] == expected and not program.problems
+
+
+@pytest.mark.parametrize("begin", ["", "%\n"])
+def test_a_subroutine_behind_the_per_cent_sign_is_called_and_told(begin: str) -> None:
+    program = read(f"%\nO1\nG21\nM98 P2\nM30\n%\n{begin}O2\nG0 X3.\nM99\n%\n", Dialect.FANUC)
+    assert [end[0] for end in ends(program)] == [3]
+    assert [each.text for each in program.problems] == [
+        "O2 stands behind the per cent sign that ends the program; load it into the control by itself."
+    ]
+
+
+def test_programs_that_nothing_calls_are_told() -> None:
+    text = "%\nO1\nG21\nG0 X1.\nM98 P5\nM30\nO3\nG0 X3.\nM30\nO4\nM30\nO5\nG0 X5.\nM99\n%\n"
+    program = read(text, Dialect.FANUC)
+    assert [end[0] for end in ends(program)] == [1, 5]
+    assert [each.text for each in program.problems] == [
+        "O3 and 1 more are programs of their own that nothing here calls; what stands there is not read."
+    ]
+    assert program.problems[0].line == 7
+
+
+def test_a_program_that_runs_on_into_the_next_is_told() -> None:
+    program = read("%\nO1\nG21\nG0 X1.\nO2\nG0 X2.\nM30\n%\n", Dialect.FANUC)
+    assert [each.text for each in program.problems] == [
+        "the program runs on into the next one, for no M30 or M99 stands before its number."
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("IF [#9 EQ #0] GOTO 5\nG0 X7.\nN5 G0 X1.\n", [1]),
+        ("#9=0\nIF [#9 EQ #0] GOTO 5\nG0 X7.\nN5 G0 X1.\n", [7, 1]),
+        ("IF [#9 NE 0] GOTO 5\nG0 X7.\nN5 G0 X1.\n", [1]),
+        ("IF [#9 GE 0] GOTO 5\nG0 X7.\nN5 G0 X1.\n", [1]),
+        ("IF [#9 LT 0] GOTO 5\nG0 X7.\nN5 G0 X1.\n", [7, 1]),
+        ("#8=#9\nIF [#8 EQ #0] GOTO 5\nG0 X7.\nN5 G0 X[#9+1]\n", [1]),
+        ("#9=3.\n#9=#0\nG0 X4.\nG0 X#9 Y1.\nG0 X-#9 Y2.\n", [4, 4, 4]),
+        ("G65 P2 X3.\nM30\nO2\nIF [#26 NE #0] THEN #1=9\nG0 X5.\nG0 X#25 Y1. Z#1\nG0 X#24\nM99\n", [5, 5, 3]),
+    ],
+)
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_what_nobody_has_set_is_vacant_in_macro_b(text: str, expected: list[float], dialect: Dialect) -> None:
+    assert way(f"%\nO1\nG21 G90\n{text}{'' if 'M30' in text else 'M30'}\n%\n", dialect) == expected
+
+
+def test_mach3_takes_what_nobody_has_set_for_0() -> None:
+    assert way("G21\nG0 X4\nG0 X#9 Y1\nM30\n", Dialect.MACH3) == [4, 0]
+
+
+def test_what_the_control_keeps_is_told_where_it_is_not_set() -> None:
+    program = read("G21\n#501=3.\nG0 X#501\nG0 Y#500 Z1.\nM30\n", Dialect.FANUC)
+    assert [(each.line, each.text.split(";")[0]) for each in program.problems] == [(4, "#500 is set nowhere before")]
+
+
+@pytest.mark.parametrize("text", ["#3000=1 (NO TOOL)\n", "IF [#9 EQ #0] THEN #3000=5\n"])
+def test_an_alarm_ends_the_reading(text: str) -> None:
+    found = told(f"G21\nG0 X1.\n{text}G0 X2.\nM30\n", Dialect.FANUC)
+    assert found.startswith("a.ngc:3") and "stops here with an alarm of its own (#3000)" in found
+
+
+def test_a_subroutine_may_be_called_from_a_block_on() -> None:
+    text = "%\nO1\nG21\nM98 P2 Q{}\nM30\nN30 G0 X9.\nO2\nG0 X1.\nN20 G0 X2.\nM99\n%\n"
+    assert way(text.format(20), Dialect.FANUC) == [2]
+    assert "there is no block N30 in the program that is called" in told(text.format(30), Dialect.FANUC)
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [("G1 X9.; Y2.\n", [3]), ("G1 X9.;G1 Z-2.;\n", [3]), ("G1 X9.; T1 is it\n", []), ("; G1 X5.\nG1 X9.;\n", [])],
+)
+def test_a_block_behind_a_semicolon_is_told_on_controls_where_that_ends_one(text: str, lines: list[int]) -> None:
+    program = read(f"G21 F9.\nG0 X1.\n{text}M30\n", Dialect.FANUC)
+    assert [each.line for each in program.problems] == lines
+    assert not read(f"G21 F9\nG0 X1\n{text}M30\n").problems
+
+
 def test_haas_calls_a_block_of_the_same_program() -> None:
     assert way("M97 P100 L2\nG0 X9.\nM30\nN100 G91 G0 X1.\nM99\n", Dialect.HAAS) == [1, 2, 11]
 

@@ -16,6 +16,8 @@ from tests.conftest import ROOT
     ("text", "named", "line"),
     [
         ("0  BEGIN PGM PART MM\n1  BLK FORM 0.1 Z X+0 Y+0 Z-20\n2 L X+10 R0 FMAX M3\n", "Heidenhain", 1),
+        ("%PART G71 *\nN10 G30 G17 X+0 Y+0 Z-20*\nN50 G01 X+10 Y+5 F200*\n", "DIN/ISO", 1),
+        ("N10 G00 G40 G90 Z+50*\nN20 X+10*\n", "DIN/ISO", 1),
         ("; Impeller\nG94 G710\nG17\nG1 X10 F300\n", "Siemens", 2),
         ("G17 G90\nG2 X60 Y10 CR=10\n", "Siemens", 2),
         ("G0 X0\nG1 X=IC(5) F10\n", "Siemens", 2),

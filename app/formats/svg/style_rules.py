@@ -1,0 +1,81 @@
+"""The text of a style sheet to its rules: which stand for themselves, and which within an at-rule."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+_COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)|<!--|-->", re.DOTALL)
+_PART = re.compile(
+    r"\"(?:\\.|[^\"\\])*\"|'(?:\\.|[^'\\])*'|url\([^\"')]*\)|[^\"'{};u]+|(?P<sign>[{};])|.", re.DOTALL | re.IGNORECASE
+)
+"""Signs within quotes and addresses end nothing: @import url(https://a.b/c?d;e);"""
+
+_HOLDS_RULES = re.compile(r"@(?:supports|layer|container|scope)\b", re.IGNORECASE)
+"""At-rules whose rules are in force on a screen."""
+_ELSEWHERE = re.compile(r"@(?!media\b)|@media\s+(?:only\s+)?(?:print|speech)\b|@media[^{]*\bprefers-", re.IGNORECASE)
+"""At-rules without rules for shapes, and those for paper, voices and dark screens."""
+_DEEPEST = 10
+"""At-rules within at-rules."""
+
+
+class WrittenRule(NamedTuple):
+    """The selectors of a rule, with commas between them, and the text of its declarations.
+
+    One within an at-rule that hangs on what the drawing is looked at with has that in the place of its selectors.
+    """
+
+    selectors: str
+    body: str
+
+
+def is_on_screen(media: str) -> bool:
+    """Tell whether a style element of these media, "" = any, holds on a screen."""
+    return not media.strip() or any(
+        word.strip().lower() in ("all", "screen", "only screen", "only all") for word in media.split(",")
+    )
+
+
+def written_rules(text: str) -> Iterator[WrittenRule]:
+    """Yield the rules of a style sheet, those of at-rules that are in force on a screen among them.
+
+    Args:
+        text: of a style element.
+    """
+    yield from _rules(_COMMENT.sub(" ", text), 0)
+
+
+def _rules(text: str, depth: int) -> Iterator[WrittenRule]:
+    for head, body in _blocks(text):
+        if not head.startswith("@"):
+            yield WrittenRule(head, body)
+        elif depth < _DEEPEST and (_HOLDS_RULES.match(head) or any(map(is_on_screen, _media(head)))):
+            yield from _rules(body, depth + 1)
+        elif not _ELSEWHERE.match(head):
+            named = head.replace(",", " or")
+            yield from (WrittenRule(named, inner) for _, inner in _blocks(body))
+
+
+def _media(head: str) -> list[str]:
+    """Return the media of an @media, one each; none of another at-rule."""
+    return [each for each in head[len("@media") :].split(",") if each.strip()] if head[:6].lower() == "@media" else []
+
+
+def _blocks(text: str) -> Iterator[tuple[str, str]]:
+    """Yield what stands before and within each pair of outer braces; statements such as @import are passed over."""
+    begin = opened = depth = 0
+    for part in _PART.finditer(text):
+        sign = part["sign"]
+        if sign == "{":
+            opened, depth = (opened if depth else part.start()), depth + 1
+        elif sign == "}" and depth > 1:
+            depth -= 1
+        elif sign == "}":
+            if depth:
+                yield text[begin:opened].strip(), text[opened + 1 : part.start()]
+            begin, depth = part.end(), 0
+        elif sign == ";" and not depth:
+            begin = part.end()
+    if depth:  # the sheet's end closes what is open
+        yield text[begin:opened].strip(), text[opened + 1 :]

@@ -1,0 +1,96 @@
+"""Kinds of DXF entities that few drawings have: multiple lines, helices, what lies in other files or solids, line types
+of centre lines, layers that are never plotted.
+"""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from app.model.curves import Line, Spline
+from tests.formats.test_dxf_foreign import new, plate, read, telling
+
+LOST = "whose outlines are not in the file or cannot be read"
+
+
+def test_the_lines_of_a_multiple_line_are_read() -> None:
+    """Two lines 1 apart round a corner, closed: the middle between them is a square of 20."""
+    document = new()
+    document.modelspace().add_mline([(0, 0), (20, 0), (20, 20), (0, 20)], close=True)
+    drawing = read(document)
+    corners = {(round(x, 9), round(y, 9)) for each in drawing.part.entities for x, y in [each.curve.start]}
+    sizes = sorted({abs(x - 10) for x, _ in corners})
+    assert len(drawing.part.entities) == 8 and all(isinstance(each.curve, Line) for each in drawing.part.entities)
+    assert len(sizes) == 2 and sizes[1] - sizes[0] == pytest.approx(1) and not drawing.left_out
+
+
+def test_a_helix_is_read_as_seen_from_above() -> None:
+    document = new()
+    document.modelspace().add_helix(3, 2, 2)
+    (entity,) = read(document).part.entities
+    assert isinstance(entity.curve, Spline)
+    assert math.hypot(*entity.curve.start) == pytest.approx(3) == math.hypot(*entity.curve.end)
+
+
+@pytest.mark.parametrize("nested", [False, True])
+def test_an_external_drawing_is_missing_from_the_part(nested: bool) -> None:
+    document = new()
+    document.add_xref_def("other.dwg", "OTHER")
+    space = document.modelspace()
+    plate(space)
+    if nested:
+        document.blocks.new("B").add_blockref("OTHER", (0, 0))
+        space.add_blockref("B", (1, 1), dxfattribs={"column_count": 2, "column_spacing": 9})
+    else:
+        space.add_blockref("OTHER", (5, 5))
+    drawing = read(document)
+    count = 1 + nested
+    assert dict(drawing.left_out) == {"INSERT of an external drawing": count}
+    found = telling(drawing, LOST)
+    assert found.counts and found.amount == count
+
+
+def test_a_missing_block_and_a_region_are_missing_from_the_part() -> None:
+    document = new()
+    plate(document.modelspace())
+    document.modelspace().add_blockref("gone", (0, 0))
+    document.modelspace().add_region().sat = ["700 1 1 0", "End-of-ACIS-data"]
+    found = telling(read(document), LOST)
+    assert found.counts and found.text.startswith("Missing from the part: 1 INSERT of a missing block, 1 REGION,")
+
+
+def test_curves_in_line_types_of_centre_lines_are_told() -> None:
+    document = new()
+    for name in ("CENTER", "HIDDEN"):
+        document.linetypes.add(name, [1.0, 0.5, -0.25, 0.25])
+    space, block = document.modelspace(), document.blocks.new("B")
+    plate(space, linetype="Continuous")
+    block.add_circle((0, 0), 3, dxfattribs={"linetype": "CENTER"})
+    space.add_blockref("B", (10, 10), dxfattribs={"layer": "HOLES"})
+    space.add_line((0, 0), (9, 9), dxfattribs={"linetype": "HIDDEN", "layer": "HOLES"})
+    found = telling(read(document), "line type")
+    assert found.text.startswith(
+        "2 curves on layer HOLES, the first at (13.000, 10.000), are drawn in line type CENTER and HIDDEN, as centre"
+    )
+    assert not found.counts and found.layer == "HOLES"
+    assert not [each for each in read(document, without_layers=("HOLES",)).findings if "line type" in each.text]
+
+
+def test_a_layer_of_centre_lines_and_one_that_is_never_plotted_are_told() -> None:
+    document = new()
+    document.linetypes.add("CENTER", [1.0, 0.5, -0.25, 0.25])
+    document.layers.add("AXES", linetype="CENTER")
+    document.layers.add("HELP").dxf.plot = 0
+    document.layers.add("UNUSED").dxf.plot = 0
+    for layer in ("0", "AXES", "HELP", "Defpoints"):
+        plate(document.modelspace(), layer=layer)
+    told = [each.text for each in read(document).findings]
+    assert told == [
+        "Layer Defpoints is never plotted, as layers of construction lines are; its 4 curves are read like any other. "
+        "--skip-layer leaves it out.",
+        "Layer AXES is drawn in line type CENTER, as centre lines and hidden edges are; its 4 curves are read like any "
+        "other. --skip-layer leaves it out.",
+        "Layer HELP is never plotted, as layers of construction lines are; its 4 curves are read like any other. "
+        "--skip-layer leaves it out.",
+    ]

@@ -1,0 +1,121 @@
+"""What an SVG paints and how: borders of filled paths, outlines that are areas, what moves a shape by a style."""
+
+import pytest
+
+from app.core.errors import InputError
+from app.formats.drawing import Drawing
+from app.formats.svg.svg import read_svg
+from app.model.curves import Line
+
+PAGE = 'width="100mm" height="50mm" viewBox="0 0 100 50" xmlns="http://www.w3.org/2000/svg"'
+OUTER, INNER, REVERSED = "M0 0h30v30h-30z", "M5 5h20v20h-20z", "M5 5v20h20v-20z"
+
+
+def read(body: str, page: str = PAGE) -> Drawing:
+    return read_svg(f"<svg {page}>{body}</svg>".encode(), "a.svg")
+
+
+def count(body: str) -> int:
+    return len(read(body).part.entities)
+
+
+def test_a_ring_that_both_sides_of_are_painted_bounds_nothing() -> None:
+    drawing = read(f'<path d="{OUTER}{INNER}"/>')
+    assert len(drawing.part.entities) == 4
+    assert [each.text for each in drawing.findings] == [
+        "1 outline lies within the area that the path paints (fill-rule: nonzero) and cannot be seen; left out."
+    ]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        f'<path d="{OUTER}{REVERSED}"/>',
+        f'<path fill-rule="evenodd" d="{OUTER}{INNER}"/>',
+        f'<g style="fill-rule:evenodd"><path d="{OUTER}{INNER}"/></g>',
+        f'<path d="{OUTER}{INNER}" stroke="red"/>',
+        f'<path d="{OUTER}"/><path d="{INNER}"/>',
+        f'<path d="{OUTER}M20 20h20v20h-20z"/>',
+    ],
+)
+def test_rings_that_can_be_seen_are_read(body: str) -> None:
+    assert count(body) == 8
+
+
+def test_an_island_within_a_hole_is_a_border() -> None:
+    assert count(f'<path d="{OUTER}{REVERSED}M10 10h9v9h-9z M12 12h2v2h-2z"/>') == 12
+
+
+def test_squares_edge_to_edge_are_all_read() -> None:
+    """As codes of squares are written; the one in the middle lies within what is painted, and its edges are others'."""
+    squares = "".join(f"M{x} {y}h1v1h-1z" for x in range(3) for y in range(3))
+    assert count(f'<path d="{squares}"/>') == 36
+
+
+def test_outlines_that_are_areas_are_told_with_their_widths() -> None:
+    body = (
+        '<g fill="none" stroke="red" stroke-width="2"><path d="M10 10h9"/><path d="M10 20h9" transform="scale(2)"/>'
+        '<path d="M10 30h9" stroke-width="1"/><path d="M9 9h9" vector-effect="non-scaling-stroke"/></g>'
+    )
+    (found,) = read(body).findings
+    assert found.text.startswith(
+        "2 outlines on layer 0, the first at (10.000, 40.000), are drawn 2 to 4 mm wide; their middle lines are read."
+    )
+    assert not found.counts
+    assert not read('<path d="M10 10h9" stroke="red"/>').findings  # no width is said
+
+
+def test_what_is_drawn_on_outlines_is_told() -> None:
+    body = (
+        '<pattern id="p"><circle r="1"/></pattern><g stroke="red" fill="none">'
+        '<path d="M10 10h9" stroke-dasharray="2 1"/><path d="M10 12h9" style="marker:url(#m)"/>'
+        '<path d="M10 14h9" stroke-dasharray="0"/><path d="M10 16h9v9z" fill="url(#p)" stroke-width="0"/></g>'
+    )
+    assert [each.text for each in read(body).findings] == [
+        "1 shape has a dashed outline, which is read whole.",
+        "1 shape has markers such as arrowheads, which are not read.",
+        "1 shape has a pattern as its filling, which is not read.",
+        "1 shape has an outline of width 0, which is read though nobody sees it.",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("body", "what"),
+    [
+        ('<rect width="9" height="9" style="translate:10px"/>', "translate"),
+        ('<g style="rotate:10deg;scale:2"><rect width="9" height="9"/></g>', "rotate and scale"),
+        ('<style>path{d:path("M0 0h1v1z")}</style><path d="M0 0h9v9z"/>', "d"),
+    ],
+)
+def test_a_place_or_form_that_is_not_followed_is_a_finding(body: str, what: str) -> None:
+    (found,) = read(body).findings
+    assert found.counts and f"moved or formed by {what}, which is not followed" in found.text
+
+
+def test_what_lies_in_another_file_is_missing_from_the_part() -> None:
+    (found,) = read(f'<path d="{OUTER}"/><use href="other.svg#a"/>').findings
+    assert found.counts and found.text.startswith("Missing from the part: 1 use of what is not in the file,")
+
+
+def test_a_transform_of_the_page_is_a_finding() -> None:
+    assert read(f'<path d="{OUTER}"/>', f'{PAGE} transform="rotate(90)"').findings[0].counts
+    assert not read(f'<path d="{OUTER}"/>', f'{PAGE} transform="matrix(1,0,0,1,0,0)"').findings
+
+
+@pytest.mark.parametrize("origin", ["20px 10px", "20% 20%", "20 10", "20px 20%"])
+def test_transforms_about_a_place(origin: str) -> None:
+    line = f'<line x1="20" y1="10" x2="30" y2="10" stroke="red" transform-origin="{origin}" transform="rotate(90)"/>'
+    (entity,) = read(line).part.entities
+    assert entity.curve == Line((20, 40), (20, 30))
+
+
+@pytest.mark.parametrize(("origin", "x", "y"), [("center", 50, 25), ("top left", 0, 0), ("right", 100, 25)])
+def test_transforms_about_a_named_place(origin: str, x: float, y: float) -> None:
+    body = f'<line x2="9" y2="9" stroke="red" style="transform:scale(2);transform-origin:{origin}"/>'
+    (entity,) = read(body).part.entities
+    assert entity.curve == Line((-x, 50 + y), (18 - x, 32 + y))
+
+
+def test_a_transform_about_the_shape_itself_is_refused() -> None:
+    with pytest.raises(InputError, match="a transform about 'center' cannot be read"):
+        read('<rect width="9" height="9" style="transform:scale(2);transform-origin:center;transform-box:fill-box"/>')
