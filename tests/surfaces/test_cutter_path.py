@@ -368,3 +368,29 @@ def test_rounded_places_beside_a_wall_make_no_swings(degrees: float, off: float)
     swings = float(np.abs(np.diff(found[:, 2])).sum())
     assert swings < 2 * 7.1 + 0.1 and len(found) < 100
     assert follower.proven(np.hstack([found[:-1], found[1:]])).all()
+
+
+def _proven_length_and_points(triangles: np.ndarray, scale: float, kind: ToolKind) -> tuple[float, int]:
+    """Return the length and the points of passes, all of whose chords are proven, over a mesh that many times as large
+    as the one given, by a tool, a pitch and a tolerance as many times as large; the length is told for the one given.
+    """
+    follower = Follower(
+        SurfaceFacets.of_mesh(triangles * scale, 0),
+        Tool(1, 4.0 * scale, kind),
+        FollowOptions(0.0, 0.01 * scale, 1e-3),
+    )
+    path = cutter_path(follower, along_x(*(scale * np.arange(-16.0, 17.0, 2.0)).tolist()))
+    ways = chords(path)
+    assert follower.proven(ways).all()
+    length = float(np.linalg.norm(ways[:, 3:] - ways[:, :3], axis=1).sum())
+    return length / scale, sum(len(run.points) for run in path.runs)
+
+
+@pytest.mark.parametrize("kind", [ToolKind.BALL, ToolKind.FLAT], ids=["ball", "flat"])
+def test_upright_walls_are_passed_alike_in_millimetres_and_in_inches(kind: ToolKind) -> None:
+    # written with 3 digits a steep way has places beside its line, and what files round is half a gouge at 500 mm
+    mesh = bossed_block(20.0)
+    length, points = _proven_length_and_points(mesh, 1.0, kind)
+    longer, more = _proven_length_and_points(mesh, 25.4, kind)
+    assert longer == pytest.approx(length, rel=0.005)
+    assert more < 1.2 * points < 3000
