@@ -15,6 +15,7 @@ from app.model.scene_shapes import SweptShape, TorusShape
 from app.model.tool import Tool
 from app.model.tool_kind import ToolKind
 from app.surfaces.cutter_contact.drop_cutter import drop
+from app.surfaces.passes import thin_kernels
 from app.surfaces.passes.path import ALLOWED, Follower, FollowOptions, cutter_path
 from app.surfaces.passes.point_kernels import BOUNDARY, NEW, X, Y, Z
 from app.surfaces.passes.simplification import PathSimplification, simplified
@@ -324,6 +325,23 @@ def test_thinned_paths_are_nowhere_lower_than_what_was_followed() -> None:
     assert high.min() >= -1e-9
     marks = few[few[:, NEW] == BOUNDARY]
     assert len(marks) == 3 and {tuple(row) for row in marks.tolist()} <= {tuple(row) for row in rows.tolist()}
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_points_have_no_more_room_than_as_near_as_the_path_is(seed: int) -> None:
+    # a steep stretch shorter than the tolerance gave the height that a long one gives: half as much again was left
+    rng = np.random.default_rng(seed)
+    rises = rng.choice([0.0, 0.3, 3.0, 10.0, -3.0, -10.0], 60)
+    along = rng.choice([1e-3, 5e-3, 0.1], 60)
+    path = np.zeros((61, thin_kernels.COLUMNS))
+    path[1:, thin_kernels.T], path[1:, thin_kernels.Z] = np.cumsum(along), np.cumsum(rises * along)
+    path[[0, -1], thin_kernels.FIXED] = path[0, thin_kernels.BEGINS] = 1.0
+    most = 0.009
+    thin_kernels.give_room(path, most)
+    room, places = path[1:-1, thin_kernels.ROOM], path[:, [thin_kernels.T, thin_kernels.Z]]
+    raised = shapely.points(places[1:-1] + np.column_stack([np.zeros(59), room]))
+    assert shapely.distance(shapely.LineString(places), raised).max() <= most + 1e-12
+    assert room.min() >= most  # and no less than on the level
 
 
 def test_a_boundary_point_nearer_to_a_place_than_points_may_be_is_told_where_it_is() -> None:
