@@ -15,6 +15,7 @@ from app.model.scene_shapes import SweptShape, TorusShape
 from app.model.tool import Tool
 from app.model.tool_kind import ToolKind
 from app.surfaces.cutter_contact.drop_cutter import drop
+from app.surfaces.passes import thin_kernels
 from app.surfaces.passes.path import ALLOWED, Follower, FollowOptions, cutter_path
 from app.surfaces.passes.point_kernels import BOUNDARY, NEW, X, Y, Z
 from app.surfaces.passes.simplification import PathSimplification, simplified
@@ -326,6 +327,23 @@ def test_thinned_paths_are_nowhere_lower_than_what_was_followed() -> None:
     assert len(marks) == 3 and {tuple(row) for row in marks.tolist()} <= {tuple(row) for row in rows.tolist()}
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_points_have_no_more_room_than_as_near_as_the_path_is(seed: int) -> None:
+    # a steep stretch shorter than the tolerance gave the height that a long one gives: half as much again was left
+    rng = np.random.default_rng(seed)
+    rises = rng.choice([0.0, 0.3, 3.0, 10.0, -3.0, -10.0], 60)
+    along = rng.choice([1e-3, 5e-3, 0.1], 60)
+    path = np.zeros((61, thin_kernels.COLUMNS))
+    path[1:, thin_kernels.T], path[1:, thin_kernels.Z] = np.cumsum(along), np.cumsum(rises * along)
+    path[[0, -1], thin_kernels.FIXED] = path[0, thin_kernels.BEGINS] = 1.0
+    most = 0.009
+    thin_kernels.give_room(path, most)
+    room, places = path[1:-1, thin_kernels.ROOM], path[:, [thin_kernels.T, thin_kernels.Z]]
+    raised = shapely.points(places[1:-1] + np.column_stack([np.zeros(59), room]))
+    assert shapely.distance(shapely.LineString(places), raised).max() <= most + 1e-12
+    assert room.min() >= most  # and no less than on the level
+
+
 def test_a_boundary_point_nearer_to_a_place_than_points_may_be_is_told_where_it_is() -> None:
     """On the plane at Y 26 the path comes by halving to within a grid step of where both spheres are touched."""
     spheres = facets_of(plane(0, 0, 100, 60), ball(38, 30, 0, 20), ball(64, 30, 0, 14))
@@ -368,3 +386,29 @@ def test_rounded_places_beside_a_wall_make_no_swings(degrees: float, off: float)
     swings = float(np.abs(np.diff(found[:, 2])).sum())
     assert swings < 2 * 7.1 + 0.1 and len(found) < 100
     assert follower.proven(np.hstack([found[:-1], found[1:]])).all()
+
+
+def _proven_length_and_points(triangles: np.ndarray, scale: float, kind: ToolKind) -> tuple[float, int]:
+    """Return the length and the points of passes, all of whose chords are proven, over a mesh that many times as large
+    as the one given, by a tool, a pitch and a tolerance as many times as large; the length is told for the one given.
+    """
+    follower = Follower(
+        SurfaceFacets.of_mesh(triangles * scale, 0),
+        Tool(1, 4.0 * scale, kind),
+        FollowOptions(0.0, 0.01 * scale, 1e-3),
+    )
+    path = cutter_path(follower, along_x(*(scale * np.arange(-16.0, 17.0, 2.0)).tolist()))
+    ways = chords(path)
+    assert follower.proven(ways).all()
+    length = float(np.linalg.norm(ways[:, 3:] - ways[:, :3], axis=1).sum())
+    return length / scale, sum(len(run.points) for run in path.runs)
+
+
+@pytest.mark.parametrize("kind", [ToolKind.BALL, ToolKind.FLAT], ids=["ball", "flat"])
+def test_upright_walls_are_passed_alike_in_millimetres_and_in_inches(kind: ToolKind) -> None:
+    # written with 3 digits a steep way has places beside its line, and what files round is half a gouge at 500 mm
+    mesh = bossed_block(20.0)
+    length, points = _proven_length_and_points(mesh, 1.0, kind)
+    longer, more = _proven_length_and_points(mesh, 25.4, kind)
+    assert longer == pytest.approx(length, rel=0.005)
+    assert more < 1.2 * points < 3000

@@ -137,6 +137,17 @@ def test_a_spike_narrower_than_any_sampling_is_touched() -> None:
     assert drop(spike, TOOLS["ball"], np.array([[0.0, 0.0]])).height[0] == pytest.approx(5.0, abs=1e-5)
 
 
+def test_an_edge_that_touches_where_the_corner_becomes_the_cone_is_found() -> None:
+    # Newton's steps went to and fro between both sides of that bend, and the cutter was 0.16 mm too low
+    off, low, high, slope = 0.8196536552145496, -1.8576334543054327, 2.1683723442533354, 1.3198124335151489
+    start, end = (low, off, slope * low), (high, off, slope * high)
+    upright = mesh_of(np.array([[start, end, (low, off, slope * low - 5.0)]]))
+    along = np.linspace(low, high, 1_000_001)
+    true = float((slope * along - rise(TOOLS["taper"], np.hypot(along, off))).max())
+    found = drop(upright, TOOLS["taper"], np.zeros((1, 2)))
+    assert found.height[0] == pytest.approx(true, abs=1e-9)
+
+
 @pytest.mark.parametrize("name", TOOLS)
 def test_the_order_of_triangles_and_one_far_below_change_nothing(name: str) -> None:
     rng = np.random.default_rng(5)

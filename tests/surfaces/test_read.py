@@ -37,6 +37,38 @@ def test_both_kinds_hold_the_same_triangles() -> None:
         assert np.array_equal(read_mesh("a.stl", data), BLOCK)
 
 
+@pytest.mark.parametrize("end", [b"\r\n", b"\r", b" "])
+def test_lines_of_a_text_end_in_any_way_or_not_at_all(end: bytes) -> None:
+    assert np.array_equal(read_mesh("a.stl", text(BLOCK).replace(b"\n", end)), BLOCK)
+
+
+@pytest.mark.parametrize(
+    "faces",
+    [
+        b"f 1/1/1 2/1/1 3/1/1 4/1/1",
+        b"f 1/1 2/1 3/1 4/1",
+        b"f 1/1/1 2/1/1 3/1/1\nf 1//1 3//1 4//1",
+        b"f -4/-1/-1 -3/-1/-1 -2/-1/-1 \\\n-1/-1/-1",
+        b"mtllib no.mtl\nusemtl steel\nf 1 2 3\nusemtl brass\nf 1/1/1 3/1/1 4/1/1",
+    ],
+)
+def test_faces_of_an_obj_file_may_have_textures_normals_and_materials(faces: bytes) -> None:
+    # a library for pictures, which is not there, was asked for: the whole file was told to be damaged
+    corners = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.5 0.5\nvn 0 0 1\n"
+    square = [[(0, 0, 0), (1, 0, 0), (1, 1, 0)], [(0, 0, 0), (0, 1, 0), (1, 1, 0)]]
+    found = read_mesh("a.obj", corners + faces + b"\n").tolist()
+    assert sorted(sorted(map(tuple, triangle)) for triangle in found) == sorted(map(sorted, square))
+
+
+@pytest.mark.parametrize("texture", [(b"s", b"t"), (b"u", b"v"), (b"texture_u", b"texture_v")])
+def test_corners_of_a_ply_file_may_have_places_in_a_texture(texture: tuple[bytes, bytes]) -> None:
+    header = b"ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 3\n"
+    columns = b"".join(b"property float %s\n" % name for name in (b"x", b"y", b"z", *texture))
+    faces = b"element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    rows = b"0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n3 0 1 2\n"
+    assert np.array_equal(read_mesh("a.ply", header + columns + faces + rows), [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]])
+
+
 @pytest.mark.parametrize("size", [84, 90, 134, 1000, len(DATA) - 1])
 @pytest.mark.parametrize("header", [b"", b"solid made by somebody"])
 def test_a_file_that_was_cut_off_says_so(size: int, header: bytes) -> None:

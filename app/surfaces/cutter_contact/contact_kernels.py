@@ -94,18 +94,18 @@ def _along(slope, off, low, high, shape):  # type: ignore[no-untyped-def]
         return low
     if _falls(off, high, shape) <= slope:
         return high
-    at = 0.5 * (low + high)
-    for _ in range(_STEPS):  # Newton's, or a halving where that leads out
+    at, last = 0.5 * (low + high), high - low
+    for _ in range(_STEPS):  # Newton's, or a halving where that leads out or, round a bend, to and fro
         over = _falls(off, at, shape) - slope
         if over < 0.0:
             low = at
         else:
             high = at
-        step = over / _bends(off, at, shape)
-        new = at - step
-        if not low < new < high:
+        new = at - over / _bends(off, at, shape)
+        if not low < new < high or abs(new - at) > 0.5 * last:
             new = 0.5 * (low + high)
-        if abs(new - at) <= _NEAR * shape[RADIUS]:
+        last = abs(new - at)
+        if last <= _NEAR * shape[RADIUS]:
             return new
         at = new
     return at

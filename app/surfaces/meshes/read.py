@@ -23,6 +23,12 @@ _SANE = 1e12
 """No corner of a part lies so far out; one that does is no number that anybody has written."""
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_LINE_END = re.compile(rb"[\r\n]+")
+_APPEARANCE = re.compile(rb"^[ \t]*(?:v[tnp]|mtllib|usemtl)\b[^\n]*|/[-+\d/]*", re.MULTILINE)
+"""What an OBJ file tells of normals, textures and materials, and the numbers of these at the corners of its faces."""
+_TEXTURE = re.compile(rb"^(property[^\r\n]*\s)(?=(?:s|t|u|v|texture_u|texture_v|texcoord)\b)", re.MULTILINE)
+"""A line of a PLY file's header, up to the name of a place in a texture."""
+
 _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 
@@ -98,8 +104,8 @@ def _records(data: bytes, count: int) -> Floats:
 
 
 def _text(name: str, data: bytes) -> Floats:
-    """Return the triangles of a text; its first line is a name, in any code page."""
-    rest = data.partition(b"\n")[2]
+    """Return the triangles of a text; its first line is a name, in any code page. Lines may end in any way, or not."""
+    rest = _LINE_END.split(data.lstrip(), maxsplit=1)[-1]
     try:
         corners = np.array([[float(word) for word in each] for each in _VERTEX.findall(rest)]).reshape(-1, 3, 3)
     except ValueError as error:
@@ -112,6 +118,19 @@ def _text(name: str, data: bytes) -> Floats:
     return corners
 
 
+def _plain_obj(data: bytes) -> bytes:
+    """Return an OBJ file's places and faces alone: to read textures the library asks for one that reads pictures; and
+    names may be spelled in any code page.
+    """
+    return _APPEARANCE.sub(b"", data).decode("latin-1").encode("ascii", "replace")
+
+
+def _plain_ply(data: bytes) -> bytes:
+    """Return a PLY file that calls places in textures what the library does not know: see `_plain_obj`."""
+    header, end, rows = data.partition(b"end_header")
+    return _TEXTURE.sub(rb"\1other_", header) + end + rows
+
+
 def _by_library(name: str, data: bytes, suffix: str) -> Floats:
     """Return the triangles of an OBJ or PLY file; the library's own complaints are not shown."""
     import trimesh
@@ -120,8 +139,7 @@ def _by_library(name: str, data: bytes, suffix: str) -> Floats:
     log.propagate = False
     if not log.handlers:
         log.addHandler(logging.NullHandler())
-    # names may be spelled in any code page
-    plain = data.decode("latin-1").encode("ascii", "replace") if suffix == "obj" else data
+    plain = _plain_obj(data) if suffix == "obj" else _plain_ply(data)
     try:
         with np.errstate(all="ignore"):  # numbers that are none are looked for by who asked
             triangles = trimesh.load_mesh(io.BytesIO(plain), file_type=suffix, process=False).triangles

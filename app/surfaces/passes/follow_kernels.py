@@ -16,6 +16,7 @@ import numpy as np
 from ...core.jit import kernel
 from ..cutter_contact.drop_kernels import drop_one
 from ..cutter_contact.facet_tree_kernels import ANY, CHORDS, CONTROL, DESK, PATCH, PLACES, TREE, new_desk
+from ..cutter_contact.quick_kernels import quick_one
 from ..cutter_contact.touch_kernels import tip_over, touch_within
 from .meet_kernels import FOUND, OTHER, mark, meet
 from .point_kernels import (
@@ -32,6 +33,7 @@ from .point_kernels import (
     LEFT_U,
     LEFT_V,
     NEW,
+    SLACK,
     TOLERANCE,
     TRUE_Z,
     S,
@@ -158,6 +160,20 @@ def _clear(tree, shape, rules, left, right, desk):  # type: ignore[no-untyped-de
     return way_clear(tree, shape, 1, ANY, rules[ALLOWED], desk) == 1
 
 
+@kernel(f"float64({TREE}, {_R}, {_R}, float64, float64, {_R}, {_MANY}, {DESK})", counts=False)
+def _lowest_amid(tree, shape, rules, x, y, middle, rows, desk):  # type: ignore[no-untyped-def]
+    """Return how low the tip comes in a chord's middle (x, y); `middle` is that place as it would be written.
+
+    On a steep way half a step of the grid aside is a height of many tolerances: by that height every chord would be
+    split, down to the shortest.
+    """
+    if middle[X] == x and middle[Y] == y:
+        return middle[TRUE_Z]
+    rows[FOUND, 0], rows[FOUND, 1] = x, y
+    quick_one(tree, shape, ANY, rules[SLACK], rules[FINE], rows[FOUND], desk)
+    return rows[FOUND, 2]
+
+
 @kernel(f"int64({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, {_R}, {_MANY}, {DESK})", counts=False)
 def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: ignore[no-untyped-def]
     """Return what becomes of the chord between two places; `middle` is the place at which it is split."""
@@ -185,10 +201,13 @@ def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: 
     most = rules[TOLERANCE] * length / span
     lowest = max(_low(tree, left, shape, x, y), _low(tree, right, shape, x, y))
     asked = lowest < z - most
+    over = 2.0 * rules[ALLOWED] * length / span
     if asked:
         touched_at(tree, shape, line, rules, half, ANY, rows[FOUND], middle, desk)
         lowest = middle[Z]
-    if z - most <= lowest <= z + 2.0 * rules[ALLOWED] * length / span:
+        if not z - most <= lowest <= z + over:
+            lowest = _lowest_amid(tree, shape, rules, x, y, middle, rows, desk)
+    if z - most <= lowest <= z + over:
         if owner_of(tree, left, FACET) != owner_of(tree, right, LEFT):
             if meet(tree, shape, line, rules, left, right, 0.0, middle, rows, desk):
                 return _SPLIT

@@ -43,13 +43,14 @@ _TWICE = 2.0
 _ROOM = 4096
 _CHORDS = 2_000
 _NEAR = 1e-9
-_BESIDE, _STORED = 1e-7, 2.0**-23
-"""mm, and of the coordinates of meshes, by which a cutter's upright side may go into a wall: so one that a pass touches
-all along its way is passed by, as deep as it goes, and what files round makes it no obstacle. Far less than is proven.
+_BESIDE, _STORED, _BESIDE_MOST = 1e-7, 2.0**-23, 4e-5
+"""mm, and of the coordinates of meshes, by which a cutter's upright side may go into a wall, mm at most: so one that a
+pass touches all along its way is passed by, as deep as it goes, and what files round makes it no obstacle. What chords
+may go in is less by as much.
 """
-_ASIDE, _SWINGS = 0.75, 8
-"""Of the grid: how far places that are rounded to it are from the line at most; corners of a line from which it may
-swing up and down beside a wall because of that.
+_ASIDE, _SWINGS, _STEEP = 0.75, 8, 2.0
+"""Of the grid: how far places that are rounded to it are from the line at most; so often as a line turns from steeply
+up to steeply down, or back, it may swing beside a wall because of that; and the slope from which on it is steep.
 """
 _SHORT = 0.05
 """mm; shorter stretches beside the surfaces are none."""
@@ -109,13 +110,13 @@ class Follower:
         if options.leave:
             contact_kernels.thicken(shape_of(tool), options.leave, self._shape)
         stored = float(np.abs(facets.triangles[facets.patch < 0]).max(initial=0.0))
-        self._room = max(_BESIDE, _STORED * stored)
+        self._room = min(max(_BESIDE, _STORED * stored), _BESIDE_MOST)
         least = max(1e-6, 2 * options.grid)
         self._rules = np.array(
             [
                 max(tool.radius / 2, 4 * least),
                 self.tolerance,
-                _WHILE_MADE,
+                _WHILE_MADE - self._room,
                 least,
                 options.grid,
                 float(facets.error.max()),
@@ -187,9 +188,9 @@ class Follower:
 
         rows = self._followed(line, self._beside(-self._room), self._rules)
         aside = _ASIDE * self.options.grid if np.abs(line[2:4]).min() > _NEAR else 0.0
-        if aside and (swings := np.count_nonzero(rows[:, k.NEW] == k.CORNER)) > _SWINGS:
+        if aside and (swings := _swings(rows)) > _SWINGS:
             wider = self._rounded(self._followed(line, self._beside(self._room + aside), self._exact))
-            rows = wider if np.count_nonzero(wider[:, k.NEW] == k.CORNER) < swings else rows
+            rows = wider if _swings(wider) < swings else rows
         for column in (k.FACET, k.LEFT):
             facet = rows[:, column].astype(np.int64)
             rows[:, column] = np.where(facet >= 0, self._order[np.maximum(facet, 0)], -1)
@@ -238,6 +239,15 @@ class Follower:
                 x, y = line[:2] + line[4] * line[2:4]
                 raise GeometryError(f"the pass from ({x:.3f}, {y:.3f}) could not be proven; make its tolerance larger.")
             room *= 4
+
+
+def _swings(rows: Floats) -> int:
+    """Return how often rows of points go steeply down after they went steeply up, or up after down."""
+    from . import point_kernels as k
+
+    rise, along = np.diff(rows[:, k.Z]), np.diff(rows[:, k.S])
+    steep = (np.abs(rise) > _STEEP * along) & (rows[1:, k.NEW] != k.BEGINS)
+    return int(np.count_nonzero(np.diff(np.sign(rise[steep]))))
 
 
 class PlaneStretch(NamedTuple):

@@ -27,10 +27,38 @@ higher it may be.
 COLUMNS = 5
 
 
+@kernel(f"float64({_MANY}, int64, int64, float64, float64, float64)", counts=False)
+def _near_path(rows, n, step, most, found, enough):  # type: ignore[no-untyped-def]
+    """Return how much higher than point n a place straight above it may be for the path to be within `most`, as far as
+    one side of the path tells.
+
+    Args:
+        step: 1: the path on from there; -1: back from there. found: so much is known. enough: more is not asked for.
+    """
+    k = n
+    while found < enough:
+        other = k + step
+        if other < 0 or other == len(rows) or rows[max(k, other), BEGINS] != 0.0:
+            break
+        near, far = abs(rows[k, T] - rows[n, T]), abs(rows[other, T] - rows[n, T])
+        if near >= most:
+            break
+        at, high = near, max(rows[k, Z], rows[other, Z])
+        if far > near:  # from the place above, the chord's nearest one is square to it, or one of its ends
+            slope = (rows[other, Z] - rows[k, Z]) / (far - near)
+            at = min(max(most * slope / math.sqrt(1.0 + slope * slope), near), min(far, most))
+            high = rows[k, Z] + slope * (at - near)
+        found = max(found, high - rows[n, Z] + math.sqrt(most * most - at * at))
+        k = other
+    return min(found, enough)
+
+
 @kernel(f"void({_MANY}, float64)")
 def give_room(rows, most):  # type: ignore[no-untyped-def]
     """Set how much higher each point may be, straight up, for `most` square to both chords that meet there; 0 of fixed
     ones.
+
+    Steep chords that are soon over, as beside an edge, are no reason to be higher than `most` from the path itself.
     """
     for n in range(len(rows)):
         least = math.inf
@@ -38,7 +66,10 @@ def give_room(rows, most):  # type: ignore[no-untyped-def]
             if 0 < k < len(rows) and rows[k, BEGINS] == 0.0:
                 run, rise = rows[k, T] - rows[k - 1, T], rows[k, Z] - rows[k - 1, Z]
                 least = min(least, math.sqrt(run * run + rise * rise) / run if run > 0.0 else math.inf)
-        rows[n, ROOM] = most * least if rows[n, FIXED] == 0.0 and least < math.inf else 0.0
+        rows[n, ROOM] = 0.0
+        if rows[n, FIXED] == 0.0 and least < math.inf:
+            back = _near_path(rows, n, -1, most, most, most * least)
+            rows[n, ROOM] = _near_path(rows, n, 1, most, back, most * least)
 
 
 @kernel(f"int64({_MANY}, int64, int64, float64, {_R})", counts=False)
