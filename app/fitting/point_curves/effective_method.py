@@ -102,7 +102,7 @@ class EffectiveMethod:
         Args:
             state: (n,) what each is by the facets of its surface; None: by the ranges of the path.
         """
-        effective = effective_points(points, self.choose, corners.tolist())
+        effective = effective_points(points, self.choose, corners.tolist(), at_bends=True)
         if state is not None:
             known = state.copy()
             known[corners] = PointState.EFFECTIVE
