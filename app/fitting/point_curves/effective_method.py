@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
 from ...model.motion import Floats
+from .arc_joints import arc_joints
 from .correction import CorrectionCurve, CorrectionMove, CorrectionOptions, CorrectionScope, corrected
 from .effective_points import EffectiveOptions, EffectivePoints, PointState, RangeEnds, effective_points
 from .facets import facets_of_rows
@@ -114,14 +115,16 @@ class EffectiveMethod:
         along = sides_among(points[at])
         sides = np.flatnonzero(along)  # lines of the true shape: no facet is corrected across one
         joints = joints_beside(points[at], along, self.choose.epsilon)
-        whole = np.concatenate([sides, joints.chords])
+        arcs, over = arc_joints(points[at], along, self.choose.epsilon)
+        whole = np.concatenate([sides, joints.chords, over])
         kept = np.unique(np.concatenate([corners, at[whole], at[whole + 1]]))
         moved = corrected(points, effective.state, self.correct, kept.tolist())
         state = moved.state.copy()
         for k in sides.tolist():  # as it is one chord, it is known for a side where the curve is made, too
             state[at[k] + 1 : at[k + 1]] = PointState.INVALID
         places = moved.places.copy()
-        for joint, k in zip(joints.joints, joints.chords.tolist(), strict=True):  # its correction curve has two parts
+        both = [*zip(joints.joints, joints.chords.tolist(), strict=True), *zip(arcs, over.tolist(), strict=True)]
+        for joint, k in both:  # its correction curve has two parts
             inner = np.arange(at[k] + 1, at[k + 1])
             inner = inner[state[inner] == PointState.CORRECTED]
             places[inner] = joint.nearest(points[inner])

@@ -105,9 +105,7 @@ def _reach(points, i, epsilon, stop, cone):  # type: ignore[no-untyped-def]
         _narrow(points, i, k, epsilon, cone)
         free = cone[3] > math.pi  # all are about the first point
         clear = cone[3] > 0.0 and _angle(points, i, k + 1, cone) <= cone[3] * (1 - 1e-6) - _GUARD
-        if not (
-            free or (clear and _size(points, i, k + 1) >= cone[4]) or _all_within(points, i, k + 1, epsilon, cone)
-        ):
+        if not (free or (clear and _size(points, i, k + 1) >= cone[4]) or _all_within(points, i, k + 1, epsilon, cone)):
             break
         k += 1
     return k
