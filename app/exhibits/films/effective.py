@@ -294,7 +294,7 @@ class _EffectiveSteps:
                 "Through: the cubic spline by chord lengths, its outer two pieces one cubic. Near: the one cubic of "
                 "least squares.",
                 with_curve.page(),
-                (FilmFigure("control points by", len(chosen)),),
+                (FilmFigure("points it goes by", len(chosen)),),
             ),
             FilmStep(
                 "S23",
