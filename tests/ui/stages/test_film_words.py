@@ -18,6 +18,8 @@ from app.ui.views.stages.step_notes import NOTES, note
 
 JAPANESE = catalogue("ja")
 WORD = re.compile("[A-Za-z]{3}")
+KEPT = re.compile(r"`[^`]*`|sin\(pi\*z\)")
+"""Lines to type, and formulas."""
 
 
 def words_of(step: FilmStep) -> Iterator[str]:
@@ -32,7 +34,7 @@ def words_of(step: FilmStep) -> Iterator[str]:
 def in_japanese(text: str) -> bool:
     """Whether nothing of a text is left in English: a colon, or a hole, may let a whole clause through as it is."""
     found = JAPANESE.look_up(text)
-    return found is not None and not re.search("[a-z]{3}", re.sub("`[^`]*`", "", found))
+    return found is not None and not re.search("[a-z]{3}", KEPT.sub("", found))
 
 
 def english(texts: Iterator[str]) -> set[str]:
