@@ -97,6 +97,35 @@ def test_a_straight_cloud_of_many_points_is_one_range() -> None:
     assert len(effective_points(many, EffectiveOptions(0.02)).ranges) == 1
 
 
+def wave(count: int, inner: int) -> Floats:
+    """Facets of a wave that turn by less and less up to where it bends the other way, with points within each."""
+    x = np.linspace(-1, 1, count + 1) + 0.013
+    ends = np.column_stack((50 * x, 12 * np.sin(2.2 * x)))
+    share = np.arange(inner + 1) / (inner + 1)
+    between = ends[:-1, None] + (ends[1:] - ends[:-1])[:, None] * share[None, :, None]
+    return np.vstack((between.reshape(-1, 2), ends[-1:])).round(4)
+
+
+@pytest.mark.parametrize("count", range(8, 30))
+def test_ranges_end_at_the_facets_where_these_turn_by_little(count: int) -> None:
+    """By the text's own definition a range goes on into the next facet, or over it."""
+    points, step = wave(count, 4), 100 / count
+    epsilon = max(12 * 2.2**2 * step**2 / 50**2 / 80, 2e-4)
+    at_bends = effective_points(points, EffectiveOptions(epsilon), at_bends=True)
+    assert at_bends.passed.tolist() == list(range(0, 5 * count + 1, 5))
+
+
+@pytest.mark.parametrize("noise", [0.2, 0.5])
+def test_points_that_bend_nowhere_or_all_along_end_no_range_within(noise: float) -> None:
+    rng = np.random.default_rng(5)
+    turn = np.linspace(0, 2, 400)
+    line = np.column_stack((np.linspace(0, 90, 400), np.zeros(400))) + rng.uniform(-noise, noise, (400, 2)) * 1e-3
+    arc = 40 * np.column_stack((np.cos(turn), np.sin(turn)))
+    for points in (line, arc):
+        plain, at_bends = (effective_points(points, EffectiveOptions(0.004), at_bends=flag) for flag in (False, True))
+        assert at_bends.ranges.tolist() == plain.ranges.tolist()
+
+
 @pytest.mark.parametrize(
     "bad",
     [(0.0,), (math.nan,), (0.1, RangeEnds.RATIO, 0.6), (0.1, RangeEnds.RATIO, -0.1), (0.1, RangeEnds.DISTANCE, -1.0)],

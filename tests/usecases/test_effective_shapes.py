@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline, CubicSpline
 from scipy.spatial import cKDTree
+from scipy.special import fresnel
 
 from app.core.errors import InputError
 from app.fitting.point_curves.correction import CorrectionOptions
@@ -55,7 +56,52 @@ def torus_section(t: Floats) -> Floats:
     return np.column_stack([np.sqrt(across**2 - 18**2), 15 * np.sin(angle)])
 
 
-SHAPES: dict[str, Shape] = {"circle": circle, "ellipse": ellipse, "offset": offset_spline, "torus": torus_section}
+def sine(t: Floats) -> Floats:
+    return np.column_stack([100 * t, 8 * np.sin(4 * math.pi * t)])
+
+
+def clothoid(t: Floats) -> Floats:
+    along = 2.4 * (t - 0.5)
+    return 40 * np.column_stack(fresnel(along)[::-1])
+
+
+def airfoil(t: Floats) -> Floats:
+    """NACA 0012, its chord 100 mm, round its nose."""
+    v = 2 * t - 1
+    half = 0.2969 * np.abs(v) - 0.1260 * v**2 - 0.3516 * v**4 + 0.2843 * v**6 - 0.1036 * v**8
+    return np.column_stack([100 * v**2, 60 * np.sign(v) * half])
+
+
+def two_arcs(before: float, behind: float, sweeps: tuple[float, float]) -> Shape:
+    """Two arcs that meet smoothly: radii, signed, positive to the left, and sweeps, degrees."""
+    turns = math.radians(sweeps[0]) * np.sign(before), math.radians(sweeps[1]) * np.sign(behind)
+    first, second = turns[0] * before, turns[1] * behind
+
+    def places(t: Floats) -> Floats:
+        along = t * (first + second)
+        own, rest = np.minimum(along, first) / before, np.maximum(along - first, 0.0) / behind
+        one = before * np.column_stack([np.sin(own), 1 - np.cos(own)])
+        other = behind * np.column_stack(
+            [np.sin(turns[0] + rest) - math.sin(turns[0]), math.cos(turns[0]) - np.cos(turns[0] + rest)]
+        )
+        return one + other
+
+    return places
+
+
+SHAPES: dict[str, Shape] = {
+    "circle": circle,
+    "ellipse": ellipse,
+    "offset": offset_spline,
+    "torus": torus_section,
+    "sine": sine,
+    "clothoid": clothoid,
+    "airfoil": airfoil,
+    "s-curve": two_arcs(30, -20, (120, 150)),
+    "widening": two_arcs(40, 15, (60, 120)),
+}
+JOINED = ("s-curve", "widening")
+"""Shapes whose curvature jumps, within a facet: no one spline goes along them."""
 
 
 @cache
@@ -137,9 +183,9 @@ def random_shape(seed: int) -> tuple[Shape, float]:
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", [*range(10), 30, 62, 74, 78, 92])
 def test_on_shapes_it_has_not_seen_it_is_as_good_as_the_plain_spline(seed: int, monkeypatch) -> None:
-    """Through the effective points that it found: at an inflection two facets may be one range, as in the text."""
+    """Through the ends of all facets, also where these turn by little: at an inflection."""
     shape, sag = random_shape(seed)
     monkeypatch.setitem(SHAPES, f"random {seed}", shape)
     done = written(f"random {seed}", sag, OutputForm.ARCS, 1)
@@ -153,12 +199,14 @@ def test_on_shapes_it_has_not_seen_it_is_as_good_as_the_plain_spline(seed: int, 
         off(f"random {seed}", cut(each)) for each in (done, written(f"random {seed}", sag, OutputForm.ARCS, 0))
     )
     assert done.nearness is not None and own <= 2 * plain + done.nearness
-    if len(points) == len(ends):
-        assert own <= max(by_all / 10, 2 * plain, 2 * DIGIT + done.nearness)
+    assert np.abs(points - ends).max() < DIGIT
+    assert own <= max(by_all / 10, 2 * plain, 2 * DIGIT + done.nearness)
 
 
-FAMILY = [(shape, sag) for shape in SHAPES for sag in (0.002, 0.01, 0.05)]
-FAST = {("ellipse", 0.01), ("circle", 0.05)}
+FAMILY = [(shape, sag) for shape in SHAPES for sag in (0.004 if shape in JOINED else 0.002, 0.01, 0.05)]
+COARSE = {("airfoil", 0.05)}
+"""Round its nose, of radius 1.6 mm, five facets turn by more than one cubic does."""
+FAST = {("ellipse", 0.01), ("circle", 0.05), ("s-curve", 0.05)}
 
 
 @pytest.mark.parametrize("form", [OutputForm.ARCS, OutputForm.NURBS], ids=lambda form: form.value)
@@ -185,6 +233,7 @@ def test_the_curve_goes_along_the_shape_and_not_along_the_facets(shape: str, sag
     [
         pytest.param(*each, marks=[] if each in FAST else pytest.mark.exhaustive, id=f"{each[0]}-{each[1]}")
         for each in FAMILY
+        if each not in COARSE
     ],
 )
 def test_corrected_points_lead_nearer_to_the_shape_than_all_points(shape: str, sag: float, form: OutputForm) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...fitting.point_curves.corners import corners
@@ -122,7 +123,9 @@ class _EffectiveSteps:
     def __init__(self, points: Floats, options: EffectiveFilmOptions) -> None:
         self.points, self.options = points, options
         self.kept = corners(points, _CORNER, 4 * options.tolerance)
-        self.found = effective_points(points, EffectiveOptions(options.epsilon), self.kept.tolist())
+        choose, kept = EffectiveOptions(options.epsilon), self.kept.tolist()
+        self.found = effective_points(points, choose, kept)
+        self.passed = effective_points(points, choose, kept, at_bends=True).passed  # what the program goes by
         self.trials = range_trials(points, options.epsilon, frozenset(self.kept.tolist()))
         self.by_definition = ranges_of(self.trials)
         self.effective = self.found.passed
@@ -209,7 +212,8 @@ class _EffectiveSteps:
                 "If one is not, the range is what was looked at before: Pi to Pk-1. Its ends are effective, those "
                 "between invalid.",
                 "One cone of directions for each start finds the same ranges without the loop: "
-                + ("compared here, all are the same." if same else "compared here, they differ."),
+                + ("compared here, all are the same." if same else "compared here, they differ.")
+                + " For the final curve a range that bends at one point, as at an inflection, ends there.",
                 self._range(0).page(),
                 counts,
             ),
@@ -226,7 +230,7 @@ class _EffectiveSteps:
                 "The last range",
                 "No point is left: what is looked at is the last range.",
                 "",
-                self._whole().page(),
+                self._whole(self.effective).page(),
                 counts,
             ),
         ]
@@ -240,9 +244,9 @@ class _EffectiveSteps:
         sketch.dots(self.points[inside], GREEN, 1.0)
         return sketch
 
-    def _whole(self) -> StepDrawing:
+    def _whole(self, effective: NDArray[np.int64]) -> StepDrawing:
         sketch = self._path()
-        sketch.dots(self.points[self.effective], GREEN, 0.9)
+        sketch.dots(self.points[effective], GREEN, 0.9)
         return sketch
 
     def _gap(self) -> int:
@@ -294,7 +298,7 @@ class _EffectiveSteps:
                 "Through: the cubic spline by chord lengths, its outer two pieces one cubic. Near: the one cubic of "
                 "least squares.",
                 with_curve.page(),
-                (FilmFigure("control points by", len(chosen)),),
+                (FilmFigure("points it goes by", len(chosen)),),
             ),
             FilmStep(
                 "S23",
@@ -323,7 +327,7 @@ class _EffectiveSteps:
 
     def final(self, by_effective: SmoothedProgram, by_all: SmoothedProgram) -> FilmStep:
         """Return step S12: the curve by the effective points, beside the one that all points have the same say in."""
-        sketch, passed = self._whole(), self.points[self.effective]
+        sketch, passed = self._whole(self.passed), self.points[self.passed]
         figures: list[FilmFigure] = []
         drawn = {
             colour: (done, places)

@@ -13,9 +13,11 @@ from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
 from ...model.motion import Floats
+from .arc_joints import ArcJoint, arc_joints
 from .correction import CorrectionCurve, CorrectionMove, CorrectionOptions, CorrectionScope, corrected
 from .effective_points import EffectiveOptions, EffectivePoints, PointState, RangeEnds, effective_points
 from .facets import facets_of_rows
+from .line_joints import LineJoint
 from .through_points import joints_beside, sides_among
 
 _DEFAULTS = CorrectionOptions()
@@ -102,7 +104,7 @@ class EffectiveMethod:
         Args:
             state: (n,) what each is by the facets of its surface; None: by the ranges of the path.
         """
-        effective = effective_points(points, self.choose, corners.tolist())
+        effective = effective_points(points, self.choose, corners.tolist(), at_bends=True)
         if state is not None:
             known = state.copy()
             known[corners] = PointState.EFFECTIVE
@@ -113,20 +115,34 @@ class EffectiveMethod:
         at = np.flatnonzero(effective.state)
         along = sides_among(points[at])
         sides = np.flatnonzero(along)  # lines of the true shape: no facet is corrected across one
-        joints = joints_beside(points[at], along, self.choose.epsilon)
-        whole = np.concatenate([sides, joints.chords])
+        joints = _joints_over_chords(points[at], along, self.choose.epsilon)
+        whole = np.concatenate([sides, np.array([k for _, k in joints], np.int64)])
         kept = np.unique(np.concatenate([corners, at[whole], at[whole + 1]]))
         moved = corrected(points, effective.state, self.correct, kept.tolist())
         state = moved.state.copy()
         for k in sides.tolist():  # as it is one chord, it is known for a side where the curve is made, too
             state[at[k] + 1 : at[k + 1]] = PointState.INVALID
         places = moved.places.copy()
-        for joint, k in zip(joints.joints, joints.chords.tolist(), strict=True):  # its correction curve has two parts
+        for joint, k in joints:  # its correction curve has two parts
             inner = np.arange(at[k] + 1, at[k + 1])
             inner = inner[state[inner] == PointState.CORRECTED]
             places[inner] = joint.nearest(points[inner])
         far = np.linalg.norm(places - points, axis=1)
         return PointClasses(state, places, self.choose.epsilon + float(far.max()), effective.ranges, far)
+
+
+def _joints_over_chords(
+    points: Floats, sides: NDArray[np.bool_], within: float
+) -> list[tuple[LineJoint | ArcJoint, int]]:
+    """Return the joints of lines and arcs of the true shape, each with the chord between points (n, 3) that it is in.
+
+    Args:
+        sides: (n - 1,) chords that are lines of the true shape. within: how far points may be from arcs, mm.
+    """
+    lines = joints_beside(points, sides, within)
+    arcs, chords = arc_joints(points, sides, within)
+    found: list[tuple[LineJoint | ArcJoint, int]] = [*zip(lines.joints, lines.chords.tolist(), strict=True)]
+    return [*found, *zip(arcs, chords.tolist(), strict=True)]
 
 
 def states_across(

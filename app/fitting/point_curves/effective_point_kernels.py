@@ -15,11 +15,19 @@ from ...core.jit import kernel
 
 _GUARD = 1e-11
 """So much inside the cone a direction must be, rad: what rounding may add up to."""
+_STRAIGHTER = 0.22
+"""Of how far a range bends: both sides of the bend may be off by so much. Halves of an arc are off by a quarter."""
+_EVIDENCE = 4
+"""Chords of a range that may bend at one point, at least: fewer are straight on both sides of any of theirs."""
+_PLAIN = 0.5
+"""Of epsilon: a bend that is so far off is seen by its range alone."""
+_MANY = 8
+"""Chords of a range in which a smaller one is: so many points are straight on both sides of it by no chance."""
 
 
-@kernel("boolean(float64[:, ::1], int64, int64, int64, float64)", counts=False)
-def within(points, i, j, k, epsilon):  # type: ignore[no-untyped-def]
-    """Return whether point j lies within epsilon of the segment from point i to point k."""
+@kernel("float64(float64[:, ::1], int64, int64, int64)", counts=False)
+def _off(points, i, j, k):  # type: ignore[no-untyped-def]
+    """Return how far point j is from the segment from point i to point k."""
     along, size = 0.0, 0.0
     for axis in range(3):
         along += (points[k, axis] - points[i, axis]) * (points[j, axis] - points[i, axis])
@@ -28,7 +36,7 @@ def within(points, i, j, k, epsilon):  # type: ignore[no-untyped-def]
     away = 0.0
     for axis in range(3):
         away += (points[j, axis] - points[i, axis] - share * (points[k, axis] - points[i, axis])) ** 2
-    return away <= epsilon * epsilon
+    return math.sqrt(away)
 
 
 @kernel("float64(float64[:, ::1], int64, int64, float64[::1])", counts=False)
@@ -73,7 +81,7 @@ def _narrow(points, i, k, epsilon, cone):  # type: ignore[no-untyped-def]
 def _all_within(points, i, k, epsilon, cone):  # type: ignore[no-untyped-def]
     """Return whether all points between lie within epsilon of the segment; if so the cone is made anew about it."""
     for j in range(i + 1, k):
-        if not within(points, i, j, k, epsilon):
+        if _off(points, i, j, k) > epsilon:
             return False
     length = _size(points, i, k)
     if length > 0.0:
@@ -87,24 +95,67 @@ def _all_within(points, i, k, epsilon, cone):  # type: ignore[no-untyped-def]
     return True
 
 
-@kernel("int64(float64[:, ::1], float64, boolean[::1], int64[:, ::1])")
-def ranges(points, epsilon, stop, found):  # type: ignore[no-untyped-def]
-    """Write first and last point of each range (n, 2), and return their number; no range goes beyond a stop."""
+@kernel("int64(float64[:, ::1], int64, float64, boolean[::1], float64[::1])", counts=False)
+def _reach(points, i, epsilon, stop, cone):  # type: ignore[no-untyped-def]
+    """Return the last point of the range that begins at point i (S113-S116)."""
+    cone[:] = 0.0
+    cone[3] = 4.0
+    k = i + 1
+    while k < len(points) - 1 and not stop[k]:
+        _narrow(points, i, k, epsilon, cone)
+        free = cone[3] > math.pi  # all are about the first point
+        clear = cone[3] > 0.0 and _angle(points, i, k + 1, cone) <= cone[3] * (1 - 1e-6) - _GUARD
+        if not (free or (clear and _size(points, i, k + 1) >= cone[4]) or _all_within(points, i, k + 1, epsilon, cone)):
+            break
+        k += 1
+    return k
+
+
+@kernel("int64(float64[:, ::1], int64, int64, float64[::1])", counts=False)
+def _farthest(points, i, k, off):  # type: ignore[no-untyped-def]
+    """Return which point between i and k is the farthest off their segment, i if there is none; write how far."""
+    at, off[0] = i, 0.0
+    for j in range(i + 1, k):
+        away = _off(points, i, j, k)
+        if away > off[0]:
+            at, off[0] = j, away
+    return at
+
+
+@kernel("int64(float64[:, ::1], int64, int64, float64[::1])", counts=False)
+def _bend(points, i, k, off):  # type: ignore[no-untyped-def]
+    """Return the one point at which a range from i to k bends, i if it does not; write how far it is off there.
+
+    On both sides of it the range is far straighter than it is as a whole.
+    """
+    j = _farthest(points, i, k, off)
+    if j == i:
+        return i
+    bent = off[0]
+    _farthest(points, i, j, off)
+    left = off[0]
+    _farthest(points, j, k, off)
+    straight = max(left, off[0]) <= _STRAIGHTER * bent
+    off[0] = bent
+    return j if straight else i
+
+
+@kernel("int64(float64[:, ::1], float64, boolean[::1], boolean, int64[:, ::1])")
+def ranges(points, epsilon, stop, at_bends, found):  # type: ignore[no-untyped-def]
+    """Write first and last point of each range (n, 2), and return their number; no range goes beyond a stop.
+
+    At bends a range that bends at one point ends there if the next one then reaches farther, so that it ended within a
+    facet, or if the bend is plain.
+    """
     n, count, i = len(points), 0, 0
-    cone = np.empty(5)
+    cone, off = np.empty(5), np.empty(1)
     while i < n - 1:
-        cone[:] = 0.0
-        cone[3] = 4.0
-        k = i + 1
-        while k < n - 1 and not stop[k]:
-            _narrow(points, i, k, epsilon, cone)
-            free = cone[3] > math.pi  # all are about the first point
-            clear = cone[3] > 0.0 and _angle(points, i, k + 1, cone) <= cone[3] * (1 - 1e-6) - _GUARD
-            if not (
-                free or (clear and _size(points, i, k + 1) >= cone[4]) or _all_within(points, i, k + 1, epsilon, cone)
-            ):
-                break
-            k += 1
+        k = _reach(points, i, epsilon, stop, cone)
+        if at_bends and k - i >= _EVIDENCE:
+            j = _bend(points, i, k, off)
+            plain = j - i >= 2 and k - j >= 2 and (off[0] >= _PLAIN * epsilon or k - i >= _MANY)
+            if j > i and (plain or _reach(points, j, epsilon, stop, cone) > k):
+                k = j
         found[count, 0], found[count, 1] = i, k
         count += 1
         i = k

@@ -87,13 +87,17 @@ class EffectivePoints:
         return np.flatnonzero(self.state)
 
 
-def effective_points(points: Floats, options: EffectiveOptions, kept: Iterable[int] = ()) -> EffectivePoints:
+def effective_points(
+    points: Floats, options: EffectiveOptions, kept: Iterable[int] = (), at_bends: bool = False
+) -> EffectivePoints:
     """Part a path into ranges (S111-S117) and tell its effective points.
 
     Args:
         points: (n, 2) or (n, 3) mm, n >= 2; a closed path begins and ends with its first point.
         options: epsilon and what counts as the end of a range.
         kept: points, such as corners, beyond which no range goes.
+        at_bends: whether a range that bends at one point ends there. Where facets turn by little, as at an inflection,
+            the text's range goes on into the next facet as far as epsilon lets it, and ends at a point within that.
 
     Raises:
         GeometryError: fewer than two points, or one without a finite place.
@@ -103,7 +107,7 @@ def effective_points(points: Floats, options: EffectiveOptions, kept: Iterable[i
     flat = in_space(points)
     stop, found = np.zeros(len(flat), np.bool_), np.empty((len(flat), 2), np.int64)
     stop[list(kept)] = True
-    count = effective_point_kernels.ranges(flat, options.epsilon, stop, found)
+    count = effective_point_kernels.ranges(flat, options.epsilon, stop, at_bends, found)
     ranges = found[:count].copy()
     state = np.full(len(flat), PointState.INVALID, np.uint8)
     state[ranges] = PointState.EFFECTIVE

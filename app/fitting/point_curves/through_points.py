@@ -4,7 +4,8 @@ Effective points lie on the true shape, the chords between them do not: these ar
 curve that is held to the chords comes back to the facets, so it is held to a spline through the points, of the second
 order of smoothness and off a smooth shape by the fourth power of their distances (C. de Boor, A Practical Guide to
 Splines, chapter V). What nobody can tell from the points stays a chord: a side much longer than what is beside it, and
-one that the spline would leave by more than the tolerance has left.
+one that the spline would leave by more than the tolerance has left. Where one arc becomes another the spline is two,
+which have the joint and its direction in common.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.motion import Floats
+from .arc_joints import arc_joints
 from .line_joints import LineJoint, joint_behind
 
 Flags = NDArray[np.bool_]
@@ -62,13 +64,30 @@ def _between_corners(points: Floats, closed: bool, fine: float, between: float) 
     sides = sides_among(points)
     joints = joints_beside(points, sides, _JOINT * fine)
     points, sides = np.insert(points, joints.chords + 1, joints.places, axis=0), np.insert(sides, joints.ends, True)
+    points, sides, ways = _with_arc_joints(points, sides, _JOINT * fine)
     straight = sides.copy()
     while True:
-        filled, off = _filled(points, _ChordKinds(sides, straight), closed, fine)
+        filled, off = _filled(points, _ChordKinds(sides, straight, ways), closed, fine)
         wide = (off > between) & ~straight
         if not wide.any():
             return filled
         straight |= wide
+
+
+def _with_arc_joints(points: Floats, sides: Flags, within: float) -> tuple[Floats, Flags, Floats]:
+    """Return points with the joints of arcs among them, which chords are sides, and the direction (n, 3) in which the
+    curve goes by each point, NaN where no joint tells it.
+    """
+    joints, chords = arc_joints(points, sides, within)
+    ways = np.full_like(points, np.nan)
+    for joint, k in zip(reversed(joints), chords[::-1].tolist(), strict=True):
+        same = [end for end in (k, k + 1) if np.all(points[end] == joint.place)]
+        if same:
+            ways[same] = joint.way
+            continue
+        points, sides = np.insert(points, k + 1, joint.place, axis=0), np.insert(sides, k, False)
+        ways = np.insert(ways, k + 1, joint.way, axis=0)
+    return points, sides, ways
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,27 +139,32 @@ def sides_among(points: Floats) -> Flags:
 
 @dataclass(frozen=True, eq=False)
 class _ChordKinds:
-    """Which chords (n,) are sides of the true shape, and which stay straight, for this or another reason."""
+    """Which chords (n,) are sides of the true shape, and which stay straight, for this or another reason; and the
+    direction of the curve at their ends (n + 1, 3), NaN where it is not known.
+    """
 
     sides: Flags
     straight: Flags
+    ways: Floats
 
 
 def _filled(points: Floats, kinds: _ChordKinds, closed: bool, fine: float) -> tuple[Floats, Floats]:
     """Return points of splines over the chords that are not straight, and how far each chord is left, mm."""
     straight, sides = kinds.straight, kinds.sides
     parts, off = [points[:1]], np.zeros(len(straight))
-    edges = [0, *(np.flatnonzero(np.diff(straight)) + 1).tolist(), len(straight)]
+    known = np.isfinite(kinds.ways[:, 0])
+    edges = [0, *(np.flatnonzero(np.diff(straight) | known[1:-1]) + 1).tolist(), len(straight)]
     for a, b in pairwise(edges):
-        if straight[a] or b - a < 2:
+        if straight[a] or (b - a < 2 and not (known[a] and known[b])):
             parts.append(points[a + 1 : b + 1])
             continue
-        before, behind = a > 0 and bool(sides[a - 1]), b < len(sides) and bool(sides[b])
-        ways = (
-            _leaving(points[a - 1 : a + 3]) if before else None,
-            _leaving(points[b - 2 : b + 2][::-1]) if behind else None,
-        )
-        ends = "periodic" if closed and b - a == len(straight) else _end_conditions(*ways)
+        first = kinds.ways[a] if known[a] else None
+        last = -kinds.ways[b] if known[b] else None
+        if a > 0 and sides[a - 1]:
+            first = _leaving(points[a - 1 : a + 3])
+        if b < len(sides) and sides[b]:
+            last = _leaving(points[b - 2 : b + 2][::-1])
+        ends = "periodic" if closed and b - a == len(straight) else _end_conditions(first, last)
         part, off[a:b] = _run(points[a : b + 1], ends, fine)
         parts.append(part)
     return np.concatenate(parts), off

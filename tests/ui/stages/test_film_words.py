@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
+import app
 from app.exhibits.films.making import make_film
 from app.exhibits.films.step import FilmStep, PublishedText
+from app.exhibits.published_stages import CODES
 from app.ui.framework.catalogue import catalogue
 from app.ui.views.stages.step_notes import NOTES, note
 
 JAPANESE = catalogue("ja")
 WORD = re.compile("[A-Za-z]{3}")
+KEPT = re.compile(r"`[^`]*`|sin\(pi\*z\)")
+"""Lines to type, and formulas."""
 
 
 def words_of(step: FilmStep) -> Iterator[str]:
@@ -25,8 +31,61 @@ def words_of(step: FilmStep) -> Iterator[str]:
     yield from (cell for row in step.table for cell in row if not re.match("12[abc] ", cell))
 
 
+def in_japanese(text: str) -> bool:
+    """Whether nothing of a text is left in English: a colon, or a hole, may let a whole clause through as it is."""
+    found = JAPANESE.look_up(text)
+    return found is not None and not re.search("[a-z]{3}", KEPT.sub("", found))
+
+
 def english(texts: Iterator[str]) -> set[str]:
-    return {text for text in texts if WORD.search(text) and JAPANESE.look_up(text) is None}
+    return {text for text in texts if WORD.search(text) and not in_japanese(text)}
+
+
+def written(node: ast.expr) -> Iterator[str]:
+    """The sentences that an expression of the source may be, with numbers where something is computed."""
+    match node:
+        case ast.Constant(value=str(text)):
+            yield text
+        case ast.JoinedStr(values=parts):
+            yield "".join(str(part.value) if isinstance(part, ast.Constant) else "7" for part in parts)
+        case ast.IfExp(body=one, orelse=other):
+            yield from (*written(one), *written(other))
+        case ast.BinOp(left=one, right=other):
+            yield from (first + second for first in written(one) for second in written(other))
+
+
+def sentences_of_films() -> Iterator[str]:
+    """Name, sentence and note of every step, and names of its figures, as they stand in the source."""
+    for path in (Path(app.__file__).parent / "exhibits" / "films").glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("FilmStep", "FilmFigure"):
+                asked = node.args[1:4] if getattr(node.func, "id", "") == "FilmStep" else node.args[:2]
+                yield from (text for each in asked for text in written(each))
+
+
+def sentences_of_published() -> Iterator[str]:
+    """What the steps of text A come to by the text's own rules, as it stands in the source."""
+    for name in ("stages.py", "published_stages.py"):
+        path = Path(app.__file__).parent / "exhibits" / name
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.JoinedStr):
+                yield from (text for text in written(node) if text.count(" ") > 3)
+
+
+def test_no_sentence_in_the_source_of_the_films_stays_english_in_part() -> None:
+    put_together = {"by 7: farthest effective point", "Spans that fail are halved. 7"}
+    told = set(sentences_of_films())
+    assert len(told) > 150 and put_together < told
+    assert english(iter(told - put_together)) == set()
+
+
+def test_what_was_published_is_told_in_japanese_beside_what_is_settled() -> None:
+    kinds = [kind.name.lower().replace("_", " ") for kind in CODES]
+    counted = {text for each in ("place", "border", "corner", *kinds) for text in (f"1 {each}", f"7 {each}s")}
+    assert english(iter(counted | {"1 vertex", "7 vertices"})) == set()
+    told = set(sentences_of_published())
+    assert len(told) >= 6
+    assert english(text.strip() for text in told) == set()
 
 
 @pytest.mark.exhaustive
