@@ -16,6 +16,7 @@ from app.drafting.document import Document
 from app.ui.framework.fade import FADE_MS
 from app.ui.framework.fields import ChoiceField, NumberField
 from app.ui.framework.view import View
+from app.ui.framework.worker import Worker
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.reading_section import MODEL_SPACE
 from app.ui.shell.drawing.inlay_controller import InlayForm
@@ -35,6 +36,7 @@ from app.ui.views.surfaces.scene_tabs import SCENE
 from app.ui.views.surfaces.view import ViewDirection
 from app.usecases.smoothing.result import SmoothOptions
 from tests.ui.traces import fixed_values, left_in, traces
+from tests.ui.words import Words, words_in
 
 SIZE = (1280, 800)
 CHILDREN = Qt.FindChildOption.FindDirectChildrenOnly
@@ -57,6 +59,7 @@ class OneWindow:
         self._view = CanvasView()
         self._kept: list[tuple[object, dict[str, object]]] = []
         self._kinds: list[tuple[QToolButton, QAction]] = []
+        self._words: list[Words] = []
 
     def lend(self, qtbot: QtBot) -> WindowController:
         """Return a window as it is when the program starts, shown and active."""
@@ -70,6 +73,7 @@ class OneWindow:
                 self._view = window.canvas.view
             reset(self._wiring, self._view)
             self._kinds = [(each, each.defaultAction()) for each in window.tool_strip.findChildren(QToolButton)]
+            self._words = words_in(window)
             self._kept = [(owner, fixed_values(owner)) for owner in _prepared_when_shown(self._wiring)]
             if self._new is None:  # all new windows are alike
                 self._new = traces(self._wiring)
@@ -97,6 +101,8 @@ class OneWindow:
             for name, value in values.items():
                 if getattr(owner, name) is not value:
                     setattr(owner, name, value)
+        for words in self._words:
+            words.put_back()
 
     def hide(self) -> None:
         """Take the window out of the way of tests that have none, or one of their own."""
@@ -148,20 +154,14 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     """Leave everything that was opened, drawn, chosen, typed and computed, and look at the canvas as before."""
     window, empty = wiring.window_, Document()
     wiring.cancel()
-    window.worker.finish(20.0)
+    _end_jobs(wiring)
     _forget_changes(wiring)
     window.canvas.cancel()
     window.document.load(empty.job)
     wiring.computation.forget()
     wiring.computation.pixels = None
     window.may_close = True
-    wiring.nc.stop_comparing()
-    window.views.nc.other.show_text("", program_text(b""))
-    if wiring.nc.foreign:
-        wiring.nc.back()
-    window.views.nc.set_side(ViewSide.XY)
-    window.views.nc.path_head.colour.show_value(MotionColourBy.TOOL)
-    window.views.nc.set_colour(MotionColourBy.TOOL)
+    _forget_programs(wiring)
     wiring.cut_controller.back()
     window.notice.ask("")
     window.notice.hide()
@@ -193,9 +193,33 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.resize(*SIZE)
     window.status.show_message("Not computed")
     _empty_what_is_hidden(wiring)
+    _end_jobs(wiring)
     _settle()
     window.canvas.set_view(view)
     _forget_habits(wiring)
+
+
+def _end_jobs(wiring: WindowController) -> None:
+    """Leave every job of the window, followed by its activity or not: an answer that comes later would be shown in the
+    next test.
+    """
+    for worker in wiring.window_.findChildren(Worker):
+        worker.cancel()
+        worker.finish(20.0)
+
+
+def _forget_programs(wiring: WindowController) -> None:
+    """Take away programs that are not the job's, and how the NC view was looked at."""
+    view = wiring.window_.views.nc
+    wiring.nc.stop_comparing()
+    view.other.show_text("", program_text(b""))
+    if wiring.nc.foreign:
+        wiring.nc.back()
+    for pane in (view.pane, view.other):
+        pane.head._offer("as it looks")
+    view.set_side(ViewSide.XY)
+    view.path_head.colour.show_value(MotionColourBy.TOOL)
+    view.set_colour(MotionColourBy.TOOL)
 
 
 def _forget_text(wiring: WindowController) -> None:
@@ -313,7 +337,7 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
         *(wiring.stages_controller, wiring.stages_controller._view.pixels),
         *(window.stages_panel, window.stages_panel.points, window.stages_panel.pitch),
         *(form.peck_picture, form.side_picture, *window.cut_form.stock),
-        *(views.cut_page.player, views.cut_page.transport.plot, wiring.files),
+        *(views.cut_page.player, views.cut_page.transport.plot, wiring.files, wiring.files.open_controller),
     )
 
 
