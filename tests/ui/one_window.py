@@ -172,7 +172,7 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     for name, on in (("snap", True), ("ortho", False), ("grid", False), ("log", True), ("backups", True)):
         window.actions_[name].setChecked(on)
     window.findings_list.hide()
-    if window.preferences.settings.theme is not ThemeChoice.SYSTEM:
+    if not window.actions_["theme_system"].isChecked():
         window.set_theme_choice(ThemeChoice.SYSTEM)
     if window.preferences.settings.language is not Settings().language:
         wiring.translation_controller.choose(Settings().language)
@@ -334,7 +334,8 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
         *(each.field for each in form.fields.values()),
         *(wiring.language.control.trial_runner, wiring.plot_controller, wiring.plot_controller._preview),
         *(window.plot_panel, window.plot_panel.factor, window.canvas._trial_picture, wiring.language.help),
-        *(wiring.stages_controller, wiring.stages_controller._view.pixels),
+        *(wiring.stages_controller, views.stages.pixels, views.stages.pixels._hand),
+        *(*views.start.new.lengths, views.start.new.corners),
         *(window.stages_panel, window.stages_panel.points, window.stages_panel.pitch),
         *(form.peck_picture, form.side_picture, *window.cut_form.stock),
         *(views.cut_page.player, views.cut_page.transport.plot, wiring.files, wiring.files.open_controller),
