@@ -135,6 +135,17 @@ def test_traces_see_values_of_every_kind(qtbot, own: OneWindow) -> None:
     own.take_back()
 
 
+def test_what_is_worked_out_of_the_rest_is_no_trace(qtbot, own: OneWindow) -> None:
+    """Whoever asks first has it remembered, and nothing is another."""
+    wiring = own.lend(qtbot)
+    theme = wiring.window_.theme
+    vars(theme).pop("tools", None)
+    before = traces(wiring)
+    assert theme.tools and "tools" in vars(theme)
+    assert differences(before, traces(wiring)) == []
+    own.take_back()
+
+
 @pytest.mark.parametrize(
     "seed", ["1", pytest.param("2", marks=pytest.mark.exhaustive), pytest.param("3", marks=pytest.mark.exhaustive)]
 )
