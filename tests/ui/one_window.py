@@ -4,9 +4,11 @@ not.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QMessageBox, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.core.settings import Settings, ThemeChoice
@@ -153,9 +155,10 @@ def _take_activity(qtbot: QtBot) -> None:
 def reset(wiring: WindowController, view: CanvasView) -> None:
     """Leave everything that was opened, drawn, chosen, typed and computed, and look at the canvas as before."""
     window, empty = wiring.window_, Document()
+    workers = window.findChildren(Worker)
     wiring.cancel()
-    _end_jobs(wiring)
-    _forget_changes(wiring)
+    _end_jobs(workers)
+    _forget_texts(wiring)
     window.canvas.cancel()
     window.document.load(empty.job)
     wiring.computation.forget()
@@ -193,17 +196,17 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.resize(*SIZE)
     window.status.show_message("Not computed")
     _empty_what_is_hidden(wiring)
-    _end_jobs(wiring)
+    _end_jobs(workers)
     _settle()
     window.canvas.set_view(view)
     _forget_habits(wiring)
 
 
-def _end_jobs(wiring: WindowController) -> None:
+def _end_jobs(workers: Iterable[Worker]) -> None:
     """Leave every job of the window, followed by its activity or not: an answer that comes later would be shown in the
     next test.
     """
-    for worker in wiring.window_.findChildren(Worker):
+    for worker in workers:
         worker.cancel()
         worker.finish(20.0)
 
@@ -256,7 +259,8 @@ def _close_what_stands_over(wiring: WindowController) -> None:
     wiring.tour.number = 0
     wiring.language.help.hide()
     wiring.language.help._laid_out.clear()
-    for row in wiring.window_.views.legend.rows.values():
+    views = wiring.window_.views
+    for row in (*views.legend.rows.values(), *views.cut.legend.rows.values()):
         row.setChecked(True)
     wiring.palette.hide()
     wiring.palette._entries.clear()
@@ -264,7 +268,8 @@ def _close_what_stands_over(wiring: WindowController) -> None:
     wiring.palette.list.clear()
     window = wiring.window_
     window.views.start.show_files((), ())
-    for made in (*window.findChildren(InlayForm), *window.canvas.findChildren(QMenu, options=CHILDREN)):
+    boxes = window.findChildren(QMessageBox, options=CHILDREN)
+    for made in (*boxes, *window.findChildren(InlayForm), *window.canvas.findChildren(QMenu, options=CHILDREN)):
         made.setParent(None)
         made.deleteLater()
 
@@ -336,6 +341,7 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
         *(window.plot_panel, window.plot_panel.factor, window.canvas._trial_picture, wiring.language.help),
         *(wiring.stages_controller, views.stages.pixels, views.stages.pixels._hand),
         *(*views.start.new.lengths, views.start.new.corners),
+        *(wiring.cleanup_controller, wiring.cleanup_controller._section.tolerance),
         *(window.stages_panel, window.stages_panel.points, window.stages_panel.pitch),
         *(form.peck_picture, form.side_picture, *window.cut_form.stock),
         *(views.cut_page.player, views.cut_page.transport.plot, wiring.files, wiring.files.open_controller),
@@ -398,7 +404,7 @@ def _forget_habits(wiring: WindowController) -> None:
     """Let nobody remember what was typed and drawn last, and where the mouse was."""
     legend = wiring.window_.views.legend
     legend.fold.setChecked(False)
-    legend._folded_for_room = False
+    legend._folded_for_room, legend._fits = False, True
     wiring.window_.canvas.mouse = None
     line, runner = wiring.window_.command_line, wiring.window_.canvas.runner
     line._typed.clear()
@@ -418,6 +424,11 @@ def _forget_habits(wiring: WindowController) -> None:
 def _forget_changes(wiring: WindowController) -> None:
     """Let nothing be asked about changes that are not saved."""
     wiring.document.load(wiring.document.job)
+    _forget_texts(wiring)
+
+
+def _forget_texts(wiring: WindowController) -> None:
+    """Let nothing be asked about texts that are not saved."""
     wiring.language.control.text = ""
     wiring.window_.scene.document.setModified(False)
 
