@@ -21,6 +21,7 @@ from app.ui.framework.view import View
 from app.ui.framework.worker import Worker
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.reading_section import MODEL_SPACE
+from app.ui.shell.bars.shortcuts import changed_keys
 from app.ui.shell.drawing.inlay_controller import InlayForm
 from app.ui.shell.new_job import MATERIALS
 from app.ui.shell.start import build
@@ -413,6 +414,9 @@ def _forget_habits(wiring: WindowController) -> None:
     runner._last, runner.cursor = CanvasTool.LINE, (0.0, 0.0)
     runner._desk.numbers.clear()
     wiring.language.lines._line = ""
+    if changed_keys(wiring.window_.actions_):
+        wiring.shortcuts.reset_all()
+        wiring.window_.preferences.settings = Settings()
     recovery = wiring.recovery_controller
     recovery._timer.stop()
     recovery._worker.finish(20.0)
