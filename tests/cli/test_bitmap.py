@@ -1,14 +1,13 @@
 """Options and findings of pictures, as a user of the command line meets them."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
 
+from tests.called import Called, call
 from tests.conftest import ROOT
 from tests.raster.test_doubts import plate
 from tests.said import without_how_far
@@ -16,26 +15,20 @@ from tests.said import without_how_far
 FIG2 = ROOT / "tests" / "data" / "dxf" / "fig2.dxf"
 
 
-def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "app", *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, timeout=300
-    )
-
-
 @pytest.mark.parametrize(
     "option",
     [("--invert",), ("--despeckle", 0), ("--despeckle", 4), ("--ink", "auto"), ("--dpi", 300), ("--threshold", 9)],
 )
 def test_options_of_pictures_are_refused_for_a_drawing(tmp_path: Path, option: tuple[object, ...]) -> None:
-    done = run("make", FIG2, "-o", tmp_path / "o.ngc", *option)
+    done = call("make", FIG2, "-o", tmp_path / "o.ngc", *option)
     assert done.returncode == 2
     assert without_how_far(done.stderr) == f"hitofude: {option[0]}: fig2.dxf is no picture; leave the option away\n"
 
 
-def made(tmp_path: Path, gray: np.ndarray) -> subprocess.CompletedProcess[str]:
+def made(tmp_path: Path, gray: np.ndarray) -> Called:
     path = tmp_path / "scan.png"
     cv2.imwrite(str(path), gray)
-    return run(
+    return call(
         "make",
         path,
         "-o",

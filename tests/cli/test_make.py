@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from app.cli.main import main
+from tests.called import call
 from tests.said import without_how_far
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -137,7 +138,7 @@ def test_a_full_stdout_is_told_and_keeps_the_status(out: Path) -> None:
 
 @pytest.mark.exhaustive
 def test_findings_give_exit_status_1(out: Path, data: Path) -> None:
-    done = run("make", data / "dxf/forms.dxf", "-o", out, "--pocket-tool=60", "--contour-tool=40")
+    done = call("make", data / "dxf/forms.dxf", "-o", out, "--pocket-tool=60", "--contour-tool=40")
     assert done.returncode == 1
     assert "  ! " in done.stdout
     assert "is too small" in done.stdout
@@ -193,7 +194,7 @@ def test_help_and_version_need_no_heavy_library() -> None:
 
 
 def test_help_of_make_names_every_option() -> None:
-    text = run("make", "--help").stdout
+    text = call("make", "--help").stdout
     options = """--job --contour-tool --pocket-tool --stepover --overlap --depth --stepdown --stock-to-leave --safe-z
     --feed --plunge
         --speed --climb --conventional --order --post --out-units --units --origin --layer --join-tolerance --image

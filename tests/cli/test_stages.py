@@ -4,8 +4,6 @@ mistake.
 
 import json
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import cv2
@@ -14,16 +12,11 @@ import pytest
 
 from app.exhibits.stage_files import PALETTE
 from app.raster.frame import PixelCode
+from tests.called import call
 from tests.conftest import ROOT
 from tests.said import without_how_far
 
 FIG2 = ROOT / "tests" / "data" / "dxf" / "fig2.dxf"
-
-
-def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "app", *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, timeout=300
-    )
 
 
 @pytest.fixture
@@ -40,7 +33,7 @@ def picture(tmp_path: Path) -> Path:
 
 def test_every_step_of_a_drawing_is_written(tmp_path: Path) -> None:
     folder, report = tmp_path / "steps", tmp_path / "r.json"
-    done = run("stages", FIG2, "-o", folder, "--contour-tool", 2, "--pocket-tool", 4, "--report", report)
+    done = call("stages", FIG2, "-o", folder, "--contour-tool", 2, "--pocket-tool", 4, "--report", report)
     assert done.returncode == 0, done.stderr
     assert "34 steps on 400 x 400 px" in done.stdout
     told = json.loads(report.read_text())
@@ -98,7 +91,7 @@ def test_every_step_of_a_drawing_is_written(tmp_path: Path) -> None:
 def test_every_time_of_a_repeated_step_is_written(tmp_path: Path) -> None:
     folder, report = tmp_path / "steps", tmp_path / "r.json"
     assert (
-        run(
+        call(
             "stages", FIG2, "-o", folder, "--contour-tool", 2, "--pocket-tool", 4, "--bitmap", 200, "--report", report
         ).returncode
         == 0
@@ -140,7 +133,7 @@ def colour_of(code: int) -> tuple[int, int, int]:
 @pytest.mark.parametrize("name", ["03_201.npy", "20_142.png", "05_203.txt", "turns/12_301_r1_t001.png"])
 def test_the_report_takes_no_stage_s_place(tmp_path: Path, name: str) -> None:
     (tmp_path / "a" / "turns").mkdir(parents=True)
-    done = run("stages", FIG2, "-o", tmp_path / "a", "--report", tmp_path / "a" / name)
+    done = call("stages", FIG2, "-o", tmp_path / "a", "--report", tmp_path / "a" / name)
     assert done.returncode == 2
     assert (
         "is the name of a stage's own file" in done.stderr
@@ -150,7 +143,7 @@ def test_the_report_takes_no_stage_s_place(tmp_path: Path, name: str) -> None:
 
 
 def test_the_published_fill_shows_where_it_errs(tmp_path: Path, picture: Path) -> None:
-    done = run(
+    done = call(
         "stages",
         FIG2,
         "-o",
@@ -172,7 +165,7 @@ def test_the_published_fill_shows_where_it_errs(tmp_path: Path, picture: Path) -
 
 
 def test_a_picture_is_a_part_and_its_doubts_are_told(tmp_path: Path, picture: Path) -> None:
-    done = run("stages", picture, "-o", tmp_path / "steps", "--dpi", 127, "--contour-tool", 1, "--pocket-tool", 2)
+    done = call("stages", picture, "-o", tmp_path / "steps", "--dpi", 127, "--contour-tool", 1, "--pocket-tool", 2)
     assert done.returncode == 0, done.stderr
     assert "202 x 162 px of 0.2 mm" in done.stdout
     assert "lines meet" in done.stdout
@@ -180,7 +173,7 @@ def test_a_picture_is_a_part_and_its_doubts_are_told(tmp_path: Path, picture: Pa
 
 def test_make_computes_on_pixels_where_asked(tmp_path: Path) -> None:
     out, report = tmp_path / "o.ngc", tmp_path / "r.json"
-    done = run("make", FIG2, "-o", out, "--bitmap", 600, "--report", report)
+    done = call("make", FIG2, "-o", out, "--bitmap", 600, "--report", report)
     assert done.returncode == 0, done.stdout
     told = json.loads(report.read_text())
     assert told["left"]["reachable_mm2"] == 0 < told["left"]["given_up_mm2"]
@@ -195,7 +188,7 @@ def test_make_computes_on_pixels_where_asked(tmp_path: Path) -> None:
 
 
 def test_make_takes_a_picture(tmp_path: Path, picture: Path) -> None:
-    done = run(
+    done = call(
         "make",
         picture,
         "-o",
@@ -236,7 +229,7 @@ def test_make_takes_a_picture(tmp_path: Path, picture: Path) -> None:
     ],
 )
 def test_mistakes_are_told_in_one_line(tmp_path: Path, picture: Path, arguments: str, words: str) -> None:
-    done = run("stages", *arguments.format(fig2=FIG2, tmp=tmp_path, picture=picture).split())
+    done = call("stages", *arguments.format(fig2=FIG2, tmp=tmp_path, picture=picture).split())
     assert done.returncode == 2
     assert words in done.stderr
     assert len(without_how_far(done.stderr).strip().splitlines()) == 1
@@ -244,8 +237,8 @@ def test_mistakes_are_told_in_one_line(tmp_path: Path, picture: Path, arguments:
 
 
 def test_help_names_every_option_and_code() -> None:
-    text = run("stages", "--help").stdout
+    text = call("stages", "--help").stdout
     options = "--variant --bitmap --pitch --dpi --threshold --invert --despeckle --ink --report --quiet --overlap"
     assert all(option in text for option in options.split())
     assert "13 free curve" in text and "turns/NN_STEP_rR_tTTT.png" in text
-    assert "stages DRAWING -o DIR" in run("--help").stdout
+    assert "stages DRAWING -o DIR" in call("--help").stdout

@@ -16,6 +16,7 @@ from app.ui.framework.notice import Notice
 from app.ui.framework.preferences import Preferences
 from app.ui.framework.worker import Worker
 from app.ui.framework.workspace import Workspace
+from app.ui.views.language import command_runner
 from tests.ui.one_window import OneWindow
 
 WAIT_MS = 20_000
@@ -62,8 +63,9 @@ def one_window(run_window):
 
 
 @pytest.fixture
-def wiring(qtbot, one_window):
-    """A window as it is when the program starts."""
+def wiring(qtbot, one_window, monkeypatch):
+    """A window as it is when the program starts; a short line is carried out at once however busy the machine is."""
+    monkeypatch.setattr(command_runner, "AT_ONCE_S", 10.0)
     yield one_window.lend(qtbot)
     one_window.take_back()
 

@@ -4,9 +4,11 @@ not.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QMessageBox, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.core.settings import Settings, ThemeChoice
@@ -16,8 +18,10 @@ from app.drafting.document import Document
 from app.ui.framework.fade import FADE_MS
 from app.ui.framework.fields import ChoiceField, NumberField
 from app.ui.framework.view import View
+from app.ui.framework.worker import Worker
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.reading_section import MODEL_SPACE
+from app.ui.shell.bars.shortcuts import changed_keys
 from app.ui.shell.drawing.inlay_controller import InlayForm
 from app.ui.shell.new_job import MATERIALS
 from app.ui.shell.start import build
@@ -35,6 +39,7 @@ from app.ui.views.surfaces.scene_tabs import SCENE
 from app.ui.views.surfaces.view import ViewDirection
 from app.usecases.smoothing.result import SmoothOptions
 from tests.ui.traces import fixed_values, left_in, traces
+from tests.ui.words import Words, words_in
 
 SIZE = (1280, 800)
 CHILDREN = Qt.FindChildOption.FindDirectChildrenOnly
@@ -57,6 +62,7 @@ class OneWindow:
         self._view = CanvasView()
         self._kept: list[tuple[object, dict[str, object]]] = []
         self._kinds: list[tuple[QToolButton, QAction]] = []
+        self._words: list[Words] = []
 
     def lend(self, qtbot: QtBot) -> WindowController:
         """Return a window as it is when the program starts, shown and active."""
@@ -70,6 +76,7 @@ class OneWindow:
                 self._view = window.canvas.view
             reset(self._wiring, self._view)
             self._kinds = [(each, each.defaultAction()) for each in window.tool_strip.findChildren(QToolButton)]
+            self._words = words_in(window)
             self._kept = [(owner, fixed_values(owner)) for owner in _prepared_when_shown(self._wiring)]
             if self._new is None:  # all new windows are alike
                 self._new = traces(self._wiring)
@@ -97,6 +104,8 @@ class OneWindow:
             for name, value in values.items():
                 if getattr(owner, name) is not value:
                     setattr(owner, name, value)
+        for words in self._words:
+            words.put_back()
 
     def hide(self) -> None:
         """Take the window out of the way of tests that have none, or one of their own."""
@@ -147,21 +156,16 @@ def _take_activity(qtbot: QtBot) -> None:
 def reset(wiring: WindowController, view: CanvasView) -> None:
     """Leave everything that was opened, drawn, chosen, typed and computed, and look at the canvas as before."""
     window, empty = wiring.window_, Document()
+    workers = window.findChildren(Worker)
     wiring.cancel()
-    window.worker.finish(20.0)
-    _forget_changes(wiring)
+    _end_jobs(workers)
+    _forget_texts(wiring)
     window.canvas.cancel()
     window.document.load(empty.job)
     wiring.computation.forget()
     wiring.computation.pixels = None
     window.may_close = True
-    wiring.nc.stop_comparing()
-    window.views.nc.other.show_text("", program_text(b""))
-    if wiring.nc.foreign:
-        wiring.nc.back()
-    window.views.nc.set_side(ViewSide.XY)
-    window.views.nc.path_head.colour.show_value(MotionColourBy.TOOL)
-    window.views.nc.set_colour(MotionColourBy.TOOL)
+    _forget_programs(wiring)
     wiring.cut_controller.back()
     window.notice.ask("")
     window.notice.hide()
@@ -172,7 +176,7 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     for name, on in (("snap", True), ("ortho", False), ("grid", False), ("log", True), ("backups", True)):
         window.actions_[name].setChecked(on)
     window.findings_list.hide()
-    if window.preferences.settings.theme is not ThemeChoice.SYSTEM:
+    if not window.actions_["theme_system"].isChecked():
         window.set_theme_choice(ThemeChoice.SYSTEM)
     if window.preferences.settings.language is not Settings().language:
         wiring.translation_controller.choose(Settings().language)
@@ -193,9 +197,33 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.resize(*SIZE)
     window.status.show_message("Not computed")
     _empty_what_is_hidden(wiring)
+    _end_jobs(workers)
     _settle()
     window.canvas.set_view(view)
     _forget_habits(wiring)
+
+
+def _end_jobs(workers: Iterable[Worker]) -> None:
+    """Leave every job of the window, followed by its activity or not: an answer that comes later would be shown in the
+    next test.
+    """
+    for worker in workers:
+        worker.cancel()
+        worker.finish(20.0)
+
+
+def _forget_programs(wiring: WindowController) -> None:
+    """Take away programs that are not the job's, and how the NC view was looked at."""
+    view = wiring.window_.views.nc
+    wiring.nc.stop_comparing()
+    view.other.show_text("", program_text(b""))
+    if wiring.nc.foreign:
+        wiring.nc.back()
+    for pane in (view.pane, view.other):
+        pane.head._offer("as it looks")
+    view.set_side(ViewSide.XY)
+    view.path_head.colour.show_value(MotionColourBy.TOOL)
+    view.set_colour(MotionColourBy.TOOL)
 
 
 def _forget_text(wiring: WindowController) -> None:
@@ -232,7 +260,8 @@ def _close_what_stands_over(wiring: WindowController) -> None:
     wiring.tour.number = 0
     wiring.language.help.hide()
     wiring.language.help._laid_out.clear()
-    for row in wiring.window_.views.legend.rows.values():
+    views = wiring.window_.views
+    for row in (*views.legend.rows.values(), *views.cut.legend.rows.values()):
         row.setChecked(True)
     wiring.palette.hide()
     wiring.palette._entries.clear()
@@ -240,7 +269,8 @@ def _close_what_stands_over(wiring: WindowController) -> None:
     wiring.palette.list.clear()
     window = wiring.window_
     window.views.start.show_files((), ())
-    for made in (*window.findChildren(InlayForm), *window.canvas.findChildren(QMenu, options=CHILDREN)):
+    boxes = window.findChildren(QMessageBox, options=CHILDREN)
+    for made in (*boxes, *window.findChildren(InlayForm), *window.canvas.findChildren(QMenu, options=CHILDREN)):
         made.setParent(None)
         made.deleteLater()
 
@@ -310,10 +340,13 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
         *(each.field for each in form.fields.values()),
         *(wiring.language.control.trial_runner, wiring.plot_controller, wiring.plot_controller._preview),
         *(window.plot_panel, window.plot_panel.factor, window.canvas._trial_picture, wiring.language.help),
-        *(wiring.stages_controller, wiring.stages_controller._view.pixels),
+        *(wiring.stages_controller, views.stages.pixels, views.stages.pixels._hand),
+        *(*views.start.new.lengths, views.start.new.corners),
+        *(wiring.cleanup_controller, wiring.cleanup_controller._section.tolerance, wiring.tab_controller),
+        window.canvas.turns,
         *(window.stages_panel, window.stages_panel.points, window.stages_panel.pitch),
         *(form.peck_picture, form.side_picture, *window.cut_form.stock),
-        *(views.cut_page.player, views.cut_page.transport.plot, wiring.files),
+        *(views.cut_page.player, views.cut_page.transport.plot, wiring.files, wiring.files.open_controller),
     )
 
 
@@ -373,7 +406,7 @@ def _forget_habits(wiring: WindowController) -> None:
     """Let nobody remember what was typed and drawn last, and where the mouse was."""
     legend = wiring.window_.views.legend
     legend.fold.setChecked(False)
-    legend._folded_for_room = False
+    legend._folded_for_room, legend._fits = False, True
     wiring.window_.canvas.mouse = None
     line, runner = wiring.window_.command_line, wiring.window_.canvas.runner
     line._typed.clear()
@@ -381,6 +414,9 @@ def _forget_habits(wiring: WindowController) -> None:
     runner._last, runner.cursor = CanvasTool.LINE, (0.0, 0.0)
     runner._desk.numbers.clear()
     wiring.language.lines._line = ""
+    if changed_keys(wiring.window_.actions_):
+        wiring.shortcuts.reset_all()
+        wiring.window_.preferences.settings = Settings()
     recovery = wiring.recovery_controller
     recovery._timer.stop()
     recovery._worker.finish(20.0)
@@ -393,6 +429,11 @@ def _forget_habits(wiring: WindowController) -> None:
 def _forget_changes(wiring: WindowController) -> None:
     """Let nothing be asked about changes that are not saved."""
     wiring.document.load(wiring.document.job)
+    _forget_texts(wiring)
+
+
+def _forget_texts(wiring: WindowController) -> None:
+    """Let nothing be asked about texts that are not saved."""
     wiring.language.control.text = ""
     wiring.window_.scene.document.setModified(False)
 

@@ -3,15 +3,20 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
 
+from app.ui.framework.computation import ComputationState
+from app.ui.framework.view import View, views
 from app.ui.shell.window_controller import WindowController
 from app.ui.views.canvas.modes import CanvasTool
 from tests.conftest import ROOT
+from tests.ui.nc.opened import SMALL, WAIT_MS, open_file
 from tests.ui.one_window import OneWindow
 from tests.ui.traces import differences, traces
+from tests.ui.words import said_by
 
 
 @pytest.fixture(scope="module")
@@ -37,6 +42,60 @@ def test_after_drawing_and_typing_the_window_is_as_new(qtbot, own: OneWindow) ->
     assert again is first and own.made == made
     assert not again.document.part.entities and not again.document.undo_name
     assert again.log.lines == []
+
+
+def open_a_program(qtbot, wiring: WindowController, folder: Path) -> None:
+    """A foreign one, which does not tell its tool: it is asked for beside the cut."""
+    first, second = folder / "one.ngc", folder / "other.ngc"
+    first.write_text(SMALL)
+    second.write_text(SMALL.replace("X40", "X41"))
+    view = open_file(qtbot, wiring, first)
+    wiring.nc.compare(second)
+    qtbot.waitUntil(lambda: view.compared is not None, timeout=WAIT_MS)
+    wiring.nc.show_cut()
+    qtbot.waitUntil(lambda: wiring.window_.cut_form.name.text() == first.name, timeout=WAIT_MS)
+
+
+def open_the_sample_and_its_cut(qtbot, wiring: WindowController, folder: Path) -> None:
+    wiring.files.open_sample()
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
+    wiring.display_controller.show_view(View.CUT)
+    qtbot.waitUntil(lambda: wiring.cut_controller.cut is not None, timeout=WAIT_MS)
+
+
+def look_at_every_view_and_page(qtbot, wiring: WindowController, folder: Path) -> None:
+    wiring.run("rect 0,0 40,20")
+    for view in views():
+        wiring.display_controller.show_view(view)
+    for page in wiring.window_.side.tabs:
+        wiring.window_.side.show_page(page)
+    wiring.palette.open()
+
+
+def leave_while_programs_are_read(qtbot, wiring: WindowController, folder: Path) -> None:
+    """What comes too late is nobody's."""
+    path = folder / "late.ngc"
+    path.write_text(SMALL)
+    wiring.files.open_file(path)
+    wiring.files.open_sample()
+
+
+OPENERS = [open_a_program, open_the_sample_and_its_cut, look_at_every_view_and_page, leave_while_programs_are_read]
+
+
+@pytest.mark.parametrize("opener", OPENERS)
+def test_whatever_was_opened_no_widget_tells_of_it_seen_or_not(qtbot, own: OneWindow, tmp_path: Path, opener) -> None:
+    """A page that is hidden is translated, and searched, as one that is seen."""
+    first, made = own.lend(qtbot), own.made
+    before = said_by(first.window_)
+    opener(qtbot, first, tmp_path)
+    own.take_back()
+    assert "\n".join(own.left) == ""
+    again = own.lend(qtbot)
+    qtbot.wait(50)
+    assert again is first and own.made == made
+    assert not again.nc.foreign and not again.document.part.entities
+    assert said_by(again.window_) == before
 
 
 def hide_the_menus(wiring: WindowController) -> None:
@@ -73,6 +132,17 @@ def test_traces_see_values_of_every_kind(qtbot, own: OneWindow) -> None:
     wiring.document.run("circle 0,0 5")
     told = differences(before, traces(wiring))
     assert any("radius" in line and "5.0" in line for line in told)
+    own.take_back()
+
+
+def test_what_is_worked_out_of_the_rest_is_no_trace(qtbot, own: OneWindow) -> None:
+    """Whoever asks first has it remembered, and nothing is another."""
+    wiring = own.lend(qtbot)
+    theme = wiring.window_.theme
+    vars(theme).pop("tools", None)
+    before = traces(wiring)
+    assert theme.tools and "tools" in vars(theme)
+    assert differences(before, traces(wiring)) == []
     own.take_back()
 
 

@@ -11,7 +11,7 @@ import dataclasses
 import enum
 from collections import Counter, deque
 from collections.abc import Iterable, Iterator, Mapping
-from functools import cache
+from functools import cache, cached_property
 from itertools import islice
 from pathlib import Path
 from types import FunctionType, MethodType
@@ -171,8 +171,19 @@ def _parts(value: object) -> Iterator[tuple[str, object]]:
 
 
 def _names(value: object) -> Iterable[str]:
-    slots, own = _slots(type(value)), getattr(value, "__dict__", {})
-    return dict.fromkeys([*own, *slots]) if slots else own
+    slots, own, derived = _slots(type(value)), getattr(value, "__dict__", {}), _derived(type(value))
+    names = dict.fromkeys([*own, *slots]) if slots else own
+    return [name for name in names if name not in derived] if derived else names
+
+
+@cache
+def _derived(kind: type) -> frozenset[str]:
+    """Return the names of what a class works out of the rest when it is first asked for: remembered by who was asked,
+    and the same whether or not anybody asked.
+    """
+    return frozenset(
+        name for base in kind.__mro__ for name, made in vars(base).items() if isinstance(made, cached_property)
+    )
 
 
 @cache
