@@ -133,6 +133,11 @@ def test_along_a_circle_beside_a_cleared_one_the_angle_is_greatest_where_the_for
     assert seen == pytest.approx(bound, abs=2e-4)
 
 
+@pytest.mark.parametrize("radius", [3.2, 5.0, 20.0])
+def test_a_circle_about_the_origin_has_a_path(radius: float) -> None:
+    assert len(planned([circle(radius)])) == 1
+
+
 @pytest.mark.parametrize("turn", [0.5, 3.0, 40.0])
 def test_ground_that_is_just_clear_enough_gives_the_planned_angle(turn: float) -> None:
     assert engaged_angle(turn, LIMIT.clear_needed(turn) - LIMIT.slack) == pytest.approx(LIMIT.planned, abs=1e-12)

@@ -142,8 +142,9 @@ def _pruned(axis: RoughAxis, first: int, room: WallClearance) -> RoughAxis:
             for k in way:
                 for end in edges[k].tolist():
                     alive[end] -= 1
-    points, edges = axis.points, edges[kept]
-    return RoughAxis(points, axis.reach, edges)
+    # points without an edge go too: a part of which nothing is left is one that still needs its middle
+    points, edges = _renumbered(axis.points, edges[kept])
+    return RoughAxis(points, room.reach(points), edges)
 
 
 def _branch(

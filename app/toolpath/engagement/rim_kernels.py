@@ -3,9 +3,10 @@
 What is clear of metal is known as convex shapes, a row each: a disc, cut by up to two half planes: (cx, cy, radius, nx,
 ny, h, mx, my, k), points p with |p - c| <= radius, n.p <= h and m.p <= k, mm; a half plane that is none has n = 0, h =
 inf. Every circle crosses the border of such a shape at no more than six places, in closed form, so at one place of a
-cutter the rim that no shape covers is known exactly. Along a piece of a path no point of the rim moves by more than
-half the piece's length from where it is in the middle, so what shapes that are so much smaller cover there is covered
-all along: the rest is a bound. A piece of which the bound is too large is halved.
+cutter the rim that no shape covers is known exactly. Along a line or an arc every point of the rim goes along a line,
+or an arc about the same centre, which leaves its chord by no more than the outermost does. So what of the rim a shape
+that is so much smaller holds at both ends of a piece, it holds all along, as it is convex: the rest is a bound. A piece
+of which the bound is too large is halved.
 """
 
 from __future__ import annotations
@@ -15,11 +16,11 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
-from ...geometry.sort_kernels import sort_numbers
 
 _SHAPES = "float64[:, ::1]"
 _HALF, _TURN = math.pi / 2, 2 * math.pi
 _STACK = 64
+_ROUNDING = 1e-12  # radians between stretches that end and begin at one place
 _ALIKE = 1e-3  # radians by which a bound may grow from piece to piece without a closer look
 
 
@@ -62,6 +63,63 @@ def _borders(shapes, k, circle, less, out):
     return count
 
 
+@kernel(f"int64({_SHAPES}, int64, UniTuple(float64, 3), float64, UniTuple(float64, 2), float64[:, ::1])", counts=False)
+def _stretches(shapes, k, circle, less, window, out):
+    """Put the stretches (begin, end) of a part of a circle that shape k covers into `out`; return how many."""
+    first, size = window
+    own = out[6]
+    found, count = _borders(shapes, k, circle, less, own), 0
+    for i in range(1, found):
+        j = i
+        while j > 0 and (own[j] - first) % _TURN < (own[j - 1] - first) % _TURN:
+            own[j - 1], own[j] = own[j], own[j - 1]
+            j -= 1
+    for i in range(max(found, 1)):
+        begin = (own[i] - first) % _TURN if found else 0.0
+        end = (own[i + 1] - first) % _TURN if i + 1 < found else begin + _TURN
+        if found and i + 1 == found:
+            end = (own[0] - first) % _TURN + _TURN
+        # between two neighbouring crossings no border is met, so the middle speaks for all of the stretch
+        middle = first + (begin + end) / 2
+        if not _holds(
+            shapes, k, circle[0] + circle[2] * math.cos(middle), circle[1] + circle[2] * math.sin(middle), less
+        ):
+            continue
+        if begin < size:
+            out[count, 0], out[count, 1] = begin, min(end, size)
+            count += 1
+        if end > _TURN:
+            out[count, 0], out[count, 1] = 0.0, min(end - _TURN, size)
+            count += 1
+    return count
+
+
+@kernel(f"float64[:, ::1]({_SHAPES}, UniTuple(float64, 3), float64, UniTuple(float64, 2))")
+def _covered(shapes, circle, less, window):
+    """Return the stretches (n, 2) of a part of a circle that shapes cover, by where they begin, radians from the part's
+    beginning.
+    """
+    own, count = np.empty((8, 6)), 0
+    found = np.empty((7 * len(shapes), 2))
+    for k in range(len(shapes)):
+        for j in range(_stretches(shapes, k, circle, less, window, own)):
+            found[count, 0], found[count, 1] = own[j, 0], own[j, 1]
+            count += 1
+    order = np.argsort(found[:count, 0])
+    return found[order]
+
+
+@kernel("float64(float64[:, ::1], float64)", counts=False)
+def _bare(covered, size):
+    """Return how much of a part of a circle stretches leave, which are in order."""
+    bare, reached = 0.0, 0.0
+    for k in range(len(covered)):
+        if covered[k, 0] - reached > _ROUNDING:
+            bare += covered[k, 0] - reached
+        reached = max(reached, covered[k, 1])
+    return bare + size - reached if size - reached > _ROUNDING else bare
+
+
 @kernel(f"float64({_SHAPES}, UniTuple(float64, 3), float64, UniTuple(float64, 2))")
 def uncovered(shapes, circle, less, window):
     """Return how much of a part of a circle no shape covers, radians.
@@ -71,49 +129,46 @@ def uncovered(shapes, circle, less, window):
         less: so much smaller are all shapes taken to be, mm.
         window: angle at which the part begins, and its size, at most a full turn, radians.
     """
-    first, size = window
-    angles, own, count = np.empty(6 * len(shapes) + 2), np.empty(6), 2
-    angles[0], angles[1] = 0.0, size
-    for k in range(len(shapes)):
-        for j in range(_borders(shapes, k, circle, less, own)):
-            angle = (own[j] - first) % _TURN
-            if angle < size:
-                angles[count] = angle
-                count += 1
-    angles = angles[:count]
-    sort_numbers(angles)
-    bare = 0.0
-    for i in range(count - 1):
-        wide = angles[i + 1] - angles[i]
-        if wide <= 0.0:
-            continue
-        # between two neighbouring crossings no border is met, so the middle speaks for all of the stretch
-        middle = first + angles[i] + wide / 2
-        x, y = circle[0] + circle[2] * math.cos(middle), circle[1] + circle[2] * math.sin(middle)
-        held = False
-        for k in range(len(shapes)):
-            if _holds(shapes, k, x, y, less):
-                held = True
-                break
-        if not held:
-            bare += wide
-    return bare
+    return _bare(_covered(shapes, circle, less, window), window[1])
+
+
+@kernel("UniTuple(float64, 3)(float64[::1], float64, float64)", counts=False)
+def _pose(row, sweep, share):
+    """Return a place of a row, and the direction of travel there."""
+    if row[7] == 0.0:
+        dx, dy = row[2] - row[0], row[3] - row[1]
+        return row[0] + dx * share, row[1] + dy * share, math.atan2(dy, dx)
+    angle = math.atan2(row[1] - row[5], row[0] - row[4]) + sweep * share
+    ahead = angle + (_HALF if sweep > 0.0 else -_HALF)
+    return row[4] + row[6] * math.cos(angle), row[5] + row[6] * math.sin(angle), ahead
 
 
 @kernel(f"float64({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 2))")
 def _piece(shapes, row, radius, sweep, span):
-    """Return a bound of the engaged angle along a piece of a row; `sweep`: of the row, signed, and its length."""
-    middle, long = (span[0] + span[1]) / 2, sweep[1] * (span[1] - span[0])
-    if row[7] == 0.0:
-        dx, dy = row[2] - row[0], row[3] - row[1]
-        x, y, ahead, turn = row[0] + dx * middle, row[1] + dy * middle, math.atan2(dy, dx), 0.0
-    else:
-        angle = math.atan2(row[1] - row[5], row[0] - row[4]) + sweep[0] * middle
-        x, y = row[4] + row[6] * math.cos(angle), row[5] + row[6] * math.sin(angle)
-        ahead, turn = angle + (_HALF if sweep[0] > 0.0 else -_HALF), abs(sweep[0]) * (span[1] - span[0]) / 2
-    # the front half of the rim, and by how much the direction turns within the piece to either side
-    wide = min(_TURN, math.pi + 2 * turn)
-    return uncovered(shapes, (x, y, radius), long / 2, (ahead - wide / 2, wide))
+    """Return a bound of the engaged angle along a piece of a row; `sweep`: of the row, signed, and its length.
+
+    What one shape covers of the rim's front half at both ends of the piece, it covers all along.
+    """
+    turned = min(abs(sweep[0]) * (span[1] - span[0]) / 2, math.pi)
+    bulge = (row[6] + radius) * (1.0 - math.cos(turned))
+    x, y, ahead = _pose(row, sweep[0], span[0])
+    first, before = (x, y, radius), (ahead - _HALF, math.pi)
+    x, y, ahead = _pose(row, sweep[0], span[1])
+    last, after = (x, y, radius), (ahead - _HALF, math.pi)
+    own, other, count = np.empty((8, 6)), np.empty((8, 6)), 0
+    found = np.empty((14 * len(shapes), 2))
+    for k in range(len(shapes)):
+        many = _stretches(shapes, k, first, bulge, before, own)
+        if many == 0:
+            continue
+        for j in range(_stretches(shapes, k, last, bulge, after, other)):
+            for i in range(many):
+                begin, end = max(own[i, 0], other[j, 0]), min(own[i, 1], other[j, 1])
+                if begin < end:
+                    found[count, 0], found[count, 1] = begin, end
+                    count += 1
+    order = np.argsort(found[:count, 0])
+    return _bare(found[order], math.pi)
 
 
 @kernel(f"UniTuple(float64, 2)({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 4))")
