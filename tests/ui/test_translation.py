@@ -14,9 +14,13 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, 
 from app.core.settings import Language, load_settings
 from app.ui.framework.catalogue import Catalogue, catalogue, catalogue_files, set_language, tr
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
+from app.ui.framework.legend import LegendRow
+from app.ui.framework.samples import PathLineKind
 from app.ui.framework.theme import TEXT_PX
 from app.ui.shell.bars.actions import menus, plain
 from app.ui.shell.translation import code_of, translate, translate_all
+from app.ui.shell.view_pages import NO_PART
+from app.ui.shell.view_stack import EmptyState
 from app.ui.views.canvas.prompt_tool import PromptTool
 from app.ui.views.canvas.tool_table import TOOLS
 from app.ui.views.nc.places_panel import ListedPlace, PlacesPanel, PlaceWeight
@@ -38,6 +42,29 @@ def english_again():
 def japanese(wiring):
     wiring.window_.actions_["language_ja"].trigger()
     return wiring
+
+
+def test_an_empty_state_is_as_wide_as_its_words_in_the_language(qtbot) -> None:
+    set_language("ja")
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    parent.resize(900, 400)
+    empty = EmptyState(parent)
+    parent.show()
+    for sentence in (NO_PART.sentence, "Computing tool paths."):
+        empty.say(sentence, "Open drawing")
+        translate(empty.sentence)  # as when it is painted
+        qtbot.waitUntil(lambda: empty.size() == empty.sizeHint())
+        assert empty.sentence.width() >= empty.sentence.sizeHint().width()
+
+
+def test_a_row_of_the_legend_is_read_whole_in_the_language(qtbot) -> None:
+    set_language("ja")
+    row = LegendRow(PathLineKind.POCKET)
+    qtbot.addWidget(row)
+    for count in range(1, 6):
+        row.show_names("Pocket", [f"T{number}" for number in range(1, count + 1)], 180)
+        assert row.label.fontMetrics().horizontalAdvance(tr(row.label.text())) <= 180 - 76
 
 
 def texts(window: QWidget) -> list[str]:
@@ -250,7 +277,7 @@ def test_the_log_and_the_mouse_speak_japanese(japanese) -> None:
         japanese.window_.command_line.entered.emit(line)
     log = japanese.window_.command_line.log
     shown = [
-        log.model().data(log.model().index(row, 0), Qt.ItemDataRole.ToolTipRole).split("\n")[1]
+        log.model().data(log.model().index(row, 0), Qt.ItemDataRole.ToolTipRole).split("</p>")[1]
         for row in range(len(log.lines))
     ]
     assert [JAPANESE.search(text) is not None for text in shown] == [True] * 5, shown

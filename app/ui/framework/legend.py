@@ -8,6 +8,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
+from .catalogue import tr
 from .icons import IconButton
 from .labels import Elided
 from .samples import LineSample, PathLineKind
@@ -47,7 +48,7 @@ class LegendRow(QToolButton):
         room, measure = width - _BESIDE_PX, self.label.fontMetrics().horizontalAdvance
         whole = " ".join((kind, *names))
         shorter = (f"{' '.join((kind, *names[:count]))} …" for count in range(len(names) - 1, 0, -1))
-        self.label.setText(next((text for text in (whole, *shorter) if measure(text) <= room), kind))
+        self.label.setText(next((text for text in (whole, *shorter) if measure(tr(text)) <= room), kind))
         self.setToolTip(f"Show or hide: {whole[:1].lower()}{whole[1:]}")
 
     def _show_state(self, on: bool) -> None:
