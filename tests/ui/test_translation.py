@@ -44,6 +44,30 @@ def japanese(wiring):
     return wiring
 
 
+@pytest.mark.parametrize(
+    ("english", "japanese"),
+    [
+        ("1.5 mm² left within reach", "届く所の削り残し 1.5 mm²"),
+        (
+            "2.655 mm² in 11 places is out of reach of every tool; a disc of 0.513 mm would fit at (6.257, 6.257); "
+            "a smaller contour tool reaches farther.",
+            "2.655 mm² (11 か所) にはどの工具も届きません。直径 0.513 mm の円が (6.257, 6.257) に入る大きさです。"
+            "細い輪郭工具なら先まで届きます。",
+        ),
+        (
+            "Read back within 0.0001 mm; cut out of its stock, 7\u2009990 mm³ of it; no gouge (0.0000 mm), nothing left "
+            "within reach, no rapid in metal; no point between the cells deeper than 0.150 mm into the part.",
+            "読み返しの差 0.0001 mm 以内。素材から 7\u2009990 mm³ を切削: 食込みなし (0.0000 mm)、届く所の削り残しなし、"
+            "素材内の早送りなし。セルの間でも部品への食込みは 0.150 mm 以下。",
+        ),
+        ("No findings, 1 remark", "問題なし、備考 1 件"),
+        ("2 findings, 1 remark", "検査結果 2 件、備考 1 件"),
+    ],
+)
+def test_what_is_proven_and_found_is_said_whole(english: str, japanese: str) -> None:
+    assert catalogue("ja").look_up(english) == japanese
+
+
 def test_an_empty_state_is_as_wide_as_its_words_in_the_language(qtbot) -> None:
     set_language("ja")
     parent = QWidget()

@@ -179,7 +179,7 @@ class FindingsList(QFrame):
         return area
 
     def _row(self, finding: Finding) -> ListRow:
-        label = QLabel(finding.text.replace("mm2", "mm²"))
+        label = QLabel(tr(finding.text.replace("mm2", "mm²")))  # now, since its height is fixed
         label.setWordWrap(True)
         label.setFixedWidth(_TEXT_PX)
         label.setToolTip(short(finding))
