@@ -57,15 +57,6 @@ def test_changed_tool_makes_the_paths_out_of_date_until_f5(qtbot, computed):
     assert "4" in next(t.label for t in computed.computation.made.job.tools if t.number == 1)
 
 
-def test_a_compute_begun_while_one_runs_ends_up_to_date(qtbot, wiring):
-    wiring.run("rect 0,0 30,20")
-    wiring.computation.start()
-    wiring.computation.start()
-    done = (ComputationState.CURRENT, ComputationState.STALE, ComputationState.FAILED)
-    qtbot.waitUntil(lambda: wiring.computation.state in done, timeout=WAIT_MS)
-    assert wiring.computation.state is ComputationState.CURRENT
-
-
 def test_undo_of_the_change_makes_the_paths_current_again(qtbot, computed):
     computed.document.run("circle 150,50 10")
     assert computed.computation.state is ComputationState.STALE
