@@ -24,16 +24,18 @@ _BESIDE_PX = 76
 class LegendRow(QToolButton):
     """One kind of line; a click shows or hides it."""
 
-    def __init__(self, sample: PathLineKind) -> None:
+    def __init__(self, sample: PathLineKind, words: str = "") -> None:
+        """Make one; `words` name it where those of the sample do not."""
         super().__init__()
+        words = words or sample.value
         self.setCheckable(True)
         self.setChecked(True)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setFixedHeight(24)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.line, self.label = LineSample(sample), Elided(sample.value)
-        self.setAccessibleName(f"Show {sample.value.lower()}")
-        self.setToolTip(f"Show or hide: {sample.value.lower()}")
+        self.line, self.label = LineSample(sample), Elided(words)
+        self.setAccessibleName(f"Show {words.lower()}")
+        self.setToolTip(f"Show or hide: {words.lower()}")
         row = QHBoxLayout(self)
         row.setContentsMargins(4, 0, 8, 0)
         row.setSpacing(10)
