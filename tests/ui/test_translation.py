@@ -55,10 +55,10 @@ def japanese(wiring):
             "細い輪郭工具なら先まで届きます。",
         ),
         (
-            "Read back within 0.0001 mm; cut out of its stock, 7\u2009990 mm³ of it; no gouge (0.0000 mm), nothing left "
-            "within reach, no rapid in metal; no point between the cells deeper than 0.150 mm into the part.",
-            "読み返しの差 0.0001 mm 以内。素材から 7\u2009990 mm³ を切削: 食込みなし (0.0000 mm)、届く所の削り残しなし、"
-            "素材内の早送りなし。セルの間でも部品への食込みは 0.150 mm 以下。",
+            "Read back within 0.0001 mm; cut out of its stock, 7\u2009990 mm³ of it; no gouge (0.0000 mm), nothing "
+            "left within reach, no rapid in metal; no point between the cells deeper than 0.150 mm into the part.",
+            "読み返しの差 0.0001 mm 以内。素材から 7\u2009990 mm³ を切削: 食込みなし (0.0000 mm)、"
+            "届く所の削り残しなし、素材内の早送りなし。セルの間でも部品への食込みは 0.150 mm 以下。",
         ),
         ("No findings, 1 remark", "問題なし、備考 1 件"),
         ("2 findings, 1 remark", "検査結果 2 件、備考 1 件"),
@@ -296,10 +296,11 @@ def test_every_tool_asks_in_japanese(kind) -> None:
     assert left_english({tr(tool.prompt), *asked}) == []
 
 
-def test_the_log_and_the_mouse_speak_japanese(japanese) -> None:
+def test_the_log_and_the_mouse_speak_japanese(qtbot, japanese) -> None:
     for line in ("line 0,0 10,0", "circle 5,5 2", "undo", "lime 1,1", "circle 5,5"):
         japanese.window_.command_line.entered.emit(line)
     log = japanese.window_.command_line.log
+    qtbot.waitUntil(lambda: len(log.lines) == 5)
     shown = [
         log.model().data(log.model().index(row, 0), Qt.ItemDataRole.ToolTipRole).split("</p>")[1]
         for row in range(len(log.lines))

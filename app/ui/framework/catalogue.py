@@ -64,7 +64,7 @@ class Catalogue:
         self.look_up = lru_cache(_REMEMBERED)(self._look_up)
 
     def _look_up(self, text: str) -> str | None:
-        """Return a text in this language, or None when it is not in the catalogue; areas are found as mm2 and as mm²."""
+        """Return a text in this language, or None where the catalogue lacks it; areas are found as mm2 and as mm²."""
         found = self._found(_as_written(text))
         return found if found is None or "mm²" not in text else _AREA.sub("mm²", found)
 

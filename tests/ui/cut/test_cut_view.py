@@ -209,8 +209,9 @@ def test_legend_explains_the_colours_and_chooses_them(qtbot, view, picture):
 
 
 def test_what_cuts_is_called_no_pocket_since_a_program_may_have_none(qtbot):
-    legend = CutLegend(QWidget())
-    qtbot.addWidget(legend.parentWidget())
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    legend = CutLegend(parent)
     row = legend.rows[PathLineKind.POCKET]
     assert (row.label.text(), row.accessibleName()) == ("Cutting moves", "Show cutting moves")
     assert legend.rows[PathLineKind.CONTOUR].label.text() == "Contour"

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 )
 
 from ....model.finding import Finding
+from ...framework.catalogue import tr
 from ...framework.controller import OfferedMend
 from ...framework.fields import restyle
 from ...framework.figures import counted
