@@ -60,6 +60,12 @@ def japanese(wiring):
             "読み返しの差 0.0001 mm 以内。素材から 7\u2009990 mm³ を切削: 食込みなし (0.0000 mm)、"
             "届く所の削り残しなし、素材内の早送りなし。セルの間でも部品への食込みは 0.150 mm 以下。",
         ),
+        (
+            "T1 flat 6 mm: 1 entry is straight down as no ramp fits, at (43.929, 9.286); 3 entries are a helix as no "
+            "drilled hole is near, the first at (1.000, -2.000).",
+            "T1 フラット 6 mm: 1 か所の進入はランプが入らないため真下への突込み、位置 (43.929, 9.286)。"
+            "3 か所の進入は近くに下穴がないためヘリカル (最初は (1.000, -2.000))。",
+        ),
         ("No findings, 1 remark", "問題なし、備考 1 件"),
         ("2 findings, 1 remark", "検査結果 2 件、備考 1 件"),
     ],
