@@ -307,15 +307,24 @@ class Job:
                     return k
         return None
 
+    def needed_tools(self) -> tuple[Tool, ...]:
+        """Return the tools that operations have, or ask to come before them, switched on or not; in the job's order."""
+        pairs = [(each, tool) for each in self.operations for tool in self.tools if tool.number == each.cut.tool]
+        before = (wanted.cut.tool for operation, tool in pairs for wanted in operation.prepared_by(tool))
+        numbers = {*(tool.number for _, tool in pairs), *before}
+        return tuple(tool for tool in self.tools if tool.number in numbers)
+
     def same_paths(self, other: Job) -> bool:
         """Return whether another job comes to the same paths: layers that hold nothing, colours, locks, depths that
-        the drawing tells, and what the stock is made of make none.
+        the drawing tells, what the stock is made of, and tools that no operation has make none.
         """
         if self is other:
             return True
         mine, theirs = self.part, other.part
         stock = replace(self.stock, material=other.stock.material)
-        return replace(self, part=theirs, stock=stock) == other and replace(
+        if self.needed_tools() != other.needed_tools():
+            return False
+        return replace(self, part=theirs, stock=stock, tools=other.tools) == other and replace(
             mine, layers=mine.machined_layers, depths=()
         ) == replace(theirs, layers=theirs.machined_layers, depths=())
 

@@ -55,7 +55,7 @@ def _box(contour: Contour) -> tuple[float, float, float, float]:
 
 def stock_box(job: Job, regions: Iterable[Region], lines: Iterable[Contour] = ()) -> StockBox:
     """Return the stock of a job: the extent of its regions and of the open lines that it follows, and the margin round
-    them; where that has no width, as round one straight line, the widest tool's radius.
+    them; where that has no width, as round one straight line, the radius of the widest tool in use.
 
     Raises:
         ParameterError: there is neither.
@@ -66,7 +66,7 @@ def stock_box(job: Job, regions: Iterable[Region], lines: Iterable[Contour] = ()
             "The part has no closed contour, so there is no stock to set the work origin on; close a contour first."
         )
     x0, y0, x1, y1 = box
-    margin, widest = job.stock.margin, max((tool.radius for tool in job.tools), default=0.0)
+    margin, widest = job.stock.margin, max((tool.radius for tool in job.needed_tools()), default=0.0)
     beside_x = margin if x1 > x0 else max(margin, widest)
     beside_y = margin if y1 > y0 else max(margin, widest)
     thickness, above = job.stock.thickness, job.stock.above

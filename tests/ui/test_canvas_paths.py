@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -15,11 +16,14 @@ from app.drafting.document import Document
 from app.formats.dxf.dxf import read_dxf
 from app.model.curves import Circle
 from app.model.finding import Finding, FindingKind
+from app.model.hole_operations import BoreOperation
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour, Entity, Part, Region
 from app.operations.compute import compute
 from app.toolpath.coverage.coverage import UncutPlace
+from app.ui.framework.samples import sample_of, sample_pen
 from app.ui.framework.theme import DARK, LIGHT, Theme
 from app.ui.views.canvas.canvas import Canvas, CanvasMode, CanvasTool, PathColourBy, PathLayers
 from app.ui.views.canvas.painting.move_shapes import shape_moves
@@ -107,6 +111,21 @@ def share(places: list[list[QColor]], wanted: QColor) -> float:
 def test_pocket_is_solid_and_contour_is_dashed(canvas: Canvas) -> None:
     assert share(along_circle(canvas, (20, 20), 10), LIGHT.pocket) > 0.9
     assert 0.4 < share(along_circle(canvas, (60, 20), 10), LIGHT.contour) < 0.8
+
+
+def test_paths_have_the_line_of_their_operation_in_the_list_and_the_legend(canvas: Canvas) -> None:
+    hole = [*ring((20, 20), 8, Purpose.CONTOUR, 1), *ring((20, 20), 10, Purpose.POCKET, 1)]
+    moves = moves_of([*hole, *ring((60, 20), 10, Purpose.POCKET, 2)])
+    second = np.arange(len(moves)) >= len(hole)
+    operations = (BoreOperation(CutParameters(tool=1)), PocketOperation(CutParameters(tool=2)))
+    program = Program(replace(moves, operation=second.astype(np.int16), tool=second.astype(np.int16) + np.int16(1)))
+    canvas.set_program(ProgramLayer(program, operations=operations))
+    for (centre, radius), operation in zip((((20, 20), 10), ((60, 20), 10)), operations, strict=True):
+        colour = sample_pen(sample_of(operation), LIGHT).color()
+        assert share(along_circle(canvas, centre, radius), colour) > 0.9
+    canvas.set_visible_layers(PathLayers.ALL & ~PathLayers.POCKET)
+    assert share(along_circle(canvas, (20, 20), 10), LIGHT.plunge) > 0.9, "a hole's ring is none of the pocket's"
+    assert share(along_circle(canvas, (60, 20), 10), LIGHT.pocket) < 0.1
 
 
 def test_colours_follow_the_region_when_asked(canvas: Canvas) -> None:

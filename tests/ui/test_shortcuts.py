@@ -32,6 +32,11 @@ def test_no_two_actions_have_one_key() -> None:
     assert sorted(used) == sorted(set(used))
 
 
+def test_help_is_where_it_is_looked_for() -> None:
+    keys = {spec.name: spec.key for _, specs in menus() for spec in specs}
+    assert (keys["manual"], keys["keys"]) == ("F1", "Ctrl+F1")
+
+
 def test_the_list_has_every_action_and_the_keys_of_the_views(keys: KeysWindow, wiring) -> None:
     assert len(keys._items()) == len(wiring.window_.actions_.specs) + len(FIXED)
     assert row_of(keys, "compute").text(2) == "F5"

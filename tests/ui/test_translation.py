@@ -14,9 +14,13 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, 
 from app.core.settings import Language, load_settings
 from app.ui.framework.catalogue import Catalogue, catalogue, catalogue_files, set_language, tr
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
+from app.ui.framework.legend import LegendRow
+from app.ui.framework.samples import PathLineKind
 from app.ui.framework.theme import TEXT_PX
 from app.ui.shell.bars.actions import menus, plain
 from app.ui.shell.translation import code_of, translate, translate_all
+from app.ui.shell.view_pages import NO_PART
+from app.ui.shell.view_stack import EmptyState
 from app.ui.views.canvas.prompt_tool import PromptTool
 from app.ui.views.canvas.tool_table import TOOLS
 from app.ui.views.nc.places_panel import ListedPlace, PlacesPanel, PlaceWeight
@@ -38,6 +42,59 @@ def english_again():
 def japanese(wiring):
     wiring.window_.actions_["language_ja"].trigger()
     return wiring
+
+
+@pytest.mark.parametrize(
+    ("english", "japanese"),
+    [
+        ("1.5 mm² left within reach", "届く所の削り残し 1.5 mm²"),
+        (
+            "2.655 mm² in 11 places is out of reach of every tool; a disc of 0.513 mm would fit at (6.257, 6.257); "
+            "a smaller contour tool reaches farther.",
+            "2.655 mm² (11 か所) にはどの工具も届きません。直径 0.513 mm の円が (6.257, 6.257) に入る大きさです。"
+            "細い輪郭工具なら先まで届きます。",
+        ),
+        (
+            "Read back within 0.0001 mm; cut out of its stock, 7\u2009990 mm³ of it; no gouge (0.0000 mm), nothing "
+            "left within reach, no rapid in metal; no point between the cells deeper than 0.150 mm into the part.",
+            "読み返しの差 0.0001 mm 以内。素材から 7\u2009990 mm³ を切削: 食込みなし (0.0000 mm)、"
+            "届く所の削り残しなし、素材内の早送りなし。セルの間でも部品への食込みは 0.150 mm 以下。",
+        ),
+        (
+            "T1 flat 6 mm: 1 entry is straight down as no ramp fits, at (43.929, 9.286); 3 entries are a helix as no "
+            "drilled hole is near, the first at (1.000, -2.000).",
+            "T1 フラット 6 mm: 1 か所の進入はランプが入らないため真下への突込み、位置 (43.929, 9.286)。"
+            "3 か所の進入は近くに下穴がないためヘリカル (最初は (1.000, -2.000))。",
+        ),
+        ("No findings, 1 remark", "問題なし、備考 1 件"),
+        ("2 findings, 1 remark", "検査結果 2 件、備考 1 件"),
+    ],
+)
+def test_what_is_proven_and_found_is_said_whole(english: str, japanese: str) -> None:
+    assert catalogue("ja").look_up(english) == japanese
+
+
+def test_an_empty_state_is_as_wide_as_its_words_in_the_language(qtbot) -> None:
+    set_language("ja")
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    parent.resize(900, 400)
+    empty = EmptyState(parent)
+    parent.show()
+    for sentence in (NO_PART.sentence, "Computing tool paths."):
+        empty.say(sentence, "Open drawing")
+        translate(empty.sentence)  # as when it is painted
+        qtbot.waitUntil(lambda: empty.size() == empty.sizeHint())
+        assert empty.sentence.width() >= empty.sentence.sizeHint().width()
+
+
+def test_a_row_of_the_legend_is_read_whole_in_the_language(qtbot) -> None:
+    set_language("ja")
+    row = LegendRow(PathLineKind.POCKET)
+    qtbot.addWidget(row)
+    for count in range(1, 6):
+        row.show_names("Pocket", [f"T{number}" for number in range(1, count + 1)], 180)
+        assert row.label.fontMetrics().horizontalAdvance(tr(row.label.text())) <= 180 - 76
 
 
 def texts(window: QWidget) -> list[str]:
@@ -245,12 +302,13 @@ def test_every_tool_asks_in_japanese(kind) -> None:
     assert left_english({tr(tool.prompt), *asked}) == []
 
 
-def test_the_log_and_the_mouse_speak_japanese(japanese) -> None:
+def test_the_log_and_the_mouse_speak_japanese(qtbot, japanese) -> None:
     for line in ("line 0,0 10,0", "circle 5,5 2", "undo", "lime 1,1", "circle 5,5"):
         japanese.window_.command_line.entered.emit(line)
     log = japanese.window_.command_line.log
+    qtbot.waitUntil(lambda: len(log.lines) == 5)
     shown = [
-        log.model().data(log.model().index(row, 0), Qt.ItemDataRole.ToolTipRole).split("\n")[1]
+        log.model().data(log.model().index(row, 0), Qt.ItemDataRole.ToolTipRole).split("</p>")[1]
         for row in range(len(log.lines))
     ]
     assert [JAPANESE.search(text) is not None for text in shown] == [True] * 5, shown

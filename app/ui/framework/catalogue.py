@@ -25,6 +25,7 @@ _AS_TYPED = re.compile(r"""'[^']*'|"[^"]*"|[.#-]\S+|[A-Z]{1,2}\d*|[-+.\d]+""")
 """Of a list: what is the same in every language: what is quoted, suffixes, options, words of programs, numbers."""
 _LETTER = re.compile(r"[A-Za-z]")
 _COLON = re.compile(": ")
+_AREA = re.compile(r"\bmm2\b")
 _TYPED, _OFFERED = re.compile(r"(?:one of|expected|expected are) $"), re.compile(r"(?:choose|try|use|write) $")
 """What stands before words to choose one of, which have to be typed as they are; the second, where it is a list."""
 
@@ -54,15 +55,20 @@ class Catalogue:
 
     def __init__(self, entries: dict[str, str], lists: Mapping[str, str] | None = None) -> None:
         self._lists = lists or {}
-        self._entries = {text: other for text, other in entries.items() if not _HOLE.search(text)}
-        holed = {text: other for text, other in entries.items() if _HOLE.search(text)}
+        plain = {_as_written(text): other for text, other in entries.items()}
+        self._entries = {text: other for text, other in plain.items() if not _HOLE.search(text)}
+        holed = {text: other for text, other in plain.items() if _HOLE.search(text)}
         most_said_first = sorted(holed, key=_letters, reverse=True)
         self._patterns = [_pattern(text, holed[text]) for text in most_said_first if _letters(text)]
         self._joints = [_pattern(text, holed[text]) for text in most_said_first if not _letters(text)]
         self.look_up = lru_cache(_REMEMBERED)(self._look_up)
 
     def _look_up(self, text: str) -> str | None:
-        """Return a text in this language, or None when it is not in the catalogue."""
+        """Return a text in this language, or None where the catalogue lacks it; areas are found as mm2 and as mm²."""
+        found = self._found(_as_written(text))
+        return found if found is None or "mm²" not in text else _AREA.sub("mm²", found)
+
+    def _found(self, text: str) -> str | None:
         if text in self._entries:
             return self._entries[text]
         core = text.strip()
@@ -155,6 +161,11 @@ class Catalogue:
             return None
         found = [self.look_up(part) or (None if _LETTER.search(part) else part) for part in parts]
         return between.join(part for part in found if part is not None) if None not in found else None
+
+
+def _as_written(text: str) -> str:
+    """Return a text with units of area as files and engines write them."""
+    return text.replace("mm²", "mm2")
 
 
 def _letters(text: str) -> int:

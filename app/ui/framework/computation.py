@@ -133,10 +133,10 @@ class Computation(QObject):
         job, findings = self._document.job, self.drawing_findings
         pixels = self.pixels_of(job.part)
         self.error = ""
-        self._snapshot = job
         self._job_id = self._worker.start(
             lambda progress: self._compute(job, pixels, findings, progress), self._document.revision
         )
+        self._snapshot = job  # after the start, which lets go of the run before with its snapshot
         self.changed.emit()
 
     def _compute(

@@ -8,6 +8,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
+from .catalogue import tr
 from .icons import IconButton
 from .labels import Elided
 from .samples import LineSample, PathLineKind
@@ -23,16 +24,18 @@ _BESIDE_PX = 76
 class LegendRow(QToolButton):
     """One kind of line; a click shows or hides it."""
 
-    def __init__(self, sample: PathLineKind) -> None:
+    def __init__(self, sample: PathLineKind, words: str = "") -> None:
+        """Make one; `words` name it where those of the sample do not."""
         super().__init__()
+        words = words or sample.value
         self.setCheckable(True)
         self.setChecked(True)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setFixedHeight(24)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.line, self.label = LineSample(sample), Elided(sample.value)
-        self.setAccessibleName(f"Show {sample.value.lower()}")
-        self.setToolTip(f"Show or hide: {sample.value.lower()}")
+        self.line, self.label = LineSample(sample), Elided(words)
+        self.setAccessibleName(f"Show {words.lower()}")
+        self.setToolTip(f"Show or hide: {words.lower()}")
         row = QHBoxLayout(self)
         row.setContentsMargins(4, 0, 8, 0)
         row.setSpacing(10)
@@ -47,7 +50,7 @@ class LegendRow(QToolButton):
         room, measure = width - _BESIDE_PX, self.label.fontMetrics().horizontalAdvance
         whole = " ".join((kind, *names))
         shorter = (f"{' '.join((kind, *names[:count]))} …" for count in range(len(names) - 1, 0, -1))
-        self.label.setText(next((text for text in (whole, *shorter) if measure(text) <= room), kind))
+        self.label.setText(next((text for text in (whole, *shorter) if measure(tr(text)) <= room), kind))
         self.setToolTip(f"Show or hide: {whole[:1].lower()}{whole[1:]}")
 
     def _show_state(self, on: bool) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from html import escape
 
 from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QContextMenuEvent, QFontMetrics, QGuiApplication, QKeyEvent, QKeySequence, QPainter
@@ -143,11 +144,22 @@ class _LogModel(QAbstractListModel):
             return line
         if role == Qt.ItemDataRole.DisplayRole:
             return f"{line.command}: {tr(line.reply)}"
-        return f"{line.command}\n{tr(line.reply)}" if role == Qt.ItemDataRole.ToolTipRole else None
+        return _tip(line) if role == Qt.ItemDataRole.ToolTipRole else None
+
+
+def _one_line(line: LogLine) -> str:
+    return " ; ".join(line.command.splitlines())
+
+
+def _tip(line: LogLine) -> str:
+    """Return a line and its reply as a tip; as rich text, which is wrapped where it would leave the screen."""
+    return f"<p>{escape(line.command)}</p><p>{escape(tr(line.reply))}</p>"
 
 
 class _LinePainter(QStyledItemDelegate):
-    """Paints a command and its reply, each as far as there is room."""
+    """Paints a command and its reply, each as far as there is room; a reply that is too long for its column begins
+    right behind its command.
+    """
 
     theme: Theme = LIGHT
 
@@ -158,15 +170,20 @@ class _LinePainter(QStyledItemDelegate):
         line, area, theme = index.data(Qt.ItemDataRole.UserRole), option.rect, self.theme
         if option.state & QStyle.StateFlag.State_Selected:
             painter.fillRect(area, theme.chosen)
-        middle = int(area.width() * _COMMAND_SHARE)
+        middle, command = self.reply_at(line, area.width()), _one_line(line)
         painter.setFont(mono_font())
         painter.setPen(theme.ink)
-        self._text(
-            painter, area.topLeft() + QPoint(_EDGE_PX, 0), middle - 2 * _EDGE_PX, " ; ".join(line.command.splitlines())
-        )
+        self._text(painter, area.topLeft() + QPoint(_EDGE_PX, 0), middle - 2 * _EDGE_PX, command)
         painter.setFont(text_font())
         painter.setPen(theme.error if line.error else theme.muted)
         self._text(painter, area.topLeft() + QPoint(middle, 0), area.width() - middle - _EDGE_PX, tr(line.reply))
+
+    def reply_at(self, line: LogLine, width: int) -> int:
+        """Return where the reply begins in a row so many px wide."""
+        column = int(width * _COMMAND_SHARE)
+        if QFontMetrics(text_font()).horizontalAdvance(tr(line.reply)) <= width - column - _EDGE_PX:
+            return column
+        return min(column, 3 * _EDGE_PX + QFontMetrics(mono_font()).horizontalAdvance(_one_line(line)))
 
     def _text(self, painter: QPainter, place: QPoint, width: int, text: str) -> None:
         short = QFontMetrics(painter.font()).elidedText(text, Qt.TextElideMode.ElideRight, width)

@@ -60,7 +60,7 @@ SIZE = (1440, 900)
 
 def picture_of(made: MakeResult) -> ProgramLayer:
     """Return the moves of a result prepared for painting."""
-    return ProgramLayer(made.program, made.coverage.places)
+    return ProgramLayer(made.program, made.coverage.places, operations=made.job.operations)
 
 
 def opened_suffixes() -> tuple[str, ...]:

@@ -66,6 +66,15 @@ class EmptyState(QWidget):
         self.adjustSize()
         self.show()
 
+    def event(self, event: QEvent) -> bool:
+        """Stay as large as the words, about the same middle: they are looked up in another language when painted."""
+        handled = super().event(event)
+        if event.type() == QEvent.Type.LayoutRequest and self.size() != self.sizeHint():
+            middle = self.geometry().center()
+            self.adjustSize()
+            self.move(middle - self.rect().center())
+        return handled
+
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Paint the view's ground, so that the grid does not run through the words."""
         ground = QColor(self._theme.paper if self.on_paper else self._theme.canvas)

@@ -131,3 +131,14 @@ def test_the_metal_that_is_pointed_at_shows_its_line_beside_it(beside):
     motion = int(view.model.picture.move.max())
     panel.nc.mark(motion)
     assert panel.nc.text.current + 1 == view.model.picture.moves.line[motion]
+
+
+def test_a_cut_that_comes_while_it_is_not_seen_costs_no_rows_and_no_plot_until_it_is(qtbot, wiring):
+    panel = wiring.window_.cut_panel
+    wiring.window_.resize(1280, 1050)
+    wiring.display_controller.show_view(View.DRAW)
+    wiring.cut_controller._show(real_shown())
+    assert panel.entries and not panel.rows and panel.histogram._plot is None
+    wiring.display_controller.show_view(View.CUT)
+    assert len(panel.rows) == len(panel.entries)
+    qtbot.waitUntil(lambda: panel.histogram._plot is not None, timeout=WAIT_MS)

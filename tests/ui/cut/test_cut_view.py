@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent, QWheelEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 from app.ui.framework.samples import PathLineKind
 from app.ui.framework.theme import DARK, LIGHT
@@ -14,7 +14,7 @@ from app.ui.framework.view import views
 from app.ui.views.cut.camera import StandardView
 from app.ui.views.cut.cell_colours import CutColourBy
 from app.ui.views.cut.cut_picture import CutPaths
-from app.ui.views.cut.legend import SectionAxis
+from app.ui.views.cut.legend import CutLegend, SectionAxis
 from app.ui.views.cut.surface import ImageSurface, widgets_have_opengl
 from app.ui.views.cut.view import CutView
 from tests.ui.cut.made_up import made_up
@@ -206,6 +206,15 @@ def test_legend_explains_the_colours_and_chooses_them(qtbot, view, picture):
     assert view.legend.key.accessibleDescription() == "T1, T2, T3"
     assert np.any(pixels(view) != plain)
     qtbot.waitUntil(lambda: view.render_scheduler.fine, timeout=20_000)
+
+
+def test_what_cuts_is_called_no_pocket_since_a_program_may_have_none(qtbot):
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    legend = CutLegend(parent)
+    row = legend.rows[PathLineKind.POCKET]
+    assert (row.label.text(), row.accessibleName()) == ("Cutting moves", "Show cutting moves")
+    assert legend.rows[PathLineKind.CONTOUR].label.text() == "Contour"
 
 
 def test_paths_can_be_hidden(qtbot, view):

@@ -201,6 +201,12 @@ def test_only_lines_in_sight_are_coloured(qtbot, text) -> None:
     assert document.findBlockByNumber(15_000).layout().formats()
 
 
+def test_the_manual_opens_at_its_own_page(wiring) -> None:
+    wiring.window_.actions_["manual"].trigger()
+    assert wiring.language.help.isVisible() and wiring.language.help.page == "manual"
+    wiring.language.help.close()
+
+
 def test_help_on_the_word_under_the_cursor(qtbot, wiring, text) -> None:
     text.text = "arc 0,0 5,5 radius 4"
     text.page.editor.go_to(1, 2)

@@ -293,10 +293,10 @@ MENUS: tuple[tuple[str, tuple[ActionSpec, ...]], ...] = (
     (
         "&Help",
         (
+            ActionSpec("manual", "&Manual", "F1"),
             ActionSpec("help_language", "Shape &language"),
-            ActionSpec("manual", "&Manual"),
             ActionSpec("five_texts", "The &five texts"),
-            ActionSpec("keys", "&Keys", "F1"),
+            ActionSpec("keys", "&Keys", "Ctrl+F1"),
             ActionSpec("what_is_this", "&What is this?", "Shift+F1"),
             ActionSpec("tour", "&Tour"),
             ActionSpec("session_1986", "A 1986 &session"),

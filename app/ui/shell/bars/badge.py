@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 )
 
 from ....model.finding import Finding
+from ...framework.catalogue import tr
 from ...framework.controller import OfferedMend
 from ...framework.fields import restyle
 from ...framework.figures import counted
@@ -179,7 +180,7 @@ class FindingsList(QFrame):
         return area
 
     def _row(self, finding: Finding) -> ListRow:
-        label = QLabel(finding.text.replace("mm2", "mm²"))
+        label = QLabel(tr(finding.text.replace("mm2", "mm²")))  # now, since its height is fixed
         label.setWordWrap(True)
         label.setFixedWidth(_TEXT_PX)
         label.setToolTip(short(finding))

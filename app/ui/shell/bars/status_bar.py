@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QProgressBar, QSizePolicy, QToolButton, QWidget
 
+from ...framework.catalogue import tr
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
 from .badge import Badge
@@ -129,4 +130,4 @@ class StatusBar(QWidget):
         self.bar.setValue(round(1000 * (fraction or 0.0)))
         self.step.setText(text)
         self.step.setToolTip(text)
-        self.step.setMinimumWidth(min(self.step.fontMetrics().horizontalAdvance(text) + 2, _STEP_PX))
+        self.step.setMinimumWidth(min(self.step.fontMetrics().horizontalAdvance(tr(text)) + 2, _STEP_PX))

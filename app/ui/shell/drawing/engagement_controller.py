@@ -20,7 +20,8 @@ def engagement_layer(made: MakeResult, progress: Progress) -> ProgramLayer:
     from ...views.canvas.painting.engagement_runs import engagement_runs
 
     seen = sample_engagement(made.program, made.job, progress)
-    return ProgramLayer(made.program, made.coverage.places, engagement_runs(made.program.moves, seen))
+    runs = engagement_runs(made.program.moves, seen)
+    return ProgramLayer(made.program, made.coverage.places, runs, made.job.operations)
 
 
 class EngagementController(QObject):

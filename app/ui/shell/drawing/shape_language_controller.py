@@ -15,7 +15,7 @@ from ...views.language.controller import TextController
 from ...views.language.page import TextPage
 from ..help.help_window import HelpWindow
 
-_MANUAL = "posts"
+_MANUAL = "manual"
 _TEXTS = "texts"
 
 

@@ -103,6 +103,8 @@ class Legend(LegendSheet):
             numbers = _tools(job.operations, sample)
             self.rows[sample].show_names(sample.value, numbers, WIDTH)
             self.rows[sample].setVisible(bool(numbers))
+        holes = _tools(job.operations, PathLineKind.PLUNGE)
+        self.rows[PathLineKind.PLUNGE].show_names("Hole" if holes else PathLineKind.PLUNGE.value, holes, WIDTH)
         self.rows[PathLineKind.CLAMP].setVisible(bool(job.keep_out_layers))
         self.fit_contents()
 

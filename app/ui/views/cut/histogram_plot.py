@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QBrush, QColor
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtGui import QBrush, QColor, QShowEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from ...framework.figures import grouped
@@ -31,6 +31,7 @@ class HistogramPlot(QWidget):
         self._plot: PlotWidget | None = None
         self.shown: Histogram | None = None
         self._key: ColourKey | None = None
+        self._drawn = True
         self.sums = muted()
         self.sums.setTextFormat(Qt.TextFormat.RichText)
         self.sums.setWordWrap(True)
@@ -41,22 +42,40 @@ class HistogramPlot(QWidget):
         self.setFixedHeight(HEIGHT)
 
     def show_histogram(self, histogram: Histogram, key: ColourKey) -> None:
-        """Show other areas.
+        """Show other areas: the plot once it is seen, since making it holds the window up.
 
         Args:
             histogram: the areas. key: of the deviation's colours.
         """
         self.shown, self._key = histogram, key
+        self.sums.setText(self._sums(histogram))
+        if self.isVisible():
+            self._draw_now()
+        else:
+            self._drawn = False
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw what was told meanwhile, after what is around it."""
+        super().showEvent(event)
+        if not self._drawn:
+            QTimer.singleShot(0, self, self._draw_now)
+
+    def _draw_now(self) -> None:
+        if self.shown is None or self._key is None:
+            return
+        self._drawn = True
         if self._plot is None:
             self._plot = self._made_plot()
             self._column.addWidget(self._plot, 1)
-        self._draw(self._plot, histogram, key)
+        self._draw(self._plot, self.shown, self._key)
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme; the colours of the bars come with the next key."""
         self._theme = theme
-        if self._plot is not None and self.shown is not None and self._key is not None:
-            self._draw(self._plot, self.shown, self._key)
+        if self.shown is not None:
+            self.sums.setText(self._sums(self.shown))
+        if self._plot is not None:
+            self._draw_now()
 
     def _made_plot(self) -> PlotWidget:
         from pyqtgraph import PlotWidget  # heavy; not every cut is judged
@@ -89,7 +108,6 @@ class HistogramPlot(QWidget):
         )
         plot.setXRange(0.0, 1.0, padding=0.12)
         plot.setYRange(0.0, max(float(logs.max()), 1.0), padding=0.04)
-        self.sums.setText(self._sums(histogram))
 
     def _dress(self, plot: PlotWidget, key: ColourKey) -> None:
         from pyqtgraph import mkPen

@@ -19,6 +19,8 @@ from .cell_colours import STEPS, ColourKey, CutColourBy
 WIDTH = 228
 _BAR_PX, _SCALE_PX, _ROW_PX, _PAD_PX = 10, 148, 22, 8
 _SLIDES, _CHOICE_PX = 1000, 102
+_CUTTING = "Cutting moves"
+"""A program's feed is a pocket's, a hole's or a pass over a surface; which one, a text does not tell."""
 
 
 class SectionAxis(Enum):
@@ -106,7 +108,7 @@ class CutLegend(LegendSheet):
         self.side.show_value(SectionAxis.WHOLE)
         self.slider = self._slider()
         self.rows = {
-            sample: LegendRow(sample)
+            sample: LegendRow(sample, _CUTTING if sample is PathLineKind.POCKET else "")
             for sample in (PathLineKind.POCKET, PathLineKind.CONTOUR, PathLineKind.PLUNGE, PathLineKind.RAPID)
         }
         self.wedges = LegendRow(PathLineKind.WEDGES)

@@ -9,7 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
     QHBoxLayout,
@@ -124,6 +124,7 @@ class CutPanel(QWidget):
         self.entries: tuple[CutFinding, ...] = ()
         self.chosen: CutFinding | None = None
         self.rows: list[ListRow] = []
+        self._filled = False
         self.title, self.name, self.verdict, self.cells = heading("Cut"), Elided(role="muted"), QLabel(), muted()
         self.counted, self.sentence, self.go = heading("Places"), muted(), QPushButton("Show the line")
         self.nc, self.histogram = NcBeside(), HistogramPlot()
@@ -191,7 +192,9 @@ class CutPanel(QWidget):
         """Tell of another cut."""
         self.shown, self.chosen = shown, None
         self.entries = findings_of(shown) if shown is not None else ()
-        self._fill()
+        self._filled = False
+        if self.isVisible():
+            self._fill()
         self.nc.show_cut(shown)
         self.show_mends(())
         self.details.hide()
@@ -234,6 +237,7 @@ class CutPanel(QWidget):
     def choose(self, entry: CutFinding) -> None:
         """Show what there is to say about a place, and tell that it should be seen."""
         self.chosen = entry
+        self._fill()
         for row, each in zip(self.rows, self.entries, strict=True):
             row.set_chosen(each is entry)
         self.sentence.setText(entry.sentence.replace("mm2", "mm²"))
@@ -307,7 +311,16 @@ class CutPanel(QWidget):
         for widget in (self.histogram, self.line):
             widget.setVisible(room and self.shown is not None and self.shown.histogram is not None)
 
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Have a row for each place of a cut that came while the panel was not seen."""
+        super().showEvent(event)
+        self._fill()
+
     def _fill(self) -> None:
+        """Have a row for each place, made once: many of them hold the window up."""
+        if self._filled:
+            return
+        self._filled = True
         for row in self.rows:
             self._rows.removeWidget(row)
             row.hide()

@@ -186,7 +186,7 @@ class Transport(QWidget):
             shown.texts[shown.file_of(row)].line(line - 1).strip(),
         ]
         self.place.setText(" · ".join(parts))
-        self.place.setToolTip(parts[-1])
+        self.place.setToolTip(self.place.text())  # which a narrow window cuts off
 
     def _choose(self, speed: float) -> None:
         self._player.set_pace(self.pace.currentData(), speed)

@@ -13,6 +13,8 @@ from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
 from .....geometry.sample import Box, union
 from .....model.moves import Program, Purpose
+from .....model.operation import Operation
+from ....framework.samples import PathLineKind, sample_of, sample_pen
 from ....framework.theme import Theme
 from ..modes import PathColourBy, PathLayers
 from ..view_transform import ViewTransform
@@ -40,6 +42,13 @@ _LAYER_OF = {
     Purpose.TAB: PathLayers.CONTOUR,
     Purpose.DOG_BONE: PathLayers.CONTOUR,
 }
+_LAYER_OF_KIND = {
+    PathLineKind.POCKET: PathLayers.POCKET,
+    PathLineKind.REST: PathLayers.REST,
+    PathLineKind.CONTOUR: PathLayers.CONTOUR,
+    PathLineKind.PLUNGE: PathLayers.PLUNGE,
+}
+_CUTTING = (Purpose.POCKET, Purpose.CONTOUR, Purpose.TAB, Purpose.DOG_BONE)
 _THIN = (Purpose.LINK, Purpose.LEAD, Purpose.PLUNGE)
 _MANY_PLUNGES, _RING_PX = 300, 10.0
 _ORDER = (Purpose.LINK, Purpose.PLUNGE, Purpose.POCKET, Purpose.LEAD, Purpose.CONTOUR, Purpose.DOG_BONE, Purpose.TAB)
@@ -75,9 +84,20 @@ class ProgramLayer:
     """
 
     def __init__(
-        self, program: Program, places: tuple[UncutPlace, ...] = (), engaged: EngagementRuns | None = None
+        self,
+        program: Program,
+        places: tuple[UncutPlace, ...] = (),
+        engaged: EngagementRuns | None = None,
+        operations: tuple[Operation, ...] = (),
     ) -> None:
-        """Build every path once, in mm; `engaged` are its moves by engagement, where that was measured."""
+        """Build every path once, in mm.
+
+        Args:
+            program: what is painted.
+            places: what it leaves on the floor.
+            engaged: its moves by engagement, where that was measured.
+            operations: of its job, by the moves' index; without them a path's kind is told by its purpose alone.
+        """
         self.measured = engaged is not None
         self.left = RemainderLayer([place for place in places if place.reachable])
         self.unreachable = RemainderLayer([place for place in places if not place.reachable])
@@ -87,7 +107,7 @@ class ProgramLayer:
         self._boxes = np.array([c.box for c in self._chunks]).reshape(-1, 4)
         self._sizes = np.array([c.path.elementCount() for c in self._chunks], dtype=np.int64)
         self._rapids, self._plunges = rapids(self.shapes), plunges(self.shapes)
-        self._roles = _roles([c.style for c in self._chunks])
+        self._operations = operations
         self._layers = np.array([self._layer(c.style).value for c in self._chunks], dtype=np.int64)
         self._regions: dict[int, QPainterPath] = {}
         for region in program.regions:
@@ -147,12 +167,14 @@ class ProgramLayer:
             self.left.paint(painter, view, box, look.theme.left)
 
     def _layer(self, style: MoveStyle) -> PathLayers:
-        """Return the layer that a path is shown on; a second pocket tool's is that of rest machining."""
-        rest = style.purpose is Purpose.POCKET and self._role(style) == "rest"
-        return PathLayers.REST if rest else _LAYER_OF[style.purpose]
+        """Return the layer that a path is shown on: of what cuts, that of its operation's row in the legend."""
+        return _LAYER_OF_KIND[self._kind(style)] if style.purpose in _CUTTING else _LAYER_OF[style.purpose]
 
-    def _role(self, style: MoveStyle) -> str:
-        return self._roles.get((style.operation, style.tool), "rest")
+    def _kind(self, style: MoveStyle) -> PathLineKind:
+        """Return the line that legend and list have for a path: that of its operation."""
+        if 0 <= style.operation < len(self._operations):
+            return sample_of(self._operations[style.operation])
+        return PathLineKind.CONTOUR if style.purpose is Purpose.CONTOUR else PathLineKind.POCKET
 
     def _pen(self, painter: QPainter, style: MoveStyle, look: PathDisplay, fine: bool) -> QPen:
         width = LINK_WIDTH if style.purpose in _THIN else TAB_WIDTH if style.purpose is Purpose.TAB else CUT_WIDTH
@@ -168,7 +190,7 @@ class ProgramLayer:
         if look.colour_by is PathColourBy.REGION and style.region > 0:
             colour = QColor(theme.regions[(style.region - 1) % len(theme.regions)])
         else:
-            colour = QColor(getattr(theme, self._role(style)))
+            colour = sample_pen(self._kind(style), theme).color()
         if style.purpose is Purpose.LINK:
             colour.setAlphaF(0.75)
         return colour
@@ -208,18 +230,3 @@ def paint_plunges(
         painter.drawPath(rings)
     painter.setPen(QPen(colours[0], 3.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
     painter.drawPoints(list(apart.values()) if len(apart) < _MANY_PLUNGES else seen)
-
-
-def _roles(styles: list[MoveStyle]) -> dict[tuple[int, int], str]:
-    """Return the theme's colour name for each (operation, tool), as legend and list have them: contours, the first
-    pocket tool, then rest.
-    """
-    roles: dict[tuple[int, int], str] = {}
-    first: int | None = None
-    for style in sorted(styles, key=lambda s: s.operation):
-        if style.purpose is Purpose.POCKET:
-            first = style.tool if first is None else first
-            roles[style.operation, style.tool] = "pocket" if style.tool == first else "rest"
-        elif style.purpose is Purpose.CONTOUR:
-            roles[style.operation, style.tool] = "contour"
-    return roles

@@ -1,0 +1,28 @@
+"""The log: a long reply is read in its line or, whole, in the tip of its line."""
+
+from PySide6.QtCore import Qt
+
+from app.drafting.document import LogLine
+from app.ui.framework.log_view import LogView, _LinePainter
+
+SHORT = LogLine("rect 0,0 80,50", "1 rectangle")
+LONG = LogLine(
+    "propose Pocket T7", "2 slots & bores, through. " + "The tightest place has room for 5 mm at (80, 35). " * 4
+)
+
+
+def test_a_long_reply_begins_right_behind_its_command(qtbot) -> None:
+    painter = _LinePainter()
+    column = painter.reply_at(SHORT, 1264)
+    assert painter.reply_at(LONG, 1264) < column / 2
+    wide = LogLine(LONG.command * 20, LONG.reply)
+    assert painter.reply_at(wide, 1264) == column, "a long command has no more than its share"
+
+
+def test_the_tip_of_a_line_has_all_of_it_and_is_wrapped(qtbot) -> None:
+    log = LogView()
+    qtbot.addWidget(log)
+    log.show_lines([SHORT, LONG])
+    tip = log.model().data(log.model().index(1, 0), Qt.ItemDataRole.ToolTipRole)
+    assert tip.startswith("<p>"), "plain text is one line, however long"
+    assert "slots &amp; bores" in tip and LONG.command in tip
