@@ -9,13 +9,14 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QButtonGroup, QComboBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QComboBox, QGridLayout, QLabel, QLineEdit, QToolButton, QWidget
 
 from ...core.errors import HitofudeError
 from ...drafting.expressions.errors import CommandError
 from ...drafting.expressions.numbers import length
+from .boxes import h_box
 from .display_unit import clean, display_unit_name, display_unit_size
-from .labels import Elided, muted
+from .labels import Elided, muted, restyle, show_words
 
 LABEL_WIDTH = 92
 VALUE_WIDTH = 84
@@ -78,12 +79,6 @@ class NumberSpec:
         return value
 
 
-def restyle(widget: QWidget) -> None:
-    """Let the style sheet look at a widget's properties again."""
-    widget.style().unpolish(widget)
-    widget.style().polish(widget)
-
-
 def reason_label() -> QLabel:
     """Return a label for what is wrong with a value."""
     made = QLabel()
@@ -96,8 +91,7 @@ def reason_label() -> QLabel:
 
 def _mark(widget: QWidget, label: QLabel, reason: str) -> None:
     """Mark a widget's value as wrong and say why; "" = it is right."""
-    label.setText(reason)
-    label.setVisible(bool(reason))
+    show_words(label, reason)
     if bool(reason) != (widget.property("wrong") == "true"):
         widget.setProperty("wrong", "true" if reason else "false")
         restyle(widget)
@@ -150,8 +144,7 @@ class NumberField(QWidget):
         if reason is None:
             self._lay_out(label_width)
         else:
-            alone = QHBoxLayout(self)
-            alone.setContentsMargins(0, 0, 0, 0)
+            alone = h_box(self)
             alone.addWidget(self.edit)
 
     def _lay_out(self, label_width: int) -> None:
@@ -264,9 +257,7 @@ class ChoiceField(QWidget):
 
     def __init__(self, name: str, choices: Sequence[tuple[Hashable, str]], label_width: int = LABEL_WIDTH) -> None:
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(8)
+        row = h_box(self, (0, 1, 0, 1), 8)
         if name:
             label = muted(name)
             label.setMaximumWidth(label_width - 4)
@@ -307,9 +298,7 @@ class TextField(QWidget):
 
     def __init__(self, name: str, tip: str = "") -> None:
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(8)
+        row = h_box(self, (0, 1, 0, 1), 8)
         label = muted(name)
         label.setFixedWidth(LABEL_WIDTH)
         self.edit = QLineEdit()

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QToolButton, QWidget
 
 from ...model.job import Job
+from .boxes import h_box, v_box
 from .fields import LABEL_WIDTH, ChoiceField, ListField, NumberField, NumberSpec, TextField
 from .icons import IconButton, icon
 from .labels import Elided, muted
@@ -50,18 +51,13 @@ class FieldGroup(QWidget):
         super().__init__()
         self.fold, self.summary, self.body = FoldButton(title), Elided(role="muted"), QWidget()
         self.summary.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        head = QHBoxLayout()
-        head.setContentsMargins(EDGE - 6, 4, EDGE, 0)
+        head = h_box(margins=(EDGE - 6, 4, EDGE, 0))
         head.addWidget(self.fold, 0, Qt.AlignmentFlag.AlignLeft)
         head.addWidget(self.summary, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addLayout(head)
         column.addWidget(self.body)
-        self.rows = QVBoxLayout(self.body)
-        self.rows.setContentsMargins(EDGE, 0, EDGE, 4)
-        self.rows.setSpacing(0)
+        self.rows = v_box(self.body, (EDGE, 0, EDGE, 4), 0)
         self.body.hide()
         self.fold.toggled.connect(self._unfold)
 
@@ -81,9 +77,7 @@ class SwitchField(QWidget):
 
     def __init__(self, name: str, tip: str = "") -> None:
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 3, 0, 3)
-        row.setSpacing(8)
+        row = h_box(self, (0, 3, 0, 3), 8)
         label = muted(name)
         label.setFixedWidth(LABEL_WIDTH)
         self.switch = Switch(name)
@@ -185,12 +179,9 @@ class FormSection(PanelSection):
     def add_picture(self, picture: QWidget, *beside: QWidget) -> QWidget:
         """Add a drawing with a few words beside it."""
         whole = QWidget()
-        row = QHBoxLayout(whole)
-        row.setContentsMargins(0, 4, 0, 6)
-        row.setSpacing(12)
+        row = h_box(whole, (0, 4, 0, 6), 12)
         row.addWidget(picture)
-        words = QVBoxLayout()
-        words.setSpacing(2)
+        words = v_box(spacing=2)
         words.addStretch(1)
         for each in beside:
             if isinstance(each, QLabel):

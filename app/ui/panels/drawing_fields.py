@@ -6,9 +6,10 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from ...model.curves import Point
+from ..framework.boxes import h_box
 from ..framework.fields import LABEL_WIDTH, NumberField, NumberSpec, reason_label
 from ..framework.labels import Elided, muted
 
@@ -65,9 +66,7 @@ class Figure(QWidget):
         self.value = QLabel() if wraps else Elided()
         self.value.setWordWrap(wraps)
         self.value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 3, 0, 3)
-        row.setSpacing(8)
+        row = h_box(self, (0, 3, 0, 3), 8)
         label = muted(name)
         label.setFixedWidth(LABEL_WIDTH)
         row.addWidget(label, 0, Qt.AlignmentFlag.AlignTop)

@@ -7,13 +7,14 @@ from dataclasses import replace
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QScrollArea, QWidget
 
 from ...core.errors import HitofudeError
 from ...drafting.document import Document, DocumentChange
 from ...formats.tools.library import load_libraries
 from ...model.job import Job
 from ...model.tool import Tool
+from ..framework.boxes import v_box
 from ..framework.form import JobEdit
 from ..framework.section import hairline
 from . import changes
@@ -57,9 +58,7 @@ class SidePanel(QScrollArea):
     def _lay_out(self) -> None:
         inner = self._inner = QWidget()
         inner.setObjectName("sidePanel")
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(0, 4, 0, 8)
-        column.setSpacing(0)
+        column = v_box(inner, (0, 4, 0, 8), 0)
         for section in (self.job, self.tools, self.operations):
             column.addWidget(section)
             column.addWidget(hairline())

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QStackedWidget, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QButtonGroup, QStackedWidget, QToolButton, QWidget
 
+from ..framework.boxes import h_box, v_box
 from ..framework.section import EDGE, hairline
 
 HEIGHT = 36
@@ -26,13 +27,9 @@ class SideTabs(QWidget):
         self.pages = QStackedWidget()
         self.tabs: dict[str, QToolButton] = {}
         self._group = QButtonGroup(self)
-        self._row = QHBoxLayout()
-        self._row.setContentsMargins(EDGE - 9, 0, EDGE, 0)
-        self._row.setSpacing(4)
+        self._row = h_box(margins=(EDGE - 9, 0, EDGE, 0), spacing=4)
         self._row.addStretch(1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addLayout(self._row)
         column.addWidget(hairline())
         column.addWidget(self.pages, 1)

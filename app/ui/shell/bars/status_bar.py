@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QProgressBar, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QSizePolicy, QToolButton, QWidget
 
+from ...framework.boxes import h_box
 from ...framework.icons import IconButton
-from ...framework.labels import Elided, muted
+from ...framework.labels import Elided, muted, set_role
 from .badge import Badge
 
 _STEP_PX = 180
@@ -61,9 +62,7 @@ class StatusBar(QWidget):
         return button
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(16, 0, 8, 0)
-        row.setSpacing(8)
+        row = h_box(self, (16, 0, 8, 0), 8)
         for label in (self.place_x, self.place_y):
             label.setMinimumWidth(label.fontMetrics().horizontalAdvance("X -999.999"))
             row.addWidget(label)
@@ -110,9 +109,7 @@ class StatusBar(QWidget):
         self.message.setToolTip(text)
         role = "error" if error else "muted"
         if self.message.property("role") != role:
-            self.message.setProperty("role", role)
-            self.message.style().unpolish(self.message)
-            self.message.style().polish(self.message)
+            set_role(self.message, role)
 
     def show_waiting(self, text: str) -> None:
         """Show what goes on in the background, which nobody needs to wait for, where no job tells of itself; "" =

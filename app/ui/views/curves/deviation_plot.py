@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
+from ...framework.boxes import h_box, v_box
 from ...framework.catalogue import tr
 from ...framework.labels import Elided
 from ...framework.section import heading
@@ -45,13 +46,10 @@ class DeviationPlot(QWidget):
         self.spot: DeviationSample | None = None
         self._tolerance = 0.0
         self.figures = Elided(role="muted")
-        head = QHBoxLayout()
-        head.setSpacing(12)
+        head = h_box(spacing=12)
         head.addWidget(heading("Deviation"))
         head.addWidget(self.figures, 1)
-        self._column = QVBoxLayout(self)
-        self._column.setContentsMargins(12, 8, 12, 8)
-        self._column.setSpacing(4)
+        self._column = v_box(self, (12, 8, 12, 8), 4)
         self._column.addLayout(head)
         self.setFixedHeight(HEIGHT)
         self.hide()

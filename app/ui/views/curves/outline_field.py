@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
+from ...framework.boxes import h_box
 from ...framework.fields import LABEL_WIDTH
 from ...framework.labels import muted
 
@@ -28,9 +29,7 @@ class OutlineField(QWidget):
         label = muted("f(z)")
         label.setFixedWidth(LABEL_WIDTH)
         label.setBuddy(self.edit)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(8)
+        row = h_box(self, (0, 1, 0, 1), 8)
         row.addWidget(label)
         row.addWidget(self.edit, 1)
 

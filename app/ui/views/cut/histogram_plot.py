@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QBrush, QColor
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
+from ...framework.boxes import v_box
 from ...framework.figures import grouped
 from ...framework.labels import muted
 from ...framework.theme import LIGHT, Theme, text_font
@@ -34,9 +35,7 @@ class HistogramPlot(QWidget):
         self.sums = muted()
         self.sums.setTextFormat(Qt.TextFormat.RichText)
         self.sums.setWordWrap(True)
-        self._column = QVBoxLayout(self)
-        self._column.setContentsMargins(0, 0, 0, 0)
-        self._column.setSpacing(4)
+        self._column = v_box(self, spacing=4)
         self._column.addWidget(self.sums)
         self.setFixedHeight(HEIGHT)
 

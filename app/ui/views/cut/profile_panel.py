@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QWidget
 
+from ...framework.boxes import h_box, v_box
 from ...framework.icons import IconButton
 from ...framework.labels import muted
 from ...framework.section import heading
@@ -38,14 +39,11 @@ class ProfilePanel(QFrame):
         self.figures = muted()
         close = IconButton("cancel", "Close the profile (Esc)", self)
         close.clicked.connect(self.closed)
-        head = QHBoxLayout()
-        head.setSpacing(12)
+        head = h_box(spacing=12)
         head.addWidget(heading("Profile"))
         head.addWidget(self.figures, 1)
         head.addWidget(close)
-        self._column = QVBoxLayout(self)
-        self._column.setContentsMargins(12, 8, 12, 8)
-        self._column.setSpacing(4)
+        self._column = v_box(self, (12, 8, 12, 8), 4)
         self._column.addLayout(head)
         self.hide()
 

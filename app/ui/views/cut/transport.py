@@ -8,8 +8,9 @@ from functools import partial
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QWidget
 
+from ...framework.boxes import v_box
 from ...framework.figures import TIMES, grouped
 from ...framework.give_way import give_way
 from ...framework.icons import IconButton
@@ -97,9 +98,7 @@ class Transport(QWidget):
         self.record.setFixedSize(_BUTTON_PX, _BUTTON_PX)
         for widget in (self.pace, self.speed, self.record):
             widget.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 4)
-        column.setSpacing(2)
+        column = v_box(self, (0, 0, 0, 4), 2)
         column.addLayout(row)
         column.addWidget(self.plot)
 

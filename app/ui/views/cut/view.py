@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 from PySide6.QtCore import QEasingCurve, QEvent, QPointF, Qt, QVariantAnimation, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QWheelEvent
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
+from ...framework.boxes import v_box
 from ...framework.samples import PathLineKind
 from ...framework.theme import Theme
 from ..canvas.viewport import GLIDE_MS
@@ -72,8 +73,7 @@ class CutView(QWidget):
         self.sentence.setProperty("role", "muted")
         self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.sentence.setWordWrap(True)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
+        column = v_box(self)
         column.addWidget(self.sentence)
         self.overlay, self.legend, self.profile = CutOverlay(self), CutLegend(self), ProfilePanel(self)
         self._way = (model.camera, model.camera)

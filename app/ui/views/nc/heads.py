@@ -7,6 +7,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from ....gcode.interpreter.dialect import DIALECT_RULES, Dialect
+from ...framework.boxes import h_box
 from ...framework.fields import ChoiceField
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
@@ -24,10 +25,7 @@ def bar(widget: QWidget, spacing: int = 8) -> QHBoxLayout:
     widget.setObjectName("ncBar")
     widget.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
     widget.setFixedHeight(BAR_PX)
-    row = QHBoxLayout(widget)
-    row.setContentsMargins(12, 0, 8, 0)
-    row.setSpacing(spacing)
-    return row
+    return h_box(widget, (12, 0, 8, 0), spacing)
 
 
 class TextHead(QWidget):

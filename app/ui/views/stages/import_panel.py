@@ -6,15 +6,16 @@ from dataclasses import replace
 from enum import Enum
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QPushButton, QScrollArea, QSlider, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QPushButton, QScrollArea, QSlider, QWidget
 
 from ....core.errors import HitofudeError
 from ....raster.ambiguities import AmbiguityKind
 from ....raster.picture_file import MM_PER_INCH
 from ....raster.picture_options import InkMeaning, PictureOptions
+from ...framework.boxes import v_box
 from ...framework.fields import LABEL_WIDTH, ChoiceField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted, grouped
-from ...framework.labels import Elided, muted
+from ...framework.labels import Elided, muted, show_words
 from ...framework.samples import Switch
 from ...framework.section import EDGE, hairline, heading
 from ...panels.side_panel import WIDTH
@@ -110,9 +111,7 @@ class ImportPanel(QWidget):
         self.list.setAccessibleName("Doubtful places")
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         inner = QWidget()
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(EDGE, 0, EDGE, 8)
-        column.setSpacing(6)
+        column = v_box(inner, (EDGE, 0, EDGE, 8), 6)
         groups = (
             (self.see,),
             (
@@ -149,9 +148,7 @@ class ImportPanel(QWidget):
         for button in (self.take, self.leave):
             buttons.addWidget(button)
         buttons.addStretch(1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(1, 12, 0, 12)
-        column.setSpacing(6)
+        column = v_box(self, (1, 12, 0, 12), 6)
         for row in (head, buttons):
             row.setContentsMargins(EDGE, 0, EDGE, 0)
         for label in (self.about, self.wrong):
@@ -236,8 +233,7 @@ class ImportPanel(QWidget):
 
     def refuse(self, reason: str) -> None:
         """Say why the picture cannot become the part; "" = nothing is wrong."""
-        self.wrong.setText(reason)
-        self.wrong.setVisible(bool(reason))
+        show_words(self.wrong, reason)
 
     def add_point(self, col: float, row: float) -> None:
         """Take a point of the picture, px, as one of the two; a third one begins anew."""

@@ -8,12 +8,13 @@ from enum import Enum
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QScrollArea, QWidget
 
 from ....usecases.pixels.options import BitmapSize
+from ...framework.boxes import v_box
 from ...framework.fields import ChoiceField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted, grouped
-from ...framework.labels import muted
+from ...framework.labels import muted, set_role
 from ...framework.section import EDGE, hairline, heading
 from ...panels.side_panel import WIDTH
 from .chains_panel import ChainsPanel
@@ -102,12 +103,8 @@ class StagesPanel(QScrollArea):
             label.setWordWrap(True)
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.rules.show_value(FillRules.SETTLED)
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(EDGE + 1, 12, EDGE, 12)
-        column.setSpacing(6)
-        told = QVBoxLayout(self._told)
-        told.setContentsMargins(0, 0, 0, 0)
-        told.setSpacing(6)
+        column = v_box(inner, (EDGE + 1, 12, EDGE, 12), 6)
+        told = v_box(self._told, spacing=6)
         for label in (self.title, self.place, self.sentence, self.notes):
             told.addWidget(label)
         told.addStretch(1)
@@ -174,9 +171,7 @@ class StagesPanel(QScrollArea):
         else:
             text, role = "The rules as published get every pixel of this part right.", "ok"
         self.wrong.setText(text)
-        self.wrong.setProperty("role", role)
-        self.wrong.style().unpolish(self.wrong)
-        self.wrong.style().polish(self.wrong)
+        set_role(self.wrong, role)
 
 
 def _place(still: FilmFrame) -> str:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QScrollArea, QWidget
 
+from ...framework.boxes import empty, v_box
 from ...framework.catalogue import tr
 from ...framework.fields import ChoiceField
 from ...framework.labels import muted
@@ -58,9 +59,7 @@ class TextFilmPanel(QScrollArea):
     def _lay_out(self) -> None:
         inner = QWidget()
         inner.setObjectName("sidePanel")
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(EDGE + 1, 12, EDGE, 12)
-        column.setSpacing(6)
+        column = v_box(inner, (EDGE + 1, 12, EDGE, 12), 6)
         for label in (self.text, self.publication, self.title, self.says, self.settled, self.table):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -95,10 +94,7 @@ class TextFilmPanel(QScrollArea):
         self.says.setText(step.says if step is not None else "")
         self.settled.setText(step.settled if step is not None else "")
         self.settled.setVisible(bool(step is not None and step.settled))
-        while (item := self._grid.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._grid)
         self.figures = {}
         for row, figure in enumerate(step.figures if step is not None else ()):
             name, value = muted(figure.name), QLabel(figure.words)

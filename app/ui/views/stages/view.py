@@ -7,9 +7,10 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QStackedWidget, QWidget
 
 from ....raster.frame import BitmapFrame, Plane
+from ...framework.boxes import h_box, v_box
 from ...framework.fields import ChoiceField
 from ...framework.figures import counted
 from ...framework.theme import LIGHT, Theme
@@ -78,14 +79,11 @@ class StagesView(QWidget):
         line = self._line
         line.setObjectName("hairline")
         line.setFixedWidth(1)
-        middle = QVBoxLayout()
-        middle.setSpacing(0)
+        middle = v_box(spacing=0)
         middle.addWidget(self.pixels, 1)
         middle.addWidget(self.player)
         bitmap = QWidget()
-        row = QHBoxLayout(bitmap)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
+        row = h_box(bitmap, spacing=0)
         row.addWidget(self.rail)
         row.addWidget(line)
         row.addLayout(middle, 1)
@@ -97,12 +95,9 @@ class StagesView(QWidget):
         self._head.setObjectName("ncBar")
         self._head.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self._head.setFixedHeight(HEAD_PX)
-        head = QHBoxLayout(self._head)
-        head.setContentsMargins(12, 0, 8, 0)
+        head = h_box(self._head, (12, 0, 8, 0))
         head.addWidget(self.texts)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addWidget(self._head)
         column.addWidget(self._stack, 1)
 

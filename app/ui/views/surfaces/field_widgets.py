@@ -7,10 +7,12 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QWidget
 
 from ....formats.plot.content import TOOL_COLOURS
+from ...framework.boxes import h_box, put_away
 from ...framework.fields import LABEL_WIDTH, ROW_HEIGHT, ChoiceField, ListField, NumberField, NumberSpec, reason_label
 from ...framework.form import SwitchField
 from ...framework.labels import muted
-from ...framework.theme import LIGHT, TEXT_PX, Theme, text_font
+from ...framework.theme import TEXT_PX, text_font
+from ...framework.themed import Themed
 from .scene_fields import SceneField, SceneFieldKind
 
 _THIRD = 60
@@ -81,9 +83,7 @@ class WordsField(QWidget):
         self.edit.setFixedHeight(ROW_HEIGHT)
         self.edit.setAccessibleName(name)
         self._value = ""
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(8)
+        row = h_box(self, (0, 1, 0, 1), 8)
         row.addWidget(label)
         row.addWidget(self.edit, 1)
         self.edit.editingFinished.connect(self._commit)
@@ -101,12 +101,12 @@ class WordsField(QWidget):
             self.chosen.emit(self.edit.text())
 
 
-class ColourSwatch(QAbstractButton):
+class ColourSwatch(Themed, QAbstractButton):
     """A colour to choose; "" stands for the next one of the palette, drawn as a ring."""
 
     def __init__(self, colour: str) -> None:
         super().__init__()
-        self.colour, self._theme = colour, LIGHT
+        self.colour = colour
         self.setCheckable(True)
         self.setFixedSize(_SWATCH, _SWATCH)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
@@ -116,11 +116,6 @@ class ColourSwatch(QAbstractButton):
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """A small square."""
         return QSize(_SWATCH, _SWATCH)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Draw the colour, and a ring round the chosen one."""
@@ -147,9 +142,7 @@ class ColourField(QWidget):
         super().__init__()
         label = muted(name)
         label.setFixedWidth(LABEL_WIDTH)
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(0, 3, 0, 3)
-        self._row.setSpacing(2)
+        self._row = h_box(self, (0, 3, 0, 3), 2)
         self._row.addWidget(label)
         self._row.addSpacing(6)
         self._group = QButtonGroup(self)
@@ -171,8 +164,7 @@ class ColourField(QWidget):
             for colour in [own for own in self.swatches if own not in ("", *(each.lower() for each in TOOL_COLOURS))]:
                 gone = self.swatches.pop(colour)
                 self._group.removeButton(gone)
-                gone.hide()
-                gone.deleteLater()
+                put_away(gone)
             self._add(value)
         self.swatches[value.lower()].setChecked(True)
 

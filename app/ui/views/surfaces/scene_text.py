@@ -16,8 +16,9 @@ from PySide6.QtGui import (
     QTextCharFormat,
     QTextCursor,
 )
-from PySide6.QtWidgets import QPlainTextEdit, QTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPlainTextEdit, QTextEdit, QWidget
 
+from ...framework.boxes import v_box
 from ...framework.section import hairline
 from ...framework.theme import LIGHT, Theme, mixed, mono_font
 from ..language.gutter import Gutter
@@ -148,9 +149,7 @@ class SceneText(QWidget):
         super().__init__()
         self.setFixedWidth(WIDTH)
         self.editor, self.verdict = SceneEditor(document), TrialLabel()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addWidget(self.editor, 1)
         column.addWidget(hairline())
         column.addWidget(self.verdict)
