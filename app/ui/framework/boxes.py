@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLayout, QVBoxLayout, QWidget
 
 Margins = tuple[int, int, int, int]
@@ -26,6 +27,12 @@ def h_box(parent: QWidget | None = None, margins: Margins = _NONE, spacing: int 
     box.setContentsMargins(*margins)
     box.setSpacing(spacing)
     return box
+
+
+def give_ground(widget: QWidget, name: str) -> None:
+    """Have the style sheet paint a plain widget's ground, by a name of the sheet."""
+    widget.setObjectName(name)
+    widget.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
 
 
 def empty(layout: QLayout) -> None:

@@ -8,7 +8,7 @@ from functools import partial
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
-from .boxes import h_box, put_away
+from .boxes import give_ground, h_box, put_away
 from .icons import IconButton
 from .labels import restyle
 from .seen_with import SeenWith
@@ -29,8 +29,7 @@ class Notice(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("notice")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "notice")
         self.text = QLabel()
         self.text.setWordWrap(True)
         self.buttons: list[QPushButton] = []

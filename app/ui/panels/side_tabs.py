@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QButtonGroup, QStackedWidget, QToolButton, QWidget
 
-from ..framework.boxes import h_box, v_box
+from ..framework.boxes import give_ground, h_box, v_box
 from ..framework.section import EDGE, hairline
 
 HEIGHT = 36
@@ -22,8 +22,7 @@ class SideTabs(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("sideTabs")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "sideTabs")
         self.pages = QStackedWidget()
         self.tabs: dict[str, QToolButton] = {}
         self._group = QButtonGroup(self)

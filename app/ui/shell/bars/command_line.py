@@ -9,7 +9,7 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
 
-from ...framework.boxes import put_away, v_box
+from ...framework.boxes import give_ground, put_away, v_box
 from ...framework.labels import Elided
 from ...framework.log_view import LogView
 from ...framework.theme import mono_font, text_font
@@ -68,8 +68,7 @@ class CommandLine(Themed, QWidget):
 
     def _lay_out(self) -> None:
         row = QWidget()
-        row.setObjectName("commandRow")
-        row.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(row, "commandRow")
         row.setFixedHeight(31)
         line = self._line = QHBoxLayout(row)
         line.setContentsMargins(16, 0, 16, 0)

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QWidget
 
 from ....formats.reading_question import ReadingChoice, ReadingQuestion
 from ....model.reading import ReadingOptions
-from ...framework.boxes import h_box, put_away, v_box
+from ...framework.boxes import give_ground, h_box, put_away, v_box
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
 from ...framework.seen_with import SeenWith
@@ -38,8 +38,7 @@ class QuestionCard(QWidget):
         """
         super().__init__()
         self._drawing, self._seen_with = drawing, SeenWith(self)
-        self.setObjectName("card")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "card")
         self.setAccessibleName("Question about the drawing")
         self.title, self.text = Elided(), QLabel()
         self.title.setFont(text_font(HEADING_PX, semibold=True))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QSizePolicy, QToolButton, QWidget
 
-from ...framework.boxes import h_box
+from ...framework.boxes import give_ground, h_box
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted, set_role
 from .badge import Badge
@@ -32,8 +32,7 @@ class StatusBar(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("statusBar")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "statusBar")
         self.setFixedHeight(34)
         self.place_x, self.place_y = QLabel(), QLabel()
         self.snap, self.ortho, self.polar, self.grid = (

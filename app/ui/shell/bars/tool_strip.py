@@ -6,7 +6,7 @@ from PySide6.QtCore import QPoint, QPointF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPolygonF, QResizeEvent
 from PySide6.QtWidgets import QFrame, QToolButton, QWidget
 
-from ...framework.boxes import h_box
+from ...framework.boxes import give_ground, h_box
 from ...framework.themed import Themed
 from .actions import Actions
 
@@ -154,8 +154,7 @@ class ToolStrip(QWidget):
 
     def __init__(self, actions: Actions) -> None:
         super().__init__()
-        self.setObjectName("toolStrip")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "toolStrip")
         offered = [[tuple(name for name in names if actions[name].isVisible()) for names in group] for group in GROUPS]
         self._groups = [[ToolButton(actions, names) for names in group if names] for group in offered]
         self.buttons = {button.names[0]: button for group in self._groups for button in group}

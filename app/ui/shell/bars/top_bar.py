@@ -8,7 +8,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QIcon, QResizeEvent
 from PySide6.QtWidgets import QFrame, QPushButton, QToolButton, QWidget
 
-from ...framework.boxes import h_box
+from ...framework.boxes import give_ground, h_box
 from ...framework.icons import icon
 from ...framework.theme import Theme
 from ...framework.view import views
@@ -56,8 +56,7 @@ class TopBar(QWidget):
 
     def __init__(self, actions: Actions) -> None:
         super().__init__()
-        self.setObjectName("topBar")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "topBar")
         self.setFixedHeight(TOP_HEIGHT)
         self._actions = actions
         self.compute, self.export = QPushButton(), QPushButton()

@@ -9,7 +9,7 @@ from PySide6.QtGui import QDesktopServices, QKeyEvent, QTextCursor, QTextDocumen
 from PySide6.QtWidgets import QLineEdit, QListWidget, QTextBrowser, QTextEdit, QWidget
 
 from ....usecases.manual.pages import base_of
-from ...framework.boxes import h_box, v_box
+from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.catalogue import active_language
 from ...framework.labels import muted, restyle
 from ...framework.theme import LIGHT, Theme, mixed
@@ -28,8 +28,7 @@ class HelpWindow(QWidget):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Window)
-        self.setObjectName("root")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "root")
         self.setWindowTitle("Hitofude: manual")
         self.resize(*_SIZE)
         self.pages: tuple[HelpPage, ...] = ()

@@ -10,7 +10,7 @@ from PySide6.QtCore import QEvent, QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent
 from PySide6.QtWidgets import QWidget
 
-from ...framework.boxes import h_box, v_box
+from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.catalogue import tr
 from ...framework.labels import Elided
 from ...framework.section import heading
@@ -36,8 +36,7 @@ class DeviationPlot(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("ncBar")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "ncBar")
         self._theme = LIGHT
         self._plot: PlotWidget | None = None
         self._cursor: InfiniteLine | None = None

@@ -7,14 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QScrollArea, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QWidget
 
 from ...framework.boxes import empty, h_box, v_box
 from ...framework.fields import ChoiceField, ListField, NumberField, NumberSpec, reason_label
 from ...framework.figures import counted, grouped
 from ...framework.labels import muted, set_role, show_words
 from ...framework.section import EDGE, hairline, heading
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import SideScroll
 from .better_form import BetterForm
 from .outline_field import OutlineField
 from .points_form import PointsForm
@@ -29,7 +29,7 @@ _BARREL = 2.0
 """A barrel is offered so many tolerances wide in the middle."""
 
 
-class CurvesPanel(QScrollArea):
+class CurvesPanel(SideScroll):
     """A form of how to smooth, and what came of it.
 
     Signals:
@@ -44,11 +44,7 @@ class CurvesPanel(QScrollArea):
     nc_requested = Signal()
 
     def __init__(self) -> None:
-        super().__init__()
-        self.setFixedWidth(WIDTH)
-        self.setWidgetResizable(True)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        super().__init__((EDGE + 1, 12, EDGE, 12), 4)
         self.preset = ChoiceField("Preset", [(value, name) for name, value in PRESETS])
         self.tolerance = NumberField(
             NumberSpec(
@@ -91,9 +87,7 @@ class CurvesPanel(QScrollArea):
         self._connect()
 
     def _lay_out(self) -> None:
-        inner = QWidget()
-        inner.setObjectName("sidePanel")
-        column = v_box(inner, (EDGE + 1, 12, EDGE, 12), 4)
+        column = self.column
         self.program.setWordWrap(True)
         self.title.setWordWrap(True)
         fields = (
@@ -135,7 +129,6 @@ class CurvesPanel(QScrollArea):
         column.addWidget(self.better)
         column.addStretch(1)
         self._result.hide()
-        self.setWidget(inner)
 
     def _connect(self) -> None:
         self.smooth.clicked.connect(self.smooth_requested)

@@ -21,15 +21,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from ...framework.boxes import empty, h_box, put_away, v_box
+from ...framework.boxes import empty, give_ground, h_box, put_away, v_box
 from ...framework.figures import TIMES
 from ...framework.labels import Elided, muted, set_role
 from ...framework.section import EDGE, ListRow, hairline, heading, theme_children
+from ...framework.side_scroll import WIDTH
 from ...framework.theme import Theme
 from ...framework.themed import Themed
 from ...framework.verdict import VerdictLevel, VerdictSummary
 from ...framework.width_grip import WidthGrip
-from ...panels.side_panel import WIDTH
 from .cell_colours import ColourKey
 from .findings import CutFinding, FindingColour, findings_of, level_of, sentences_of, title_of
 from .histogram_plot import HistogramPlot
@@ -112,8 +112,7 @@ class CutPanel(Themed, QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("sidePanel")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "sidePanel")
         self.setFixedWidth(WIDTH)
         self.shown: ShownCut | None = None
         self.entries: tuple[CutFinding, ...] = ()

@@ -20,7 +20,7 @@ from ...framework.fields import ChoiceField, ListField, NumberField, NumberSpec
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch
 from ...framework.section import EDGE, PanelSection, hairline, heading
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import WIDTH
 from .foreign_program import MissingSetup
 from .user_setup import Box, UserSetup
 

@@ -10,7 +10,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QWidget
 
-from ...framework.boxes import v_box
+from ...framework.boxes import give_ground, v_box
 from ...framework.figures import TIMES, grouped
 from ...framework.give_way import give_way
 from ...framework.icons import IconButton
@@ -49,8 +49,7 @@ class Transport(QWidget):
 
     def __init__(self, player: CutPlayer) -> None:
         super().__init__()
-        self.setObjectName("ncPlaces")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "ncPlaces")
         self._player = player
         self.plot = TimePlot()
         self.play, self.play_back = (

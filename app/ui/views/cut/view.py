@@ -9,7 +9,7 @@ from PySide6.QtCore import QEasingCurve, QEvent, QPointF, Qt, QVariantAnimation,
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QLabel, QWidget
 
-from ...framework.boxes import v_box
+from ...framework.boxes import give_ground, v_box
 from ...framework.samples import PathLineKind
 from ...framework.theme import Theme
 from ..canvas.viewport import GLIDE_MS
@@ -89,8 +89,7 @@ class CutView(QWidget):
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(200, 150)
-        self.setObjectName("cutView")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "cutView")
         self.setAccessibleName("Cut in three dimensions")
         self.legend.colour_chosen.connect(self.set_colour)
         self.legend.layer_switched.connect(self._on_layer)

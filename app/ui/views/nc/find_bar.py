@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QWidget
 
-from ...framework.boxes import h_box
+from ...framework.boxes import give_ground, h_box
 from ...framework.icons import IconButton
 from ...framework.labels import muted, restyle
 from .program_text import ProgramText, program_text
@@ -29,8 +29,7 @@ class FindBar(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("ncBar")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "ncBar")
         self.setFixedHeight(36)
         self.edit, self.count = QLineEdit(), muted()
         self.edit.setPlaceholderText("Find, or :120 for line 120")

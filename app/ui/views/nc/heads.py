@@ -7,7 +7,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from ....gcode.interpreter.dialect import DIALECT_RULES, Dialect
-from ...framework.boxes import h_box
+from ...framework.boxes import give_ground, h_box
 from ...framework.fields import ChoiceField
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
@@ -22,8 +22,7 @@ _LEAST_CHOICE_PX, _LEAST_PX = 72, 360
 
 def bar(widget: QWidget, spacing: int = 8) -> QHBoxLayout:
     """Make a widget a bar over what is below it; return its row."""
-    widget.setObjectName("ncBar")
-    widget.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+    give_ground(widget, "ncBar")
     widget.setFixedHeight(BAR_PX)
     return h_box(widget, (12, 0, 8, 0), spacing)
 

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from ...framework.boxes import h_box, v_box
+from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.catalogue import tr
 from ...framework.icons import IconButton
 from ...framework.theme import LIGHT, Theme
@@ -72,8 +72,7 @@ class PlacesPanel(QWidget):
             keys: key of the next row; with Shift it is that of the row before.
         """
         super().__init__()
-        self.setObjectName("ncPlaces")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "ncPlaces")
         self.title, self.list = QLabel(), QListWidget()
         self.list.setAccessibleName(f"{name.capitalize()}s of the program")
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

@@ -11,13 +11,13 @@ from ....core.errors import HitofudeError
 from ....drafting.expressions.numbers import length
 from ....formats.plot.layout import PlotOptions, scale_words
 from ....formats.plot.page import Paper
-from ...framework.boxes import h_box, v_box
+from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.fields import ChoiceField, ListField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted, grouped
 from ...framework.form import SwitchField
 from ...framework.labels import muted, show_words
 from ...framework.section import EDGE, hairline, heading
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import WIDTH
 
 _SCALES = (10.0, 5.0, 2.0, 1.0, 1 / 2, 1 / 5, 1 / 10, 1 / 20, 1 / 50, 1 / 100)
 _PAPERS = {paper: paper.name if paper.name[0] == "A" else paper.name.capitalize() for paper in Paper}
@@ -69,8 +69,7 @@ class PlotPanel(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("sidePanel")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "sidePanel")
         self.setFixedWidth(WIDTH)
         self.request = PlotRequest()
         self.paper = ListField("Paper", list(_PAPERS.items()))

@@ -12,13 +12,13 @@ from ....core.errors import HitofudeError
 from ....raster.ambiguities import AmbiguityKind
 from ....raster.picture_file import MM_PER_INCH
 from ....raster.picture_options import InkMeaning, PictureOptions
-from ...framework.boxes import v_box
+from ...framework.boxes import give_ground, v_box
 from ...framework.fields import LABEL_WIDTH, ChoiceField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted, grouped
 from ...framework.labels import Elided, muted, show_words
 from ...framework.samples import Switch
 from ...framework.section import EDGE, hairline, heading
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import WIDTH
 from .picture_preview import ASSUMED_DPI, PicturePreview, PictureSettings, PixelSize
 
 _LIST_PX = 96
@@ -69,8 +69,7 @@ class ImportPanel(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("sidePanel")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "sidePanel")
         self.setFixedWidth(WIDTH)
         self.reading: PictureSettings | None = None
         self.by = SizeGivenBy.DPI

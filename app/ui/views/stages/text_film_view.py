@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QByteArray, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtSvg import QSvgRenderer
-from PySide6.QtWidgets import QAbstractItemView, QFrame, QListWidget, QListWidgetItem, QWidget
+from PySide6.QtWidgets import QAbstractItemView, QListWidget, QListWidgetItem, QWidget
 
 from ...framework.boxes import h_box, v_box
 from ...framework.figures import counted
+from ...framework.section import upright_hairline
 from ...framework.translated_items import TranslatedItems
 from .film_player import FilmPlayer
 from .step_list import WIDTH
@@ -81,9 +82,7 @@ class TextFilmView(QWidget):
         self.rail.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
         self.rail.setAccessibleName("Steps of the text")
         self.rail.setItemDelegate(TranslatedItems(self.rail))
-        line = QFrame()
-        line.setObjectName("hairline")
-        line.setFixedWidth(1)
+        line = upright_hairline()
         middle = v_box(spacing=0)
         middle.addWidget(self.picture, 1)
         middle.addWidget(self.player)

@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QKeyEvent
 from PySide6.QtWidgets import QFrame, QStackedWidget, QWidget
 
 from ....raster.frame import BitmapFrame, Plane
-from ...framework.boxes import h_box, v_box
+from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.fields import ChoiceField
 from ...framework.figures import counted
 from ...framework.theme import LIGHT, Theme
@@ -92,8 +92,7 @@ class StagesView(QWidget):
         for letter, tip in TIPS.items():
             self.texts.buttons[letter].setToolTip(tip)
             self.texts.buttons[letter].setAccessibleName(tip)
-        self._head.setObjectName("ncBar")
-        self._head.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self._head, "ncBar")
         self._head.setFixedHeight(HEAD_PX)
         head = h_box(self._head, (12, 0, 8, 0))
         head.addWidget(self.texts)

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from enum import Enum
 from functools import partial
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QLabel, QMenu, QScrollArea, QWidget
+from PySide6.QtWidgets import QLabel, QMenu, QWidget
 
 from ....formats.plot.surface_plot import colour_of, line_of
 from ....formats.scene.edit import with_table_moved, with_value, without_table
@@ -21,9 +21,9 @@ from ...framework.icons import IconButton, IconLabel
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch
 from ...framework.section import ListRow, PanelSection, hairline, theme_children
+from ...framework.side_scroll import SideScroll
 from ...framework.theme import Theme
 from ...framework.themed import Themed
-from ...panels.side_panel import WIDTH
 from ...panels.tool_kinds import icon_of
 from .field_widgets import Field, field_of
 from .new_parts import FROM_CURVES, KINDS
@@ -145,7 +145,7 @@ class PartPropertiesSection(Themed, PanelSection):
             self.changed.emit(self._asks[at], value)
 
 
-class ScenePanel(Themed, QScrollArea):
+class ScenePanel(Themed, SideScroll):
     """Lists and properties of a scene.
 
     Signals:
@@ -166,11 +166,7 @@ class ScenePanel(Themed, QScrollArea):
     text_requested = Signal(str, int)
 
     def __init__(self) -> None:
-        super().__init__()
-        self.setFixedWidth(WIDTH)
-        self.setWidgetResizable(True)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        super().__init__((0, 4, 0, 8))
         self.surfaces, self.passes = (
             PartListSection("Surfaces", "Add a surface"),
             PartListSection("Passes", "Add passes"),
@@ -207,15 +203,12 @@ class ScenePanel(Themed, QScrollArea):
         for kind in FROM_CURVES:
             drawn.addAction(SHAPES[kind], partial(self.curves_requested.emit, kind))
         self.menu.addAction("From a file…", self.file_requested.emit)
-        inner = QWidget()
-        inner.setObjectName("sidePanel")
-        column = v_box(inner, (0, 4, 0, 8), 0)
+        column = self.column
         for section in (self.scene, self.surfaces, self.passes, self.tools):
             column.addWidget(section)
         column.addWidget(hairline())
         column.addWidget(self.form)
         column.addStretch(1)
-        self.setWidget(inner)
 
     def _connect(self) -> None:
         add = self.surfaces.add_button
