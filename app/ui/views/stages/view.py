@@ -7,12 +7,13 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
-from PySide6.QtWidgets import QFrame, QStackedWidget, QWidget
+from PySide6.QtWidgets import QStackedWidget, QWidget
 
 from ....raster.frame import BitmapFrame, Plane
 from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.fields import ChoiceField
 from ...framework.figures import counted
+from ...framework.section import upright_hairline
 from ...framework.theme import LIGHT, Theme
 from . import code_colours
 from .film import Film, FilmFrame, Projector, chain_at, dashed
@@ -58,7 +59,7 @@ class StagesView(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.theme = LIGHT
-        self.rail, self.pixels, self.player, self._line = StepList(), PixelView(), FilmPlayer(), QFrame()
+        self.rail, self.pixels, self.player, self._line = StepList(), PixelView(), FilmPlayer(), upright_hairline()
         self.film: Film | None = None
         self._projector: Projector | None = None
         self._frame = BitmapFrame()
@@ -76,16 +77,13 @@ class StagesView(QWidget):
         self.pixels.clicked.connect(self._click)
 
     def _lay_out(self) -> None:
-        line = self._line
-        line.setObjectName("hairline")
-        line.setFixedWidth(1)
         middle = v_box(spacing=0)
         middle.addWidget(self.pixels, 1)
         middle.addWidget(self.player)
         bitmap = QWidget()
         row = h_box(bitmap, spacing=0)
         row.addWidget(self.rail)
-        row.addWidget(line)
+        row.addWidget(self._line)
         row.addLayout(middle, 1)
         for page in (bitmap, self.films):
             self._stack.addWidget(page)
