@@ -89,6 +89,24 @@ def reason_label() -> QLabel:
     return made
 
 
+def field_name(text: str, buddy: QWidget | None = None, width: int = LABEL_WIDTH) -> QLabel:
+    """Return the name that stands before a field, so many px wide; a click on it goes to `buddy`."""
+    made = muted(text)
+    made.setFixedWidth(width)
+    if buddy is not None:
+        made.setBuddy(buddy)
+    return made
+
+
+def field_grid(field: QWidget) -> QGridLayout:
+    """Return the grid of a field whose reason stands under its value."""
+    grid = QGridLayout(field)
+    grid.setContentsMargins(0, 1, 0, 1)
+    grid.setHorizontalSpacing(8)
+    grid.setVerticalSpacing(2)
+    return grid
+
+
 def _mark(widget: QWidget, label: QLabel, reason: str) -> None:
     """Mark a widget's value as wrong and say why; "" = it is right."""
     show_words(label, reason)
@@ -148,14 +166,8 @@ class NumberField(QWidget):
             alone.addWidget(self.edit)
 
     def _lay_out(self, label_width: int) -> None:
-        name = muted(self.spec.name)
-        name.setFixedWidth(label_width)
-        name.setBuddy(self.edit)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 1, 0, 1)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(2)
-        grid.addWidget(name, 0, 0)
+        grid = field_grid(self)
+        grid.addWidget(field_name(self.spec.name, self.edit, label_width), 0, 0)
         grid.addWidget(self.edit, 0, 1)
         grid.addWidget(self.unit, 0, 2)
         self.note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
@@ -298,30 +310,29 @@ class TextField(QWidget):
 
     def __init__(self, name: str, tip: str = "") -> None:
         super().__init__()
-        row = h_box(self, (0, 1, 0, 1), 8)
-        label = muted(name)
-        label.setFixedWidth(LABEL_WIDTH)
         self.edit = QLineEdit()
         self.edit.setFixedHeight(ROW_HEIGHT)
         self.edit.setAccessibleName(name)
         self.setToolTip(tip)
-        label.setBuddy(self.edit)
         self._shown = ""
         self.edit.editingFinished.connect(self._finish)
-        row.addWidget(label)
+        row = h_box(self, (0, 1, 0, 1), 8)
+        row.addWidget(field_name(name, self.edit))
         row.addWidget(self.edit, 1)
 
     def _finish(self) -> None:
+        self.edit.setModified(False)
         text = self.edit.text().strip()
         if text != self._shown:
             self._shown = text
             self.chosen.emit(text)
 
     def show_value(self, text: str) -> None:
-        """Show the job's value."""
+        """Show the job's value, unless another one is being typed."""
         self._shown = text
-        if self.edit.text() != text:
+        if self.edit.text() != text and not (self.edit.isModified() and self.edit.hasFocus()):
             self.edit.setText(text)
+            self.edit.setCursorPosition(0)
 
 
 class ListField(QWidget):
@@ -331,23 +342,17 @@ class ListField(QWidget):
 
     def __init__(self, name: str, choices: Sequence[tuple[object, str]], label_width: int = LABEL_WIDTH) -> None:
         super().__init__()
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 1, 0, 1)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(2)
-        label = muted(name)
-        label.setFixedWidth(label_width)
         self.box = QComboBox()
         self.box.setFixedHeight(ROW_HEIGHT)
         self.box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.box.setMinimumContentsLength(_LEAST_LETTERS)
         self.box.setAccessibleName(name)
-        label.setBuddy(self.box)
         self._values: list[object] = []
         self.set_choices(choices)
         self.box.activated.connect(lambda at: self.chosen.emit(self._values[at]))
         self.reason = reason_label()
-        grid.addWidget(label, 0, 0)
+        grid = field_grid(self)
+        grid.addWidget(field_name(name, self.box, label_width), 0, 0)
         grid.addWidget(self.box, 0, 1)
         grid.addWidget(self.reason, 1, 0, 1, 2)
         grid.setColumnStretch(1, 1)

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QToolButton, QWidget
 
 from ...model.job import Job
 from .boxes import h_box, v_box
-from .fields import LABEL_WIDTH, ChoiceField, ListField, NumberField, NumberSpec, TextField
+from .fields import ChoiceField, ListField, NumberField, NumberSpec, TextField, field_name
 from .icons import IconButton, icon
 from .labels import Elided, muted
 from .samples import Switch
@@ -78,12 +78,10 @@ class SwitchField(QWidget):
     def __init__(self, name: str, tip: str = "") -> None:
         super().__init__()
         row = h_box(self, (0, 3, 0, 3), 8)
-        label = muted(name)
-        label.setFixedWidth(LABEL_WIDTH)
         self.switch = Switch(name)
         self.setToolTip(tip)
         self.switch.clicked.connect(lambda on: self.chosen.emit(on))
-        row.addWidget(label)
+        row.addWidget(field_name(name))
         row.addWidget(self.switch)
         row.addStretch(1)
 

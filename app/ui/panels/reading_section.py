@@ -15,9 +15,9 @@ from ...model.part import Units
 from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
 from ..framework.boxes import h_box
-from ..framework.fields import LABEL_WIDTH, ROW_HEIGHT, ListField, NumberField, NumberSpec, reason_label
+from ..framework.fields import ROW_HEIGHT, ListField, NumberField, NumberSpec, field_name, reason_label
 from ..framework.form import SwitchField
-from ..framework.labels import Elided, muted, show_words
+from ..framework.labels import Elided, show_words
 from ..framework.section import PanelSection
 
 MODEL_SPACE, NOTHING, ALL_SHOWN = "Model space", "none", "all that are shown"
@@ -58,11 +58,8 @@ class ChecksField(QWidget):
         inside = h_box(self.button, (6, 0, 20, 0))
         inside.addWidget(self.text)
         self.text.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        label = muted(name)
-        label.setFixedWidth(LABEL_WIDTH)
-        label.setBuddy(self.button)
         row = h_box(self, (0, 1, 0, 1), 8)
-        row.addWidget(label)
+        row.addWidget(field_name(name, self.button))
         row.addWidget(self.button, 1)
 
     def show_names(self, names: tuple[str, ...], on: tuple[str, ...]) -> None:

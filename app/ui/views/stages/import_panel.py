@@ -13,7 +13,7 @@ from ....raster.ambiguities import AmbiguityKind
 from ....raster.picture_file import MM_PER_INCH
 from ....raster.picture_options import InkMeaning, PictureOptions
 from ...framework.boxes import give_ground, v_box
-from ...framework.fields import LABEL_WIDTH, ChoiceField, NumberField, NumberSpec
+from ...framework.fields import ChoiceField, NumberField, NumberSpec, field_name
 from ...framework.figures import TIMES, counted, grouped
 from ...framework.labels import Elided, muted, show_words
 from ...framework.samples import Switch
@@ -164,10 +164,8 @@ class ImportPanel(QWidget):
         row.setLayout(box)
         box.setContentsMargins(0, 0, 0, 0)
         box.setSpacing(8)
-        name = muted("Threshold")
-        name.setFixedWidth(LABEL_WIDTH)
         self.level.setFixedWidth(self.level.fontMetrics().horizontalAdvance("255"))
-        box.addWidget(name)
+        box.addWidget(field_name("Threshold"))
         for widget in (self.threshold, self.level, self.otsu):
             box.addWidget(widget)
         return row
@@ -177,9 +175,7 @@ class ImportPanel(QWidget):
         row.setLayout(box)
         box.setContentsMargins(0, 2, 0, 2)
         box.setSpacing(8)
-        name = muted(text)
-        name.setFixedWidth(LABEL_WIDTH)
-        box.addWidget(name)
+        box.addWidget(field_name(text))
         box.addWidget(widget)
         box.addStretch(1)
         return row
