@@ -141,13 +141,11 @@ class FormSection(PanelSection):
         else:
             self._group.rows.addWidget(widget)
 
-    def add_number(
-        self, spec: NumberSpec, edit: Edit | MaybeEdit, read: Callable[[str], float] | None = None
-    ) -> NumberField:
+    def add_number(self, spec: NumberSpec, edit: Edit | MaybeEdit) -> NumberField:
         """Add a number field; `edit(job, value)` gives the job with that value, None where the field may be left
         empty.
         """
-        field = NumberField(spec, read)
+        field = NumberField(spec)
         self._add_number(spec.name, field, edit)
         return field
 

@@ -65,8 +65,8 @@ def sample_of(operation: Operation) -> PathLineKind:
 class LineSample(Themed, QWidget):
     """26 px of a path's line."""
 
-    def __init__(self, sample: PathLineKind, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, sample: PathLineKind) -> None:
+        super().__init__()
         self._sample = sample
         self._any_colour = False
         self.setFixedSize(28, 16)
@@ -124,8 +124,8 @@ class LineSample(Themed, QWidget):
 class Switch(Themed, QAbstractButton):
     """On or off: a knob in a groove."""
 
-    def __init__(self, name: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, name: str) -> None:
+        super().__init__()
         self.setCheckable(True)
         self.setAccessibleName(name)
         self.setToolTip(name)
@@ -157,8 +157,8 @@ _METAL_PX = 10.0  # of standing metal that is seen however wide the stepover
 class StepoverDrawing(Themed, QWidget):
     """The tool in two neighbouring rings, seen from the side: s is what it moves, the rest is overlap."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._ratio = 0.5
         self.setFixedSize(150, 70)
 

@@ -120,7 +120,7 @@ class SidePanel(SideScroll):
     def _fit_library(self) -> None:
         """Give the library's list the room that is left, and bring it into sight."""
         if not self.library.isHidden():
-            others = self.widget().sizeHint().height() - self.library.area.height()
+            others = self.column.totalSizeHint().height() - self.library.area.height()
             self.library.fit_into(self.viewport().height() - others)
             QTimer.singleShot(0, self, self._show_library)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QEnterEvent, QImage, QPainter, QPainterPath, QPaintEvent, QPen
-from PySide6.QtWidgets import QAbstractButton, QWidget
+from PySide6.QtWidgets import QAbstractButton
 
 from ...framework.catalogue import tr
 from ...framework.theme import text_font
@@ -23,8 +23,8 @@ class FileCard(Themed, QAbstractButton):
         path: of the file. words: under its name.
     """
 
-    def __init__(self, path: Path, title: str, words: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, path: Path, title: str, words: str) -> None:
+        super().__init__()
         self.path, self.words = path, words
         self._picture, self._blank = QImage(), False
         self.setText(title)

@@ -29,8 +29,8 @@ class BetterForm(QWidget):
 
     requested = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.within = NumberField(
             NumberSpec(
                 "Cut within",

@@ -20,8 +20,8 @@ _LEFT_OUT, _CORRECTED = "left out", "corrected"
 class PointsForm(QWidget):
     """Fields of which those are seen that matter."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.points = ChoiceField("Points", [(False, "All"), (True, "Effective")])
         self.epsilon = NumberField(
             NumberSpec(

@@ -34,8 +34,8 @@ class CurvesView(QWidget):
     side_requested = Signal(ViewSide)
     spotted = Signal(str)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.side = ViewSide.XY
         self.curves: CurvesModel | None = None
         self._program: ShownProgram | None = None

@@ -58,8 +58,8 @@ class CutView(QWidget):
     hovered = Signal(str)
     cursor_moved = Signal(float, float)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.model = model = CutModel(looks=frozenset(int(look) for look in MotionLineStyle))
         self.render_scheduler, self.colours, self.cut_input = (
             RenderScheduler(model, self),

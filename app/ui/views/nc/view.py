@@ -47,8 +47,8 @@ class NcView(QWidget):
     menu_requested = Signal(QPoint)
     comparison_closed = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.side = ViewSide.XY
         self.compared: ComparedProgram | None = None
         self.pane, self.other, self.state = TextPane(), TextPane(closable=True), StateStrip()

@@ -28,8 +28,8 @@ class FigureElevenForm(QWidget):
 
     requested = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.cells = ChoiceField("Cells", [(cells, str(cells)) for cells in (256, 512, 1024)])
         self.cells.setToolTip("Along the longer side of the stock")
         self.cells.show_value(_CELLS)

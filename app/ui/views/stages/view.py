@@ -56,8 +56,8 @@ class StagesView(QWidget):
     theme_changed = Signal(Theme)
     text_chosen = Signal(str)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.theme = LIGHT
         self.rail, self.pixels, self.player, self._line = StepList(), PixelView(), FilmPlayer(), upright_hairline()
         self.film: Film | None = None
