@@ -15,7 +15,7 @@ import numpy as np
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.finding import Finding, worst_first
 from ..raster.frame import STAGES_BYTES, PixelCode, Plane
-from ..raster.steps import STEPS, StageObserver, StepState
+from ..raster.steps import STEPS, StepState
 from ..usecases.job.options import MakeOptions
 from ..usecases.making.bitmap_job import BitmapJob, bitmap_job
 from ..usecases.making.report import as_values
@@ -148,7 +148,6 @@ def run_stages(
     data: bytes,
     requested: tuple[MakeOptions, Variant],
     progress: Progress = NO_PROGRESS,
-    observer: StageObserver | None = None,
 ) -> StagesRun:
     """Compute a drawing or a picture on pixels, and look at every step.
 
@@ -156,7 +155,6 @@ def run_stages(
         name: of the file; its suffix tells the format.
         data: its bytes.
         requested: tools, operations and bitmap; the rules of the fill.
-        observer: is shown every stage, also those that `StagesRun` keeps only the last of.
 
     Raises:
         HitofudeError: it cannot be used, or nothing in it can be cut.
@@ -171,8 +169,6 @@ def run_stages(
     turns: list[StepTurn] = []
     for stage in stages(ready.job, ready.part, made.paths, variant):
         progress.step(0.9, stage.name)
-        if observer is not None:
-            observer(stage)
         last[stage.number] = stage
         kept = (len(turns) + 1) * stage.plane.size <= MOST_TURNS_PX
         turns.append(

@@ -25,15 +25,7 @@ from ..raster.trace import PixelChain, chain_rows
 from ..raster.walls import Mask
 from ..usecases.pixels.part import BitmapPart
 from ..usecases.pixels.way import OperationPaths, PixelPath
-from .published_stages import long_line, published_angles, published_stages
-
-_CODES = {
-    PieceKind.CIRCLE: PixelCode.CIRCLE,
-    PieceKind.LONG_LINE: PixelCode.LONG_LINE,
-    PieceKind.SHORT_LINE: PixelCode.SHORT_LINE,
-    PieceKind.ARC: PixelCode.ARC,
-    PieceKind.SPLINE: PixelCode.SPLINE,
-}
+from .published_stages import CODES, long_line, published_angles, published_stages
 
 
 class Variant(Enum):
@@ -257,7 +249,7 @@ def _mark_pieces(plane: Plane, path: PixelPath, chosen: Mask) -> None:
         first, last = path.smoothed.ends[k : k + 2]
         own = pixels[np.arange(first, last + 1) % len(pixels)]
         own = own[plane[tuple(own.T)] != PixelCode.VERTEX]
-        plane[tuple(own.T)] = _CODES[PieceKind(path.smoothed.kinds[k])]
+        plane[tuple(own.T)] = CODES[PieceKind(path.smoothed.kinds[k])]
 
 
 def _mark_vertices(plane: Plane, path: PixelPath) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -148,7 +147,3 @@ class StepState:
     def text(self) -> str:
         """The chain codes, a line each, with region and turn."""
         return "".join(f"region {self.region} turn {self.turn} start {chain.text()}\n" for chain in self.chains)
-
-
-StageObserver = Callable[[StepState], None]
-"""Is shown the display memory after every step."""

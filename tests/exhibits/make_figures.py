@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.core.resources import resource
 from app.exhibits.figure_eleven import FigureOptions, figure_eleven
-from app.exhibits.redrawn import redrawn
+from tests.exhibits.redrawn import redrawn
 
 
 def main() -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from app.core.resources import resource
 from app.exhibits.figure_eleven import FigureOptions, figure_eleven
-from app.exhibits.redrawn import FIGURES, redrawn
+from tests.exhibits.redrawn import FIGURES, redrawn
 
 
 @pytest.mark.parametrize("page", ["texts.md", "texts_ja.md"])

@@ -20,10 +20,11 @@ from app.model.part import Part
 from app.model.tool import Tool
 from app.ui.framework import style
 from app.ui.framework.dropping import place_under
+from app.ui.framework.side_scroll import WIDTH
 from app.ui.framework.theme import LIGHT, TEXT_PX, text_font
 from app.ui.panels.changes import Subject, SubjectKind, with_tool
 from app.ui.panels.lists import OperationTimes
-from app.ui.panels.side_panel import WIDTH, SidePanel
+from app.ui.panels.side_panel import SidePanel
 from tests.ui.fields_typed import enter
 
 SCROLL_BAR_PX = 8

@@ -73,12 +73,12 @@ class DownColumn:
         return [replace(cell, y=cell.y - top) for cell in line[fit:]]
 
 
-def stacked(boxes: Sequence[LetterBox], fonts: Fonts, x: float = 0.0) -> list[PlacedBox]:
-    """Return the letters of a line that runs down from the height 0, each with its middle at `x`."""
+def stacked(boxes: Sequence[LetterBox], fonts: Fonts) -> list[PlacedBox]:
+    """Return the letters of a line that runs down from the height 0, each with its middle at 0."""
     y, placed = 0.0, list[PlacedBox]()
     for box in boxes:
         for cell in _cells(box, fonts):
-            placed.append(PlacedBox(cell, x - cell.ink / 2, y - cell.look.height))
+            placed.append(PlacedBox(cell, -cell.ink / 2, y - cell.look.height))
             y -= _APART * cell.look.height * cell.look.tracking
     return placed
 

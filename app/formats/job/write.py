@@ -10,25 +10,18 @@ from ...core.toml_tables import spelled
 from ...model.fields import ParameterPlace, Unit, declared_of, parameters_of
 from ...model.job import Job
 from ...model.operation import Operation
-from ...model.part import Units
 from ...model.tool import Tool
 from ...model.tool_kind import shape_keys
 from ..tools.library import shortest_degrees
-from .toml import SETTINGS, TOOL_KEYS, UNITS, WORDS, settings_of
+from .toml import SETTINGS, TOOL_KEYS, WORDS, settings_of
 
 Value = TypeVar("Value")
 
 
-def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
-    """Yield the lines of a job file, all but the part.
-
-    Args:
-        job: what they say.
-        units: of a drawing that names none, or None.
-    """
+def job_lines(job: Job) -> Iterator[str]:
+    """Yield the lines of a job file, all but the part."""
     for path in SETTINGS:
-        values = {key: setting_said(placed, job) for key, placed in settings_of(path).items()}
-        yield from _table(path, {"units": word_of(UNITS, units), **values} if path == "drawing" and units else values)
+        yield from _table(path, {key: setting_said(placed, job) for key, placed in settings_of(path).items()})
     for tool in job.tools:
         yield from tool_lines(tool)
     for operation in job.operations:

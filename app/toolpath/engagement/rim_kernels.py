@@ -16,6 +16,7 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
+from ...geometry.sort_kernels import order_of
 
 _SHAPES = "float64[:, ::1]"
 _HALF, _TURN = math.pi / 2, 2 * math.pi
@@ -94,6 +95,18 @@ def _stretches(shapes, k, circle, less, window, out):
     return count
 
 
+@kernel("float64[:, ::1](float64[:, ::1], int64)")
+def _in_order(found, count):
+    """Return the first stretches (count, 2) by where they begin."""
+    starts, ordered = np.empty(count), np.empty((count, 2))
+    for k in range(count):
+        starts[k] = found[k, 0]
+    order = order_of(starts)
+    for k in range(count):
+        ordered[k, 0], ordered[k, 1] = found[order[k], 0], found[order[k], 1]
+    return ordered
+
+
 @kernel(f"float64[:, ::1]({_SHAPES}, UniTuple(float64, 3), float64, UniTuple(float64, 2))")
 def _covered(shapes, circle, less, window):
     """Return the stretches (n, 2) of a part of a circle that shapes cover, by where they begin, radians from the part's
@@ -105,8 +118,7 @@ def _covered(shapes, circle, less, window):
         for j in range(_stretches(shapes, k, circle, less, window, own)):
             found[count, 0], found[count, 1] = own[j, 0], own[j, 1]
             count += 1
-    order = np.argsort(found[:count, 0])
-    return found[order]
+    return _in_order(found, count)
 
 
 @kernel("float64(float64[:, ::1], float64)", counts=False)
@@ -167,8 +179,7 @@ def _piece(shapes, row, radius, sweep, span):
                 if begin < end:
                     found[count, 0], found[count, 1] = begin, end
                     count += 1
-    order = np.argsort(found[:count, 0])
-    return _bare(found[order], math.pi)
+    return _bare(_in_order(found, count), math.pi)
 
 
 @kernel(f"UniTuple(float64, 2)({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 4))")

@@ -9,13 +9,14 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QButtonGroup, QComboBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QComboBox, QGridLayout, QLabel, QLineEdit, QToolButton, QWidget
 
 from ...core.errors import HitofudeError
 from ...drafting.expressions.errors import CommandError
 from ...drafting.expressions.numbers import length
+from .boxes import h_box
 from .display_unit import clean, display_unit_name, display_unit_size
-from .labels import Elided, muted
+from .labels import Elided, muted, restyle, show_words
 
 LABEL_WIDTH = 92
 VALUE_WIDTH = 84
@@ -78,12 +79,6 @@ class NumberSpec:
         return value
 
 
-def restyle(widget: QWidget) -> None:
-    """Let the style sheet look at a widget's properties again."""
-    widget.style().unpolish(widget)
-    widget.style().polish(widget)
-
-
 def reason_label() -> QLabel:
     """Return a label for what is wrong with a value."""
     made = QLabel()
@@ -94,10 +89,27 @@ def reason_label() -> QLabel:
     return made
 
 
+def field_name(text: str, buddy: QWidget | None = None, width: int = LABEL_WIDTH) -> QLabel:
+    """Return the name that stands before a field, so many px wide; a click on it goes to `buddy`."""
+    made = muted(text)
+    made.setFixedWidth(width)
+    if buddy is not None:
+        made.setBuddy(buddy)
+    return made
+
+
+def field_grid(field: QWidget) -> QGridLayout:
+    """Return the grid of a field whose reason stands under its value."""
+    grid = QGridLayout(field)
+    grid.setContentsMargins(0, 1, 0, 1)
+    grid.setHorizontalSpacing(8)
+    grid.setVerticalSpacing(2)
+    return grid
+
+
 def _mark(widget: QWidget, label: QLabel, reason: str) -> None:
     """Mark a widget's value as wrong and say why; "" = it is right."""
-    label.setText(reason)
-    label.setVisible(bool(reason))
+    show_words(label, reason)
     if bool(reason) != (widget.property("wrong") == "true"):
         widget.setProperty("wrong", "true" if reason else "false")
         restyle(widget)
@@ -150,19 +162,12 @@ class NumberField(QWidget):
         if reason is None:
             self._lay_out(label_width)
         else:
-            alone = QHBoxLayout(self)
-            alone.setContentsMargins(0, 0, 0, 0)
+            alone = h_box(self)
             alone.addWidget(self.edit)
 
     def _lay_out(self, label_width: int) -> None:
-        name = muted(self.spec.name)
-        name.setFixedWidth(label_width)
-        name.setBuddy(self.edit)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 1, 0, 1)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(2)
-        grid.addWidget(name, 0, 0)
+        grid = field_grid(self)
+        grid.addWidget(field_name(self.spec.name, self.edit, label_width), 0, 0)
         grid.addWidget(self.edit, 0, 1)
         grid.addWidget(self.unit, 0, 2)
         self.note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
@@ -264,9 +269,7 @@ class ChoiceField(QWidget):
 
     def __init__(self, name: str, choices: Sequence[tuple[Hashable, str]], label_width: int = LABEL_WIDTH) -> None:
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(8)
+        row = h_box(self, (0, 1, 0, 1), 8)
         if name:
             label = muted(name)
             label.setMaximumWidth(label_width - 4)
@@ -307,32 +310,29 @@ class TextField(QWidget):
 
     def __init__(self, name: str, tip: str = "") -> None:
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(8)
-        label = muted(name)
-        label.setFixedWidth(LABEL_WIDTH)
         self.edit = QLineEdit()
         self.edit.setFixedHeight(ROW_HEIGHT)
         self.edit.setAccessibleName(name)
         self.setToolTip(tip)
-        label.setBuddy(self.edit)
         self._shown = ""
         self.edit.editingFinished.connect(self._finish)
-        row.addWidget(label)
+        row = h_box(self, (0, 1, 0, 1), 8)
+        row.addWidget(field_name(name, self.edit))
         row.addWidget(self.edit, 1)
 
     def _finish(self) -> None:
+        self.edit.setModified(False)
         text = self.edit.text().strip()
         if text != self._shown:
             self._shown = text
             self.chosen.emit(text)
 
     def show_value(self, text: str) -> None:
-        """Show the job's value."""
+        """Show the job's value, unless another one is being typed."""
         self._shown = text
-        if self.edit.text() != text:
+        if self.edit.text() != text and not (self.edit.isModified() and self.edit.hasFocus()):
             self.edit.setText(text)
+            self.edit.setCursorPosition(0)
 
 
 class ListField(QWidget):
@@ -342,23 +342,17 @@ class ListField(QWidget):
 
     def __init__(self, name: str, choices: Sequence[tuple[object, str]], label_width: int = LABEL_WIDTH) -> None:
         super().__init__()
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 1, 0, 1)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(2)
-        label = muted(name)
-        label.setFixedWidth(label_width)
         self.box = QComboBox()
         self.box.setFixedHeight(ROW_HEIGHT)
         self.box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.box.setMinimumContentsLength(_LEAST_LETTERS)
         self.box.setAccessibleName(name)
-        label.setBuddy(self.box)
         self._values: list[object] = []
         self.set_choices(choices)
         self.box.activated.connect(lambda at: self.chosen.emit(self._values[at]))
         self.reason = reason_label()
-        grid.addWidget(label, 0, 0)
+        grid = field_grid(self)
+        grid.addWidget(field_name(name, self.box, label_width), 0, 0)
         grid.addWidget(self.box, 0, 1)
         grid.addWidget(self.reason, 1, 0, 1, 2)
         grid.setColumnStretch(1, 1)

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QToolButton, QWidget
 
 from ...model.job import Job
-from .fields import LABEL_WIDTH, ChoiceField, ListField, NumberField, NumberSpec, TextField
+from .boxes import h_box, v_box
+from .fields import ChoiceField, ListField, NumberField, NumberSpec, TextField, field_name
 from .icons import IconButton, icon
 from .labels import Elided, muted
 from .samples import Switch
@@ -50,18 +51,13 @@ class FieldGroup(QWidget):
         super().__init__()
         self.fold, self.summary, self.body = FoldButton(title), Elided(role="muted"), QWidget()
         self.summary.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        head = QHBoxLayout()
-        head.setContentsMargins(EDGE - 6, 4, EDGE, 0)
+        head = h_box(margins=(EDGE - 6, 4, EDGE, 0))
         head.addWidget(self.fold, 0, Qt.AlignmentFlag.AlignLeft)
         head.addWidget(self.summary, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addLayout(head)
         column.addWidget(self.body)
-        self.rows = QVBoxLayout(self.body)
-        self.rows.setContentsMargins(EDGE, 0, EDGE, 4)
-        self.rows.setSpacing(0)
+        self.rows = v_box(self.body, (EDGE, 0, EDGE, 4), 0)
         self.body.hide()
         self.fold.toggled.connect(self._unfold)
 
@@ -81,15 +77,11 @@ class SwitchField(QWidget):
 
     def __init__(self, name: str, tip: str = "") -> None:
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 3, 0, 3)
-        row.setSpacing(8)
-        label = muted(name)
-        label.setFixedWidth(LABEL_WIDTH)
+        row = h_box(self, (0, 3, 0, 3), 8)
         self.switch = Switch(name)
         self.setToolTip(tip)
         self.switch.clicked.connect(lambda on: self.chosen.emit(on))
-        row.addWidget(label)
+        row.addWidget(field_name(name))
         row.addWidget(self.switch)
         row.addStretch(1)
 
@@ -149,13 +141,11 @@ class FormSection(PanelSection):
         else:
             self._group.rows.addWidget(widget)
 
-    def add_number(
-        self, spec: NumberSpec, edit: Edit | MaybeEdit, read: Callable[[str], float] | None = None
-    ) -> NumberField:
+    def add_number(self, spec: NumberSpec, edit: Edit | MaybeEdit) -> NumberField:
         """Add a number field; `edit(job, value)` gives the job with that value, None where the field may be left
         empty.
         """
-        field = NumberField(spec, read)
+        field = NumberField(spec)
         self._add_number(spec.name, field, edit)
         return field
 
@@ -185,12 +175,9 @@ class FormSection(PanelSection):
     def add_picture(self, picture: QWidget, *beside: QWidget) -> QWidget:
         """Add a drawing with a few words beside it."""
         whole = QWidget()
-        row = QHBoxLayout(whole)
-        row.setContentsMargins(0, 4, 0, 6)
-        row.setSpacing(12)
+        row = h_box(whole, (0, 4, 0, 6), 12)
         row.addWidget(picture)
-        words = QVBoxLayout()
-        words.setSpacing(2)
+        words = v_box(spacing=2)
         words.addStretch(1)
         for each in beside:
             if isinstance(each, QLabel):

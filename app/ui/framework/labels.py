@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QHelpEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QLabel, QToolTip
+from PySide6.QtWidgets import QAbstractButton, QLabel, QToolTip, QWidget
 
 _LEAST_PX = 24
 
@@ -14,6 +14,24 @@ def muted(text: str = "") -> QLabel:
     made = QLabel(text)
     made.setProperty("role", "muted")
     return made
+
+
+def restyle(widget: QWidget) -> None:
+    """Let the style sheet look at a widget's properties again."""
+    widget.style().unpolish(widget)
+    widget.style().polish(widget)
+
+
+def set_role(widget: QWidget, role: str) -> None:
+    """Give a widget that is seen already another role in the style sheet; "" = none."""
+    widget.setProperty("role", role)
+    restyle(widget)
+
+
+def show_words(label: QLabel | QAbstractButton, words: str) -> None:
+    """Show a label with other words; without any it is not there."""
+    label.setText(words)
+    label.setVisible(bool(words))
 
 
 class Elided(QLabel):

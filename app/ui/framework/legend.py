@@ -6,14 +6,15 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
+from .boxes import h_box, v_box
 from .catalogue import tr
 from .icons import IconButton
-from .labels import Elided
+from .labels import Elided, set_role
 from .samples import LineSample, PathLineKind
 from .section import hairline
-from .theme import LIGHT, Theme
+from .themed import Themed
 
 _GAP_PX = 8
 _MOST_OF_WIDTH = 0.4
@@ -36,9 +37,7 @@ class LegendRow(QToolButton):
         self.line, self.label = LineSample(sample), Elided(words)
         self.setAccessibleName(f"Show {words.lower()}")
         self.setToolTip(f"Show or hide: {words.lower()}")
-        row = QHBoxLayout(self)
-        row.setContentsMargins(4, 0, 8, 0)
-        row.setSpacing(10)
+        row = h_box(self, (4, 0, 8, 0), 10)
         row.addWidget(self.line)
         row.addWidget(self.label, 1)
         for child in (self.line, self.label):
@@ -56,15 +55,13 @@ class LegendRow(QToolButton):
     def _show_state(self, on: bool) -> None:
         self.line.setEnabled(on)
         self.line.update()
-        self.label.setProperty("role", "" if on else "muted")
-        self.label.style().unpolish(self.label)
-        self.label.style().polish(self.label)
+        set_role(self.label, "" if on else "muted")
         font = self.label.font()
         font.setStrikeOut(not on)
         self.label.setFont(font)
 
 
-class LegendSheet(QFrame):
+class LegendSheet(Themed, QFrame):
     """A sheet with a title that folds, and a body below it.
 
     Attributes:
@@ -74,7 +71,7 @@ class LegendSheet(QFrame):
     def __init__(self, parent: QWidget, title: QLabel, width: int) -> None:
         """Make an empty one, `width` px wide."""
         super().__init__(parent)
-        self._theme, self._folded_for_room = LIGHT, False
+        self._folded_for_room = False
         self._fits = True
         self.setFixedWidth(width)
         self.title, self.body = title, QWidget()
@@ -85,14 +82,10 @@ class LegendSheet(QFrame):
         head.addWidget(title)
         head.addStretch(1)
         head.addWidget(self.fold)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(12, 10, 12, 10)
-        column.setSpacing(0)
+        column = v_box(self, (12, 10, 12, 10), 0)
         column.addLayout(head)
         column.addWidget(self.body)
-        self._rows = QVBoxLayout(self.body)
-        self._rows.setContentsMargins(0, 4, 0, 0)
-        self._rows.setSpacing(0)
+        self._rows = v_box(self.body, (0, 4, 0, 0), 0)
 
     def add(self, *widgets: QWidget) -> None:
         """Put widgets below what there is."""
@@ -108,11 +101,6 @@ class LegendSheet(QFrame):
         self.add_gap(_GAP_PX)
         self.add(hairline())
         self.add_gap(_GAP_PX)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def fit_contents(self) -> None:
         """Be as high as what is shown."""

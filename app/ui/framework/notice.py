@@ -6,10 +6,11 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
-from .fields import restyle
+from .boxes import give_ground, h_box, put_away
 from .icons import IconButton
+from .labels import restyle
 from .seen_with import SeenWith
 
 Answers = Sequence[tuple[str, Callable[[], None]]]
@@ -28,17 +29,14 @@ class Notice(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("notice")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "notice")
         self.text = QLabel()
         self.text.setWordWrap(True)
         self.buttons: list[QPushButton] = []
         self._stays = self._of_job = False
         self._seen_with = SeenWith(self)
         self.sentence = ""
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(16, 4, 8, 4)
-        self._row.setSpacing(8)
+        self._row = h_box(self, (16, 4, 8, 4), 8)
         self._row.addWidget(self.text, 1)
         self._close = IconButton("cancel", "Close this line")
         self._close.clicked.connect(self.hide)
@@ -82,8 +80,7 @@ class Notice(QWidget):
         self._seen_with.follow(None)
         for button in self.buttons:
             self._row.removeWidget(button)
-            button.hide()  # a dialog that opens now would let it live, and lie over the sentence
-            button.deleteLater()
+            put_away(button)  # a dialog that opens now would let it live, and lie over the sentence
         self.buttons = []
         self.text.setText(sentence)
         self.setProperty("error", "true" if error else "false")

@@ -9,7 +9,8 @@ from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
 from ...model.operation import Operation
-from .theme import LIGHT, Theme
+from .theme import Theme
+from .themed import Themed
 
 
 class PathLineKind(Enum):
@@ -61,19 +62,14 @@ def sample_of(operation: Operation) -> PathLineKind:
     return PathLineKind.POCKET if operation.COARSE else PathLineKind.REST
 
 
-class LineSample(QWidget):
+class LineSample(Themed, QWidget):
     """26 px of a path's line."""
 
-    def __init__(self, sample: PathLineKind, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._sample, self._theme = sample, LIGHT
+    def __init__(self, sample: PathLineKind) -> None:
+        super().__init__()
+        self._sample = sample
         self._any_colour = False
         self.setFixedSize(28, 16)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def set_any_colour(self, on: bool) -> None:
         """Draw cutting paths in grey: their colour tells something else than their kind."""
@@ -125,12 +121,11 @@ class LineSample(QWidget):
         painter.drawRect(area)
 
 
-class Switch(QAbstractButton):
+class Switch(Themed, QAbstractButton):
     """On or off: a knob in a groove."""
 
-    def __init__(self, name: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._theme = LIGHT
+    def __init__(self, name: str) -> None:
+        super().__init__()
         self.setCheckable(True)
         self.setAccessibleName(name)
         self.setToolTip(name)
@@ -140,11 +135,6 @@ class Switch(QAbstractButton):
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """28 x 16 px and room for the focus ring."""
         return QSize(30, 18)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Draw groove and knob."""
@@ -164,18 +154,13 @@ class Switch(QAbstractButton):
 _METAL_PX = 10.0  # of standing metal that is seen however wide the stepover
 
 
-class StepoverDrawing(QWidget):
+class StepoverDrawing(Themed, QWidget):
     """The tool in two neighbouring rings, seen from the side: s is what it moves, the rest is overlap."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._theme, self._ratio = LIGHT, 0.5
+    def __init__(self) -> None:
+        super().__init__()
+        self._ratio = 0.5
         self.setFixedSize(150, 70)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def show_ratio(self, ratio: float) -> None:
         """Draw a stepover of `ratio` tool diameters, in (0, 1]."""

@@ -6,9 +6,10 @@ import math
 
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QWidget
 
-from .fields import restyle
+from .boxes import h_box, v_box
+from .labels import restyle
 from .theme import HEADING_PX, Theme, text_font
 
 EDGE = 16
@@ -59,21 +60,16 @@ class PanelSection(QWidget):
     def __init__(self, title: str) -> None:
         super().__init__()
         self.title = heading(title)
-        self.head = QHBoxLayout()
-        self.head.setContentsMargins(EDGE, 0, EDGE - 4, 0)
-        self.head.setSpacing(4)
+        self.head = h_box(margins=(EDGE, 0, EDGE - 4, 0), spacing=4)
         self.head.addWidget(self.title)
         self.head.addStretch(1)
-        self.rows = QVBoxLayout(self)
-        self.rows.setContentsMargins(0, 8, 0, 8)
-        self.rows.setSpacing(0)
+        self.rows = v_box(self, (0, 8, 0, 8), 0)
         self.rows.addLayout(self.head)
         self.rows.addSpacing(2)
 
     def add_indented(self, widget: QWidget) -> None:
         """Add a row that keeps the panel's margins."""
-        line = QHBoxLayout()
-        line.setContentsMargins(EDGE, 0, EDGE, 0)
+        line = h_box(margins=(EDGE, 0, EDGE, 0))
         self.rows.addLayout(line)  # first: PySide frees a widget twice that went into a layout without a window
         line.addWidget(widget)
 
@@ -102,9 +98,7 @@ class ListRow(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedHeight(28)
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        line = QHBoxLayout(self)
-        line.setContentsMargins(EDGE, 0, EDGE, 0)
-        line.setSpacing(8)
+        line = h_box(self, (EDGE, 0, EDGE, 0), 8)
         for at, widget in enumerate(widgets):
             line.addWidget(widget, 1 if at == wide else 0)
             if at == stretch_after:

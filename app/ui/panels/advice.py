@@ -10,11 +10,12 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QPushButton
 
 from ...model.tool import Tool
+from ..framework.boxes import put_away
 from ..framework.figures import clock, counted, grouped
 from ..framework.icons import IconButton
 from ..framework.labels import muted
 from ..framework.section import ListRow, PanelSection, theme_children
-from ..framework.theme import Theme
+from ..framework.themed import Themed
 from .library import side_by_side
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ ALL = 0.99995
 """Share of an area from which all of it is said to be reached."""
 
 
-class AdviceSection(PanelSection):
+class AdviceSection(Themed, PanelSection):
     """A list of tools with what each would do, and the tightest places of the drawing.
 
     Signals:
@@ -68,7 +69,6 @@ class AdviceSection(PanelSection):
         self._times: list[QLabel] = []
         self._places: list[QPushButton] = []
         self._chosen = -1
-        self._theme: Theme | None = None
         self._after = self.rows.count()
         self.rows.addSpacing(8)
         self.add_indented(side_by_side(self.pocket_button, self.contour_button))
@@ -81,16 +81,11 @@ class AdviceSection(PanelSection):
         label.setFixedWidth(wide)
         return label
 
-    def set_theme(self, theme: Theme) -> None:
-        """Remember the theme for rows to come."""
-        self._theme = theme
-
     def show_advice(self, advice: Advice | None, instead: str) -> None:
         """Show advice, or a sentence while there is none."""
         for widget in (*self._made, *self._places):
             self.rows.removeWidget(widget)
-            widget.hide()
-            widget.deleteLater()
+            put_away(widget)
         self._made, self._places, self._tools, self._times, self._chosen = [], [], [], [], -1
         self.said.setText(advice.why if advice is not None else instead)
         for widget in (self._head, self.pocket_button, self.contour_button, self.trial_button):
@@ -102,8 +97,7 @@ class AdviceSection(PanelSection):
             self._add_choice(k, choice, advice)
         for text, spot in tight_places(advice.regions):
             self._add_place(text, spot)
-        if self._theme is not None:
-            theme_children(self, self._theme)
+        theme_children(self, self._theme)
         self._choose(next(k for k, choice in enumerate(worth) if choice.tool is advice.pocket))
 
     def _add_choice(self, k: int, choice: ToolChoice, advice: Advice) -> None:

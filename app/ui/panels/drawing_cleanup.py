@@ -8,13 +8,14 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QLabel, QListWidget, QProgressBar, QPushButton, QWidget
 
 from ...core.tolerances import JOIN
 from ...model.curves import Point
+from ..framework.boxes import h_box
 from ..framework.fields import NumberField, NumberSpec
 from ..framework.figures import counted, grouped
-from ..framework.labels import muted
+from ..framework.labels import muted, show_words
 from ..framework.section import PanelSection
 
 MOST = 200
@@ -88,9 +89,7 @@ class CleanUpSection(PanelSection):
         self.add_indented(self.words)
         self.rows.addWidget(self.list)
         buttons = QWidget()
-        row = QHBoxLayout(buttons)
-        row.setContentsMargins(0, 4, 0, 0)
-        row.setSpacing(8)
+        row = h_box(buttons, (0, 4, 0, 0), 8)
         row.addWidget(self.look)
         row.addWidget(self.mend)
         row.addStretch(1)
@@ -132,8 +131,7 @@ class CleanUpSection(PanelSection):
         self.look.setText("Look")
         self.bar.hide()
         self.remark.setText("")
-        self.words.setText(words)
-        self.words.setVisible(bool(words))
+        show_words(self.words, words)
         self.list.setVisible(found)
         self.mend.setVisible(found)
 

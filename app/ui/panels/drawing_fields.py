@@ -6,11 +6,12 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from ...model.curves import Point
-from ..framework.fields import LABEL_WIDTH, NumberField, NumberSpec, reason_label
-from ..framework.labels import Elided, muted
+from ..framework.boxes import h_box
+from ..framework.fields import NumberField, NumberSpec, field_grid, field_name, reason_label
+from ..framework.labels import Elided
 
 COORDINATE_WIDTH = 72
 
@@ -31,13 +32,8 @@ class PointField(QWidget):
             NumberField(replace(spec, name=f"{spec.name} {axis}"), read, self.reason) for axis in "XY"
         )
         self.setToolTip(spec.tip)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 1, 0, 1)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(2)
-        name = muted(spec.name)
-        name.setFixedWidth(LABEL_WIDTH)
-        grid.addWidget(name, 0, 0)
+        grid = field_grid(self)
+        grid.addWidget(field_name(spec.name), 0, 0)
         for column, field in enumerate((self.across, self.up), start=1):
             field.edit.setFixedWidth(COORDINATE_WIDTH)
             field.committed.connect(lambda _: self.committed.emit((self.across.number, self.up.number)))
@@ -65,12 +61,8 @@ class Figure(QWidget):
         self.value = QLabel() if wraps else Elided()
         self.value.setWordWrap(wraps)
         self.value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 3, 0, 3)
-        row.setSpacing(8)
-        label = muted(name)
-        label.setFixedWidth(LABEL_WIDTH)
-        row.addWidget(label, 0, Qt.AlignmentFlag.AlignTop)
+        row = h_box(self, (0, 3, 0, 3), 8)
+        row.addWidget(field_name(name), 0, Qt.AlignmentFlag.AlignTop)
         row.addWidget(self.value, 1)
         self.setAccessibleName(name)
 

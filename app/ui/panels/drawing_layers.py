@@ -8,16 +8,17 @@ from itertools import count, pairwise
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QContextMenuEvent, QKeyEvent, QMouseEvent
-from PySide6.QtWidgets import QFrame, QLineEdit, QMenu, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QLineEdit, QMenu, QScrollArea, QWidget
 
 from ...drafting.document import Document
 from ...drafting.expressions.words import name_text
 from ...model.part import Layer
+from ..framework.boxes import put_away, v_box
 from ..framework.figures import counted, grouped
 from ..framework.icons import IconButton
 from ..framework.labels import Elided, muted
 from ..framework.section import EDGE, ListRow, PanelSection, theme_children
-from ..framework.theme import Theme
+from ..framework.themed import Themed
 from .swatch import HARD_TO_SEE, HUES, LayerColourButton
 
 ROW_PX = 28
@@ -117,7 +118,7 @@ class LayerRow(ListRow):
         self.more.emit(event.globalPos())
 
 
-class LayersSection(PanelSection):
+class LayersSection(Themed, PanelSection):
     """Every layer of a document.
 
     Signals:
@@ -131,16 +132,13 @@ class LayersSection(PanelSection):
     def __init__(self, document: Document) -> None:
         super().__init__("Layers")
         self._document = document
-        self._theme: Theme | None = None
         self._renaming = ""
         self.rows_by_name: dict[str, LayerRow] = {}
         self.add_button = IconButton("add", "Add a layer and draw on it")
         self.add_button.clicked.connect(self._add)
         self.head.addWidget(self.add_button)
         self._list = QWidget()
-        self._column = QVBoxLayout(self._list)
-        self._column.setContentsMargins(0, 0, 0, 0)
-        self._column.setSpacing(0)
+        self._column = v_box(self._list, spacing=0)
         self._column.addStretch(1)
         self.area = QScrollArea()
         self.area.setWidget(self._list)
@@ -149,10 +147,6 @@ class LayersSection(PanelSection):
         self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.rows.addWidget(self.area)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Remember the theme for rows to come."""
-        self._theme = theme
 
     def refresh(self) -> None:
         """Show the layers as they are now; rows stay as long as the names do."""
@@ -177,13 +171,11 @@ class LayersSection(PanelSection):
         )
         for row in self.rows_by_name.values():
             self._column.removeWidget(row)
-            row.hide()
-            row.deleteLater()
+            put_away(row)
         self.rows_by_name = {layer.name: self._row(layer) for layer in layers}
         for at, row in enumerate(self.rows_by_name.values()):
             self._column.insertWidget(at, row)
-            if self._theme is not None:
-                theme_children(row, self._theme)
+            theme_children(row, self._theme)
         self.area.setFixedHeight(ROW_PX * min(len(layers), MOST_ROWS))
         if focused is not None:
             list(self.rows_by_name.values())[min(focused, len(layers) - 1)].setFocus()

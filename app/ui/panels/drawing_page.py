@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QLineEdit, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from ...core.errors import HitofudeError
 from ...drafting.document import Document, DocumentChange
@@ -14,16 +14,16 @@ from ...drafting.expressions.errors import reason_of
 from ...geometry.sample import Box
 from ..framework.fields import NumberField
 from ..framework.section import PanelSection, hairline
+from ..framework.side_scroll import SideScroll
 from .drawing_cleanup import CleanUpSection
 from .drawing_fields import PointField
 from .drawing_history import HistorySection
 from .drawing_layers import LayersSection
 from .drawing_properties import PropertiesSection
 from .reading_section import ReadingSection
-from .side_panel import WIDTH
 
 
-class DrawingPage(QScrollArea):
+class DrawingPage(SideScroll):
     """Shows a document's drawing in figures; what the user changes becomes lines of the shape language.
 
     Args:
@@ -37,7 +37,7 @@ class DrawingPage(QScrollArea):
     refused = Signal(str)
 
     def __init__(self, document: Document, extent: Callable[[], Box | None]) -> None:
-        super().__init__()
+        super().__init__((0, 4, 0, 8))
         self._document, self._extent = document, extent
         self.properties, self.layers, self.history = (
             PropertiesSection(document),
@@ -55,20 +55,11 @@ class DrawingPage(QScrollArea):
         document.subscribe(self._on_change)
 
     def _lay_out(self) -> None:
-        inner = QWidget()
-        inner.setObjectName("sidePanel")
-        column = self.column = QVBoxLayout(inner)
-        column.setContentsMargins(0, 4, 0, 8)
-        column.setSpacing(0)
+        column = self.column
         for section in (self.properties, self.layers, self.reading, self.cleanup):
             column.addWidget(section)
             column.addWidget(self._below_reading if section is self.reading else hairline())
         column.addWidget(self.history, 1)
-        self.setWidget(inner)
-        self.setWidgetResizable(True)
-        self.setFixedWidth(WIDTH)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
 
     def run(self, line: str, field: NumberField | PointField | None = None) -> None:
         """Carry out a line; what is wrong with it is said at the field, or by `refused`."""

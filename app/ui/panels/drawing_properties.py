@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from ...drafting.commands.properties import Property, PropertyKind, Value, kind_name, properties_of
 from ...drafting.curves.area import enclosed_area
@@ -23,6 +23,7 @@ from ...geometry.sample import Box
 from ...model.curves import Arc, Circle, Curve, Ellipse, Spline
 from ...model.notes import Dimension, Shape
 from ...model.part import Units
+from ..framework.boxes import put_away, v_box
 from ..framework.catalogue import tr
 from ..framework.display_unit import clean, display_unit_name, display_unit_size
 from ..framework.fields import ListField, NumberField, NumberSpec
@@ -115,9 +116,7 @@ class PropertiesSection(PanelSection):
         self._adding.done.connect(self._show_sum)
         self.add_indented(self.layer)
         self._body = QWidget()
-        self._column = QVBoxLayout(self._body)
-        self._column.setContentsMargins(EDGE, 0, EDGE, 0)
-        self._column.setSpacing(0)
+        self._column = v_box(self._body, (EDGE, 0, EDGE, 0), 0)
         self.rows.addWidget(self._body)
 
     def _ask_layer(self, name: object) -> None:
@@ -157,8 +156,7 @@ class PropertiesSection(PanelSection):
     def _build(self, properties: Mapping[str, Property], figures: tuple[str, ...]) -> None:
         for old in (*self.fields.values(), *self.figures.values()):
             self._column.removeWidget(old)
-            old.hide()
-            old.deleteLater()
+            put_away(old)
         self.fields = {word: self._field(word, each) for word, each in properties.items()}
         self.figures = {name: Figure(name, wraps=name == KINDS) for name in figures}
         for new in (*self.fields.values(), *self.figures.values()):

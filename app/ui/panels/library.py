@@ -9,16 +9,17 @@ from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QPushButton, QScrollArea, QWidget
 
 from ...formats.tools.library import ToolLibrary
 from ...model.tool import FeedRow, Tool
+from ..framework.boxes import h_box, put_away, v_box
 from ..framework.fields import ROW_HEIGHT, ListField
 from ..framework.figures import counted, grouped
 from ..framework.icons import IconButton, IconLabel
 from ..framework.labels import Elided, muted
 from ..framework.section import ListRow, PanelSection, theme_children
-from ..framework.theme import Theme
+from ..framework.themed import Themed
 from .changes import for_material, row_for
 from .tool_kinds import icon_of, listed_kinds, use_of
 
@@ -45,7 +46,7 @@ def materials(tools: tuple[Tool, ...]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names[row.material.casefold()] for tool in tools for row in tool.feeds))
 
 
-class LibrarySection(PanelSection):
+class LibrarySection(Themed, PanelSection):
     """Every tool of the libraries, kind by kind, the thinnest first.
 
     Signals:
@@ -72,7 +73,6 @@ class LibrarySection(PanelSection):
         self._rows: list[tuple[Tool, ListRow]] = []
         self._chosen: Tool | None = None
         self._material, self._room = "", LEAST_ROWS
-        self._theme: Theme | None = None
         self._lay_out()
         self._connect()
 
@@ -82,9 +82,7 @@ class LibrarySection(PanelSection):
         self.search.setFixedHeight(ROW_HEIGHT)
         self.search.setClearButtonEnabled(False)
         self.list_ = QWidget()
-        self._column = QVBoxLayout(self.list_)
-        self._column.setContentsMargins(0, 0, 0, 0)
-        self._column.setSpacing(0)
+        self._column = v_box(self.list_, spacing=0)
         self._column.addStretch(1)
         self.area = QScrollArea()
         self.area.setWidget(self.list_)
@@ -115,10 +113,6 @@ class LibrarySection(PanelSection):
         self.put_button.clicked.connect(lambda: self._send(self.put.emit))
         self.import_button.clicked.connect(self.imported)
         self.export_button.clicked.connect(self.exported)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Remember the theme for rows to come."""
-        self._theme = theme
 
     def show_libraries(self, libraries: Mapping[str, ToolLibrary]) -> None:
         """Show the tools of libraries, by their files' names."""
@@ -175,8 +169,7 @@ class LibrarySection(PanelSection):
         """List what the search finds."""
         for _, row in self._rows:
             self._column.removeWidget(row)
-            row.hide()
-            row.deleteLater()
+            put_away(row)
         found = [tool for library in self._libraries for tool in library.tools if matches(tool, self.search.text())]
         order = listed_kinds()
         found.sort(key=lambda tool: (order.index(tool.kind), tool.diameter))
@@ -201,8 +194,7 @@ class LibrarySection(PanelSection):
         row.clicked.connect(lambda: self.choose(tool))
         row.stepped.connect(lambda way: self._step(tool, way))
         row.installEventFilter(self)
-        if self._theme is not None:
-            theme_children(row, self._theme)
+        theme_children(row, self._theme)
         return row
 
     def _step(self, tool: Tool, way: int) -> None:
@@ -270,9 +262,7 @@ def _link(text: str) -> QPushButton:
 def side_by_side(*widgets: QWidget) -> QWidget:
     """Return widgets in a row, from the left."""
     made = QWidget()
-    row = QHBoxLayout(made)
-    row.setContentsMargins(0, 0, 0, 0)
-    row.setSpacing(8)
+    row = h_box(made, spacing=8)
     for widget in widgets:
         row.addWidget(widget)
     row.addStretch(1)

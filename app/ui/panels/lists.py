@@ -7,12 +7,13 @@ from itertools import accumulate, pairwise
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QWidget
+from PySide6.QtWidgets import QLabel, QMenu, QWidget
 
 from ...model.job import Job
 from ...model.operation import Operation
 from ...model.operation_kinds import OPERATION_KINDS
 from ...model.tool import Tool
+from ..framework.boxes import h_box, put_away
 from ..framework.computation import WaitingTimes
 from ..framework.dropping import drop
 from ..framework.figures import TIMES, clock, grouped
@@ -20,7 +21,7 @@ from ..framework.icons import IconButton, IconLabel
 from ..framework.labels import Elided, muted
 from ..framework.samples import LineSample, Switch, sample_of
 from ..framework.section import EDGE, ListRow, PanelSection, theme_children
-from ..framework.theme import Theme
+from ..framework.themed import Themed
 from .changes import Subject, SubjectKind, operation_name, refusal
 from .tool_kinds import icon_of
 
@@ -31,7 +32,7 @@ def _bold(text: str) -> QLabel:
     return made
 
 
-class ListSection(PanelSection):
+class ListSection(Themed, PanelSection):
     """A heading and rows, each with its own subject.
 
     Signals:
@@ -44,14 +45,12 @@ class ListSection(PanelSection):
     def __init__(self, title: str) -> None:
         super().__init__(title)
         self._rows: dict[Subject, ListRow] = {}
-        self._theme: Theme | None = None
 
     def clear_rows(self) -> None:
         """Take every row away."""
         for row in self._rows.values():
             self.rows.removeWidget(row)
-            row.hide()
-            row.deleteLater()
+            put_away(row)
         self._rows = {}
 
     def add_row(self, subject: Subject, row: ListRow) -> None:
@@ -61,8 +60,7 @@ class ListSection(PanelSection):
         row.removed.connect(lambda: self.removed.emit(subject))
         row.stepped.connect(lambda way: self._step(subject, way))
         self.rows.addWidget(row)
-        if self._theme is not None:
-            theme_children(row, self._theme)
+        theme_children(row, self._theme)
 
     def show_chosen(self, subject: Subject) -> None:
         """Mark the row whose properties are shown."""
@@ -74,10 +72,6 @@ class ListSection(PanelSection):
         if subject in self._rows:
             self._rows[subject].show()
             self._rows[subject].setFocus(Qt.FocusReason.OtherFocusReason)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Remember the theme for rows to come."""
-        self._theme = theme
 
     def _step(self, subject: Subject, way: int) -> None:
         keys = list(self._rows)
@@ -197,9 +191,7 @@ class WaitingRow(QWidget):
 
     def __init__(self, name: str, how: str, time: str) -> None:
         super().__init__()
-        line = QHBoxLayout(self)
-        line.setContentsMargins(EDGE, 0, EDGE, 0)
-        line.setSpacing(8)
+        line = h_box(self, (EDGE, 0, EDGE, 0), 8)
         self.setFixedHeight(24)
         self.time = muted(time)
         line.addWidget(muted(name))
@@ -266,8 +258,7 @@ class OperationSection(ListSection):
         """List what takes time and is no operation's."""
         for row in self.waiting:
             self.rows.removeWidget(row)
-            row.hide()
-            row.deleteLater()
+            put_away(row)
         self.waiting = []
         if waiting is None:
             return

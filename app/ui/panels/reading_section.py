@@ -7,16 +7,17 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QMenu, QPushButton, QSizePolicy, QWidget
 
 from ...drafting.document import Document
 from ...formats.reading_question import NO_CHOICE, UNIT_WORDS, FileContents
 from ...model.part import Units
 from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
-from ..framework.fields import LABEL_WIDTH, ROW_HEIGHT, ListField, NumberField, NumberSpec, reason_label
+from ..framework.boxes import h_box
+from ..framework.fields import ROW_HEIGHT, ListField, NumberField, NumberSpec, field_name, reason_label
 from ..framework.form import SwitchField
-from ..framework.labels import Elided, muted
+from ..framework.labels import Elided, show_words
 from ..framework.section import PanelSection
 
 MODEL_SPACE, NOTHING, ALL_SHOWN = "Model space", "none", "all that are shown"
@@ -54,17 +55,11 @@ class ChecksField(QWidget):
         self.button.setMenu(self.menu)
         self.button.setAccessibleName(name)
         self.setToolTip(tip)
-        inside = QHBoxLayout(self.button)
-        inside.setContentsMargins(6, 0, 20, 0)
+        inside = h_box(self.button, (6, 0, 20, 0))
         inside.addWidget(self.text)
         self.text.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        label = muted(name)
-        label.setFixedWidth(LABEL_WIDTH)
-        label.setBuddy(self.button)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(8)
-        row.addWidget(label)
+        row = h_box(self, (0, 1, 0, 1), 8)
+        row.addWidget(field_name(name, self.button))
         row.addWidget(self.button, 1)
 
     def show_names(self, names: tuple[str, ...], on: tuple[str, ...]) -> None:
@@ -123,8 +118,7 @@ class ReadingSection(PanelSection):
         for widget in (*self._fields, self.trouble):
             self.add_indented(widget)
         foot = QWidget()
-        row = QHBoxLayout(foot)
-        row.setContentsMargins(0, 4, 0, 0)
+        row = h_box(foot, (0, 4, 0, 0))
         row.addWidget(self.read_again)
         row.addStretch(1)
         self.add_indented(foot)
@@ -159,8 +153,7 @@ class ReadingSection(PanelSection):
     def show_contents(self, contents: FileContents | None, trouble: str = "") -> None:
         """Take what the file holds, None = not known; or why it cannot be read."""
         self.contents = contents
-        self.trouble.setText(trouble)
-        self.trouble.setVisible(bool(trouble))
+        show_words(self.trouble, trouble)
         self.refresh()
 
     def refresh(self) -> None:

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
 
 from ...core.errors import HitofudeError
 from ...drafting.document import Document, DocumentChange
@@ -16,6 +15,7 @@ from ...model.job import Job
 from ...model.tool import Tool
 from ..framework.form import JobEdit
 from ..framework.section import hairline
+from ..framework.side_scroll import SideScroll
 from . import changes
 from .advice import AdviceSection
 from .changes import Subject, SubjectKind
@@ -25,10 +25,8 @@ from .lists import JobSection, OperationSection, OperationTimes, ToolSection
 from .operation_form import OperationForm
 from .tool_form import ToolForm
 
-WIDTH = 328
 
-
-class SidePanel(QScrollArea):
+class SidePanel(SideScroll):
     """Shows the document's job and turns what the user does into undoable changes of it.
 
     Signals:
@@ -41,7 +39,7 @@ class SidePanel(QScrollArea):
     shown = Signal()
 
     def __init__(self, document: Document) -> None:
-        super().__init__()
+        super().__init__((0, 4, 0, 8))
         self._document = document
         self._size: tuple[float, float] | None = None
         self._times = OperationTimes()
@@ -55,11 +53,7 @@ class SidePanel(QScrollArea):
         self.refresh()
 
     def _lay_out(self) -> None:
-        inner = self._inner = QWidget()
-        inner.setObjectName("sidePanel")
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(0, 4, 0, 8)
-        column.setSpacing(0)
+        column = self.column
         for section in (self.job, self.tools, self.operations):
             column.addWidget(section)
             column.addWidget(hairline())
@@ -69,11 +63,6 @@ class SidePanel(QScrollArea):
             column.addWidget(sheet)
             sheet.hide()
         column.addStretch(1)
-        self.setWidget(inner)
-        self.setWidgetResizable(True)
-        self.setFixedWidth(WIDTH)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
 
     def _connect(self) -> None:
         for section in (self.job, self.tools, self.operations):
@@ -131,7 +120,7 @@ class SidePanel(QScrollArea):
     def _fit_library(self) -> None:
         """Give the library's list the room that is left, and bring it into sight."""
         if not self.library.isHidden():
-            others = self._inner.sizeHint().height() - self.library.area.height()
+            others = self.column.totalSizeHint().height() - self.library.area.height()
             self.library.fit_into(self.viewport().height() - others)
             QTimer.singleShot(0, self, self._show_library)
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QStackedWidget, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QButtonGroup, QStackedWidget, QToolButton, QWidget
 
+from ..framework.boxes import give_ground, h_box, v_box
 from ..framework.section import EDGE, hairline
 
 HEIGHT = 36
@@ -21,18 +22,13 @@ class SideTabs(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("sideTabs")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "sideTabs")
         self.pages = QStackedWidget()
         self.tabs: dict[str, QToolButton] = {}
         self._group = QButtonGroup(self)
-        self._row = QHBoxLayout()
-        self._row.setContentsMargins(EDGE - 9, 0, EDGE, 0)
-        self._row.setSpacing(4)
+        self._row = h_box(margins=(EDGE - 9, 0, EDGE, 0), spacing=4)
         self._row.addStretch(1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addLayout(self._row)
         column.addWidget(hairline())
         column.addWidget(self.pages, 1)

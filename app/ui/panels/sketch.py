@@ -9,7 +9,8 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
-from ..framework.theme import LIGHT, Theme
+from ..framework.theme import Theme
+from ..framework.themed import Themed
 
 WIDE, HIGH = 150, 70
 
@@ -94,7 +95,7 @@ class Sketch:
         self._painter.drawArc(box, round(16 * start), round(16 * sweep))
 
 
-class SketchWidget(QWidget):
+class SketchWidget(Themed, QWidget):
     """A drawing that follows values.
 
     `draw(sketch, values)` paints it on 150 x 70 px; `show_values` hands it the values to draw.
@@ -102,15 +103,10 @@ class SketchWidget(QWidget):
 
     def __init__(self, draw: Callable[[Sketch, tuple[float, ...]], None], name: str) -> None:
         super().__init__()
-        self._draw, self._theme = draw, LIGHT
+        self._draw = draw
         self._values: tuple[float, ...] | None = None
         self.setFixedSize(WIDE, HIGH)
         self.setAccessibleName(name)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def show_values(self, *values: float) -> None:
         """Draw other values."""

@@ -8,8 +8,9 @@ from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QGridLayout, QLineEdit, QToolButton, QWidget
 
-from ..framework.fields import restyle
-from ..framework.theme import LIGHT, Theme
+from ..framework.labels import restyle
+from ..framework.theme import Theme
+from ..framework.themed import Themed
 
 HUES = {
     "": "ink",
@@ -31,7 +32,7 @@ _COLUMNS = 5
 _COLOUR = re.compile(r"#?([0-9a-fA-F]{6})")
 
 
-class LayerColourButton(QToolButton):
+class LayerColourButton(Themed, QToolButton):
     """Shows a colour; a click offers others.
 
     Signals:
@@ -42,15 +43,10 @@ class LayerColourButton(QToolButton):
 
     def __init__(self, layer: str) -> None:
         super().__init__()
-        self._layer, self._theme, self.colour = layer, LIGHT, ""
+        self._layer, self.colour = layer, ""
         self.setFixedSize(24, 24)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.clicked.connect(self.offer)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def show_colour(self, colour: str) -> None:
         """Show "#rrggbb", or the ink for ""."""

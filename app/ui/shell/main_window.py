@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QResizeEvent
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QWidget
 
 from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
@@ -18,6 +18,7 @@ from ...usecases.scene.solid_files import SOLIDS
 from ..framework import style
 from ..framework.activity import Activity
 from ..framework.arrow import arrow_picture
+from ..framework.boxes import v_box
 from ..framework.computation import Computation
 from ..framework.log import Log
 from ..framework.notice import Notice
@@ -146,8 +147,7 @@ class MainWindow(QMainWindow):
         self.file_label.setProperty("role", "muted")
         self.file_label.setContentsMargins(0, 6, 16, 0)
         self.menuBar().setCornerWidget(self.file_label)
-        centre = QVBoxLayout()
-        centre.setSpacing(0)
+        centre = v_box(spacing=0)
         centre.addWidget(self.notice)
         centre.addWidget(self.card)
         centre.addWidget(self.views, 1)
@@ -162,9 +162,7 @@ class MainWindow(QMainWindow):
             widget.hide()
         root = QWidget()
         root.setObjectName("root")
-        column = QVBoxLayout(root)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(root, spacing=0)
         column.addWidget(self.top_bar)
         column.addLayout(middle, 1)
         column.addWidget(self.command_line)

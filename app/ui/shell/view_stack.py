@@ -6,10 +6,12 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QWidget
 
+from ..framework.boxes import v_box
 from ..framework.fade import Fade
-from ..framework.theme import LIGHT, Theme
+from ..framework.labels import show_words
+from ..framework.themed import Themed
 from ..framework.view import View, ViewPage, Zoomable
 from ..views.canvas.canvas import Canvas
 from ..views.canvas.legend import Legend
@@ -27,7 +29,7 @@ _RULER_PX, _MARGIN_PX = 24, 16
 _LONG_MS = 30.0
 
 
-class EmptyState(QWidget):
+class EmptyState(Themed, QWidget):
     """One sentence that says what is missing, and the button that makes it.
 
     Signals:
@@ -41,28 +43,20 @@ class EmptyState(QWidget):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self._theme, self.on_paper = LIGHT, False
+        self.on_paper = False
         self.sentence, self.button = QLabel(), QPushButton()
         self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.button.clicked.connect(self.pressed)
         self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(24, 16, 24, 16)
-        column.setSpacing(12)
+        column = v_box(self, (24, 16, 24, 16), 12)
         column.addWidget(self.sentence)
         column.addWidget(self.button, 0, Qt.AlignmentFlag.AlignHCenter)
         self.hide()
 
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
-
     def say(self, sentence: str, button: str) -> None:
         """Show a sentence and a button."""
         self.sentence.setText(sentence)
-        self.button.setText(button)
-        self.button.setVisible(bool(button))
+        show_words(self.button, button)
         self.adjustSize()
         self.show()
 

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ...formats.machine_toml import DEFAULT_MACHINE, load_machine
 from ...gcode.timing.duration import duration
-from ...model.machine import Machine
 from ...model.motion import Floats, MotionKind
 from ...model.motion_part import part_of
 from ...model.motion_path import anchored
@@ -63,15 +62,13 @@ class Playback:
     def __init__(
         self,
         done: CutProgram,
-        machine: Machine | None = None,
         options: HistoryOptions = USUAL,
         progress: Progress = NO_PROGRESS,
     ) -> None:
         """Cut everything once more, and keep what is needed to go anywhere.
 
         Args:
-            done: it must have been traced, on all of the stock or a part of it.
-            machine: on which it is timed; None = a usual one.
+            done: it must have been traced, on all of the stock or a part of it; it is timed on a usual machine.
             options: how much is kept.
             progress: of this part.
 
@@ -79,7 +76,7 @@ class Playback:
             ParameterError: the grid does not fit into memory.
             Cancelled: the job was asked to stop.
         """
-        setup, machine = done.setup, machine or load_machine(DEFAULT_MACHINE)
+        setup, machine = done.setup, load_machine(DEFAULT_MACHINE)
         courses = [course_of(program) for program in setup.programs]
         known, nowhere = (
             [each.course for each in courses],

@@ -53,13 +53,8 @@ class PlotScene:
     layout: PlotOptions = field(default_factory=PlotOptions)
 
 
-def plot_surface(
-    computed: ComputedScene, suffix: str, what: PlotScene = PlotScene(), date: str = ""
-) -> tuple[bytes, ...]:
+def plot_surface(computed: ComputedScene, suffix: str, what: PlotScene = PlotScene()) -> tuple[bytes, ...]:
     """Return a plot as a file's bytes: one of FORMATS; of SVG and PNG one a sheet, otherwise one for all.
-
-    Args:
-        date: written into the title strip as it is.
 
     Raises:
         InputError: the format is none of FORMATS, nothing is to be drawn, or it takes more than 200 sheets.
@@ -68,7 +63,7 @@ def plot_surface(
     if suffix not in FORMATS:
         raise InputError(f"{suffix or 'No suffix'} names no format of a plot; end the file in {', '.join(FORMATS)}.")
     shown = by_surface(computed, what)
-    pages = lay_out(shown, what.layout, date).pages
+    pages = lay_out(shown, what.layout).pages
     if suffix == ".svg":
         return tuple(page_svg(page, shown.title) for page in pages)
     if suffix == ".png":

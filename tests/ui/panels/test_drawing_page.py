@@ -12,9 +12,9 @@ from app.model.notes import Dimension, DimensionKind
 from app.model.part import Part
 from app.ui.framework import style
 from app.ui.framework.figures import TIMES
+from app.ui.framework.side_scroll import WIDTH
 from app.ui.framework.theme import DARK, LIGHT
 from app.ui.panels.drawing_page import DrawingPage
-from app.ui.panels.side_panel import WIDTH
 from app.ui.panels.swatch import HUES, ColourPalette
 from tests.ui.fields_typed import enter
 

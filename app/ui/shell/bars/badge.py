@@ -8,23 +8,21 @@ from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QPaintEvent
 from PySide6.QtWidgets import (
     QFrame,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
     QStyle,
     QStyleOptionButton,
     QStylePainter,
-    QVBoxLayout,
     QWidget,
 )
 
 from ....model.finding import Finding
+from ...framework.boxes import empty, h_box, v_box
 from ...framework.catalogue import tr
 from ...framework.controller import OfferedMend
-from ...framework.fields import restyle
 from ...framework.figures import counted
-from ...framework.labels import muted
+from ...framework.labels import muted, restyle
 from ...framework.section import ListRow, heading
 from ...framework.verdict import VerdictLevel, VerdictSummary, finding_level, short, worst_first
 
@@ -118,9 +116,7 @@ class FindingsList(QFrame):
         self.rows: list[ListRow] = []
         self._layers: frozenset[str] = frozenset()
         self._mends: MendsOf = _no_mends
-        self._column = QVBoxLayout(self)
-        self._column.setContentsMargins(0, 12, 0, 8)
-        self._column.setSpacing(0)
+        self._column = v_box(self, (0, 12, 0, 8), 0)
 
     def show_findings(
         self,
@@ -154,11 +150,7 @@ class FindingsList(QFrame):
 
     def _clear(self) -> None:
         self.rows = []
-        while (item := self._column.takeAt(0)) is not None:
-            widget = item.widget()
-            if widget is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._column)
 
     def _sentence(self, text: str) -> QLabel:
         made = muted(text)
@@ -168,9 +160,7 @@ class FindingsList(QFrame):
 
     def _list(self, findings: tuple[Finding, ...]) -> QWidget:
         inner = QWidget()
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(inner, spacing=0)
         for finding in worst_first(findings):
             column.addWidget(self._row(finding))
         area = QScrollArea()
@@ -233,13 +223,10 @@ def _no_mends(_: Finding) -> tuple[OfferedMend, ...]:
 def _above(label: QLabel, buttons: Sequence[QPushButton]) -> QWidget:
     """Return the label above a row of buttons."""
     both = QWidget()
-    column = QVBoxLayout(both)
-    column.setContentsMargins(0, 6, 0, 4)
-    column.setSpacing(0)
+    column = v_box(both, (0, 6, 0, 4), 0)
     column.addWidget(label)
-    row = QHBoxLayout()
+    row = h_box(spacing=4)
     column.addLayout(row)  # before anything stands in it, as in `PanelSection.add_indented`
-    row.setSpacing(4)
     for button in buttons:
         row.addWidget(button)
     row.addStretch(1)

@@ -7,11 +7,13 @@ from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
 
+from ...framework.boxes import give_ground, put_away, v_box
 from ...framework.labels import Elided
 from ...framework.log_view import LogView
-from ...framework.theme import LIGHT, Theme, mono_font, text_font
+from ...framework.theme import mono_font, text_font
+from ...framework.themed import Themed
 from ...views.language.blocks import depth_change
 from ...views.language.completion import CompletionItem, CompletionList
 from .command_completion import common_beginning
@@ -23,7 +25,7 @@ _POINT = re.compile(r"\s*[-+@(.\d][^;]*")
 Completions = Callable[[str], tuple[str, list[CompletionItem]]]
 
 
-class CommandLine(QWidget):
+class CommandLine(Themed, QWidget):
     """A log and a line to type in; Up and Down walk through what was typed before, Tab completes.
 
     Blocks such as repeat … end may be typed line by line, or pasted; they are entered whole. Pasted rows of coordinates
@@ -56,7 +58,6 @@ class CommandLine(QWidget):
         self.sign, self.pending = QLabel(">"), Elided(role="muted")
         self.options: dict[str, QToolButton] = {}
         self.offers: CompletionList | None = None
-        self._theme: Theme = LIGHT
         self._prompt = ""
         self._block: list[str] = []
         self._typed: list[str] = []
@@ -67,8 +68,7 @@ class CommandLine(QWidget):
 
     def _lay_out(self) -> None:
         row = QWidget()
-        row.setObjectName("commandRow")
-        row.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(row, "commandRow")
         row.setFixedHeight(31)
         line = self._line = QHBoxLayout(row)
         line.setContentsMargins(16, 0, 16, 0)
@@ -80,15 +80,9 @@ class CommandLine(QWidget):
         self.pending.hide()
         for widget, stretch in ((self.pending, 0), (self.sign, 0), (self.edit, 1)):
             line.addWidget(widget, stretch)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addWidget(self.log)
         column.addWidget(row)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
 
     def set_prompt(self, text: str) -> None:
         """Say what is expected next."""
@@ -101,8 +95,7 @@ class CommandLine(QWidget):
             return
         for button in self.options.values():
             self._line.removeWidget(button)
-            button.hide()
-            button.deleteLater()
+            put_away(button)
         self.options = {word: self._option(word) for word in words}
 
     def _option(self, word: str) -> QToolButton:

@@ -17,11 +17,11 @@ from PySide6.QtWidgets import (
     QStyle,
     QStyledItemDelegate,
     QStyleOptionViewItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from ....drafting.language.language import COMMANDS
+from ...framework.boxes import v_box
 from ...framework.catalogue import tr
 from ...framework.fuzzy import fit
 from ...framework.preferences import Preferences
@@ -110,9 +110,7 @@ class CommandPalette(QFrame):
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setItemDelegate(self._rows)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(1, 8, 1, 4)
-        column.setSpacing(4)
+        column = v_box(self, (1, 8, 1, 4), 4)
         column.addWidget(self.edit)
         column.addWidget(self.list)
         self._entries: list[PaletteEntry] = []

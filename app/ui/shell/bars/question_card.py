@@ -9,10 +9,11 @@ from functools import partial
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QWidget
 
 from ....formats.reading_question import ReadingChoice, ReadingQuestion
 from ....model.reading import ReadingOptions
+from ...framework.boxes import give_ground, h_box, put_away, v_box
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
 from ...framework.seen_with import SeenWith
@@ -37,8 +38,7 @@ class QuestionCard(QWidget):
         """
         super().__init__()
         self._drawing, self._seen_with = drawing, SeenWith(self)
-        self.setObjectName("card")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "card")
         self.setAccessibleName("Question about the drawing")
         self.title, self.text = Elided(), QLabel()
         self.title.setFont(text_font(HEADING_PX, semibold=True))
@@ -62,17 +62,14 @@ class QuestionCard(QWidget):
         super().hide()
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setSpacing(8)
+        head = h_box(spacing=8)
         head.addWidget(self.title, 1)
         head.addWidget(self._close, 0, Qt.AlignmentFlag.AlignTop)
         self._rows = QGridLayout()
         self._rows.setHorizontalSpacing(12)
         self._rows.setVerticalSpacing(4)
         self._rows.setColumnStretch(1, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(16, 8, 8, 12)
-        column.setSpacing(0)
+        column = v_box(self, (16, 8, 8, 12), 0)
         column.addLayout(head)
         column.addWidget(self.text)
         column.addSpacing(8)
@@ -114,9 +111,7 @@ class QuestionCard(QWidget):
         parts = [part for part in (choice.outcome, NOW if choice.now else "") if part]
         button.setAccessibleDescription(", ".join(parts))
         outcome = QWidget()
-        line = QHBoxLayout(outcome)
-        line.setContentsMargins(0, 0, 0, 0)
-        line.setSpacing(12)
+        line = h_box(outcome, spacing=12)
         line.addWidget(Elided(choice.outcome))
         if choice.now:
             line.addWidget(muted(NOW))
@@ -131,8 +126,7 @@ class QuestionCard(QWidget):
             item = self._rows.takeAt(at)
             widget = item.widget() if item is not None else None
             if widget is not None and widget is not self.cancel:
-                widget.hide()
-                widget.deleteLater()
+                put_away(widget)
 
 
 def _answered(answer: Callable[[ReadingOptions], None], reading: ReadingOptions, *_: object) -> None:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QProgressBar, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QSizePolicy, QToolButton, QWidget
 
+from ...framework.boxes import give_ground, h_box
 from ...framework.catalogue import tr
 from ...framework.icons import IconButton
-from ...framework.labels import Elided, muted
+from ...framework.labels import Elided, muted, set_role
 from .badge import Badge
 
 _STEP_PX = 180
@@ -32,8 +33,7 @@ class StatusBar(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("statusBar")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "statusBar")
         self.setFixedHeight(34)
         self.place_x, self.place_y = QLabel(), QLabel()
         self.snap, self.ortho, self.polar, self.grid = (
@@ -62,9 +62,7 @@ class StatusBar(QWidget):
         return button
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(16, 0, 8, 0)
-        row.setSpacing(8)
+        row = h_box(self, (16, 0, 8, 0), 8)
         for label in (self.place_x, self.place_y):
             label.setMinimumWidth(label.fontMetrics().horizontalAdvance("X -999.999"))
             row.addWidget(label)
@@ -111,9 +109,7 @@ class StatusBar(QWidget):
         self.message.setToolTip(text)
         role = "error" if error else "muted"
         if self.message.property("role") != role:
-            self.message.setProperty("role", role)
-            self.message.style().unpolish(self.message)
-            self.message.style().polish(self.message)
+            set_role(self.message, role)
 
     def show_waiting(self, text: str) -> None:
         """Show what goes on in the background, which nobody needs to wait for, where no job tells of itself; "" =

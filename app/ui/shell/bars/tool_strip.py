@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from PySide6.QtCore import QPoint, QPointF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPolygonF, QResizeEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QToolButton, QWidget
 
-from ...framework.theme import LIGHT, Theme
+from ...framework.boxes import give_ground, h_box
+from ...framework.themed import Themed
 from .actions import Actions
 
 SIDE = 32
@@ -66,9 +67,7 @@ class Variants(QFrame):
         super().__init__(parent, Qt.WindowType.Popup)
         self.setObjectName("variants")
         self.buttons: dict[str, QToolButton] = {}
-        row = QHBoxLayout(self)
-        row.setContentsMargins(3, 3, 3, 3)
-        row.setSpacing(2)
+        row = h_box(self, (3, 3, 3, 3), 2)
         for name in names:
             self.buttons[name] = QToolButton()
             _dressed(self.buttons[name], actions, name)
@@ -76,7 +75,7 @@ class Variants(QFrame):
             row.addWidget(self.buttons[name])
 
 
-class ToolButton(QToolButton):
+class ToolButton(Themed, QToolButton):
     """One tool, or the kind of it used last; a held or right click, a click on its corner, or Right opens the row of
     kinds.
 
@@ -88,7 +87,6 @@ class ToolButton(QToolButton):
         super().__init__()
         _dressed(self, actions, names[0])
         self.names = names
-        self._theme = LIGHT
         self._hold = QTimer(self, singleShot=True, interval=_HOLD_MS)
         self._hold.timeout.connect(self.open)
         self.row = Variants(actions, names, self) if len(names) > 1 else None
@@ -103,11 +101,6 @@ class ToolButton(QToolButton):
             if other is not actions[name]:
                 self.removeAction(other)
         self.setAccessibleName(actions[name].toolTip())
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def open(self) -> None:
         """Open the row of kinds."""
@@ -161,8 +154,7 @@ class ToolStrip(QWidget):
 
     def __init__(self, actions: Actions) -> None:
         super().__init__()
-        self.setObjectName("toolStrip")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "toolStrip")
         offered = [[tuple(name for name in names if actions[name].isVisible()) for names in group] for group in GROUPS]
         self._groups = [[ToolButton(actions, names) for names in group if names] for group in offered]
         self.buttons = {button.names[0]: button for group in self._groups for button in group}

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QIcon, QResizeEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QPushButton, QToolButton, QWidget
 
+from ...framework.boxes import give_ground, h_box
 from ...framework.icons import icon
 from ...framework.theme import Theme
 from ...framework.view import views
@@ -55,15 +56,12 @@ class TopBar(QWidget):
 
     def __init__(self, actions: Actions) -> None:
         super().__init__()
-        self.setObjectName("topBar")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "topBar")
         self.setFixedHeight(TOP_HEIGHT)
         self._actions = actions
         self.compute, self.export = QPushButton(), QPushButton()
         self._icons = QIcon(), QIcon()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(10, 0, 12, 0)
-        row.setSpacing(4)
+        row = h_box(self, (10, 0, 12, 0), 4)
         for name in ("new", "open", "save", "", "undo", "redo", ""):
             if name:
                 row.addWidget(_button(actions, name, 34))

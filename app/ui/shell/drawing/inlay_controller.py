@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QFileDialog, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QFileDialog, QLabel, QWidget
 
 from ....core.atomic import write_together
 from ....core.progress import Progress
 from ....model.job import Job
+from ...framework.boxes import v_box
 from ...framework.catalogue import tr
 from ...framework.commands import Commands, on_trigger
 from ...framework.controller import Controller
@@ -56,8 +57,7 @@ class InlayForm(QDialog):
         how = QLabel(tr(_HOW))
         how.setWordWrap(True)
         how.setProperty("role", "muted")
-        column = QVBoxLayout(self)
-        column.setContentsMargins(16, 12, 16, 12)
+        column = v_box(self, (16, 12, 16, 12))
         column.addWidget(how)
         for field, value in zip(fields, (wished.glue, wished.gap, wished.saw), strict=True):
             field.show_value(value)

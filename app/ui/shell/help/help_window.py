@@ -6,12 +6,12 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QKeyEvent, QTextCursor, QTextDocument
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QListWidget, QTextBrowser, QTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLineEdit, QListWidget, QTextBrowser, QTextEdit, QWidget
 
 from ....usecases.manual.pages import base_of
+from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.catalogue import active_language
-from ...framework.fields import restyle
-from ...framework.labels import muted
+from ...framework.labels import muted, restyle
 from ...framework.theme import LIGHT, Theme, mixed
 from ...views.language.usage import usage_of
 from .help_pages import HelpPage, pages, rendered
@@ -28,8 +28,7 @@ class HelpWindow(QWidget):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Window)
-        self.setObjectName("root")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "root")
         self.setWindowTitle("Hitofude: manual")
         self.resize(*_SIZE)
         self.pages: tuple[HelpPage, ...] = ()
@@ -137,18 +136,14 @@ class HelpWindow(QWidget):
         self._mark(words)
 
     def _lay_out(self) -> None:
-        side = QVBoxLayout()
-        side.setContentsMargins(12, 12, 12, 12)
-        side.setSpacing(8)
+        side = v_box(margins=(12, 12, 12, 12), spacing=8)
         side.addWidget(self.search)
         side.addWidget(self.count)
         side.addWidget(self.list, 1)
         left = QWidget()
         left.setLayout(side)
         left.setFixedWidth(_LIST_PX + 24)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
+        row = h_box(self, spacing=0)
         row.addWidget(left)
         row.addWidget(self.browser, 1)
 

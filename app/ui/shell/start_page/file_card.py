@@ -6,26 +6,27 @@ from pathlib import Path
 
 from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QEnterEvent, QImage, QPainter, QPainterPath, QPaintEvent, QPen
-from PySide6.QtWidgets import QAbstractButton, QWidget
+from PySide6.QtWidgets import QAbstractButton
 
 from ...framework.catalogue import tr
-from ...framework.theme import LIGHT, Theme, text_font
+from ...framework.theme import text_font
+from ...framework.themed import Themed
 
 HEIGHT, WORDS_PX, LEAST_WIDTH = 176, 48, 150
 _RADIUS, _PAD_PX, _KIND_PX = 6, 12, 22
 
 
-class FileCard(QAbstractButton):
+class FileCard(Themed, QAbstractButton):
     """Shows what a file holds.
 
     Attributes:
         path: of the file. words: under its name.
     """
 
-    def __init__(self, path: Path, title: str, words: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, path: Path, title: str, words: str) -> None:
+        super().__init__()
         self.path, self.words = path, words
-        self._theme, self._picture, self._blank = LIGHT, QImage(), False
+        self._picture, self._blank = QImage(), False
         self.setText(title)
         self.setAccessibleName(f"{title}, {words}")
         self.setToolTip(str(path))
@@ -42,11 +43,6 @@ class FileCard(QAbstractButton):
     def show_picture(self, picture: QImage) -> None:
         """Show what the file holds; without a picture, of what kind it is."""
         self._picture, self._blank = picture, picture.isNull()
-        self.update()
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QPushButton, QVBoxLayout
 
+from ...framework.boxes import h_box, v_box
 from ...framework.fields import ListField, NumberField, NumberSpec
 from ...framework.labels import muted
 from ...framework.section import heading
@@ -68,16 +69,13 @@ class NewCard(QFrame):
             for widget in widgets:
                 column.addWidget(widget)
             column.addStretch(1)
-        both = QHBoxLayout()
-        both.setSpacing(16)
+        both = h_box(spacing=16)
         both.addLayout(left, 1)
         both.addLayout(right, 1)
         foot = QHBoxLayout()
         foot.addWidget(muted("or just draw: pick a tool, type  80 Tab 50 Enter"), 1)
         foot.addWidget(self.begin, 0, Qt.AlignmentFlag.AlignRight)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(16, 12, 16, 12)
-        column.setSpacing(8)
+        column = v_box(self, (16, 12, 16, 12), 8)
         column.addWidget(heading("New"))
         column.addLayout(both, 1)
         column.addLayout(foot)

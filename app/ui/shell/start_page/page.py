@@ -7,11 +7,13 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QGridLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QScrollArea, QWidget
 
+from ...framework.boxes import put_away, v_box
 from ...framework.labels import muted
 from ...framework.section import heading, theme_children
-from ...framework.theme import LIGHT, Theme, text_font
+from ...framework.theme import text_font
+from ...framework.themed import Themed
 from .file_card import FileCard
 from .new_card import NewCard
 
@@ -19,7 +21,7 @@ COLUMNS, _BESIDE_NEW = 4, 2
 _TITLE_PX, _EDGE_PX, _WIDEST_PX = 22, 48, 1160
 
 
-class StartPage(QScrollArea):
+class StartPage(Themed, QScrollArea):
     """The last files, what is new, and samples, in four columns.
 
     Signals:
@@ -35,7 +37,6 @@ class StartPage(QScrollArea):
 
     def __init__(self) -> None:
         super().__init__()
-        self._theme = LIGHT
         self.files: list[FileCard] = []
         self.samples: list[FileCard] = []
         self.new = NewCard()
@@ -52,9 +53,7 @@ class StartPage(QScrollArea):
         title.setFont(text_font(_TITLE_PX, semibold=True))
         title.setStyleSheet(f"font-size: {_TITLE_PX}px; font-weight: 600;")
         self._last, self._try = heading("Last"), heading("Try one")
-        rows = QVBoxLayout(inner)
-        rows.setContentsMargins(_EDGE_PX, 24, _EDGE_PX, 24)
-        rows.setSpacing(8)
+        rows = v_box(inner, (_EDGE_PX, 24, _EDGE_PX, 24), 8)
         rows.addWidget(title)
         rows.addWidget(muted("Drop a drawing, a solid or an NC program anywhere."))
         rows.addSpacing(8)
@@ -70,8 +69,7 @@ class StartPage(QScrollArea):
         """Show other files; those that do not fit beside what is new stand in a row of their own."""
         for card in (*self.files, *self.samples):
             self._grid.removeWidget(card)
-            card.hide()
-            card.deleteLater()
+            put_away(card)
         self.files, self.samples = list(files), list(samples)
         beside, more = self.files[:_BESIDE_NEW], self.files[_BESIDE_NEW : _BESIDE_NEW + COLUMNS]
         self._last.setVisible(bool(files))
@@ -87,10 +85,6 @@ class StartPage(QScrollArea):
         for card in self.samples:
             card.clicked.connect(lambda _=False, path=card.path: self.sampled.emit(path))
         theme_children(self, self._theme)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Remember the theme for cards to come."""
-        self._theme = theme
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
         """Escape goes to the empty drawing."""

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QPainter, QPainterPath, QShowEvent
-from PySide6.QtWidgets import QWidget
 
 from ....drafting.difference import DrawingDifference
 from ....drafting.document import Document, DocumentChange
@@ -70,7 +69,7 @@ class Canvas(InteractiveViewport):
         owned: curves of the operation that is chosen, mm; empty where it has none of its own.
     """
 
-    def __init__(self, document: Document, theme: Theme, parent: QWidget | None = None) -> None:
+    def __init__(self, document: Document, theme: Theme) -> None:
         """Show a document; it is followed from now on."""
         scene = ViewportScene(
             self._scene_steps,
@@ -80,7 +79,7 @@ class Canvas(InteractiveViewport):
             lambda: self.heavy,
             FarScene(self._far_box, self._far_steps),
         )
-        super().__init__(document, scene, MouseAnswers(self.look_at, self.fit), parent)
+        super().__init__(document, scene, MouseAnswers(self.look_at, self.fit))
         self.frame = BitmapFrame()
         self._underlay: UnderlayLayer | None = None
         self._look, self._mode = PathDisplay(theme), CanvasMode.DRAW

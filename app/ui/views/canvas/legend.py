@@ -13,26 +13,20 @@ from ...framework.labels import muted
 from ...framework.legend import LegendRow, LegendSheet
 from ...framework.samples import PathLineKind, sample_of
 from ...framework.section import heading
-from ...framework.theme import LIGHT, Theme
+from ...framework.themed import Themed
 from .modes import PathColourBy
 from .painting.engagement_colours import STEPS, colours
 
 WIDTH = 180
 
 
-class EngagementScale(QWidget):
+class EngagementScale(Themed, QWidget):
     """The colours of engagement, and the shares of the diameter between them."""
 
     def __init__(self) -> None:
         super().__init__()
-        self._theme = LIGHT
         self.setFixedHeight(30)
         self.setToolTip("Share of the diameter that is engaged: from little to a full slot")
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Paint a band of colours with figures under their borders."""

@@ -6,11 +6,12 @@ import math
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
+from ...framework.boxes import v_box
 from ...framework.fields import NumberField, NumberSpec, reason_label
 from ...framework.figures import grouped
-from ...framework.labels import muted
+from ...framework.labels import muted, show_words
 from ...framework.section import hairline, heading
 
 if TYPE_CHECKING:
@@ -28,8 +29,8 @@ class BetterForm(QWidget):
 
     requested = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.within = NumberField(
             NumberSpec(
                 "Cut within",
@@ -46,9 +47,7 @@ class BetterForm(QWidget):
         self.button.setEnabled(False)
         self.reason, self.outcome = reason_label(), muted()
         self.outcome.setWordWrap(True)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 6, 0, 0)
-        column.setSpacing(4)
+        column = v_box(self, (0, 6, 0, 0), 4)
         parts: tuple[QWidget, ...] = (
             hairline(),
             heading("Better program"),
@@ -74,8 +73,7 @@ class BetterForm(QWidget):
 
     def show_reason(self, sentence: str) -> None:
         """Say why it could not be done, "" = nothing is wrong."""
-        self.reason.setText(sentence)
-        self.reason.setVisible(bool(sentence))
+        show_words(self.reason, sentence)
 
     def show_outcome(self, done: BetterProgram | None) -> None:
         """Show what the new program takes beside the old one; None: nothing."""

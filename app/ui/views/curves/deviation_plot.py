@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
+from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.catalogue import tr
 from ...framework.labels import Elided
+from ...framework.plots import dress_axes, quiet_plot
 from ...framework.section import heading
-from ...framework.theme import LIGHT, Theme, text_font
+from ...framework.theme import LIGHT, Theme
 from .deviation_track import DeviationSample, DeviationTrack
 
 if TYPE_CHECKING:
@@ -35,8 +37,7 @@ class DeviationPlot(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("ncBar")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "ncBar")
         self._theme = LIGHT
         self._plot: PlotWidget | None = None
         self._cursor: InfiniteLine | None = None
@@ -45,13 +46,10 @@ class DeviationPlot(QWidget):
         self.spot: DeviationSample | None = None
         self._tolerance = 0.0
         self.figures = Elided(role="muted")
-        head = QHBoxLayout()
-        head.setSpacing(12)
+        head = h_box(spacing=12)
         head.addWidget(heading("Deviation"))
         head.addWidget(self.figures, 1)
-        self._column = QVBoxLayout(self)
-        self._column.setContentsMargins(12, 8, 12, 8)
-        self._column.setSpacing(4)
+        self._column = v_box(self, (12, 8, 12, 8), 4)
         self._column.addLayout(head)
         self.setFixedHeight(HEIGHT)
         self.hide()
@@ -99,14 +97,8 @@ class DeviationPlot(QWidget):
             self.figures.setText(f"{'' if self.spot is not None else 'Largest: '}{deviation_text(spot)}")
 
     def _made_plot(self) -> PlotWidget:
-        from pyqtgraph import PlotWidget  # heavy; most programs are looked at without
-
-        plot = PlotWidget()
-        plot.setMenuEnabled(False)
-        plot.hideButtons()
+        plot = quiet_plot("Deviation along the path")
         plot.setMouseEnabled(x=True, y=False)
-        plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        plot.setAccessibleName("Deviation along the path")
         plot.viewport().setMouseTracking(True)
         plot.viewport().installEventFilter(self)
         return plot
@@ -117,12 +109,10 @@ class DeviationPlot(QWidget):
         theme = self._theme
         plot.clear()
         plot.setBackground(theme.paper)
+        dress_axes(plot, theme)
         for name, words in (("bottom", "mm along the stretches"), ("left", "mm apart")):
-            axis = plot.getAxis(name)
-            axis.setPen(mkPen(theme.hairline))
-            axis.setTextPen(mkPen(theme.muted))
-            axis.setStyle(tickFont=text_font(11))
-            axis.setLabel(tr(words), siPrefixEnableRanges=(), color=theme.muted.name())  # mm whatever the height
+            # mm whatever the height
+            plot.getAxis(name).setLabel(tr(words), siPrefixEnableRanges=(), color=theme.muted.name())
         fill = QColor(theme.muted)
         fill.setAlphaF(0.16)
         drawn = plot.plot(

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
-from ...framework.fields import LABEL_WIDTH
-from ...framework.labels import muted
+from ...framework.boxes import h_box
+from ...framework.fields import field_name
 
 if TYPE_CHECKING:
     from ....fitting.point_curves.region_profile import RegionProfile
@@ -25,13 +25,8 @@ class OutlineField(QWidget):
         self.edit.setToolTip(
             "Radius, mm, from one point (z = 0) to the next (z = 1): a formula, or places: 0=0.01,0.5=0.03,1=0.01"
         )
-        label = muted("f(z)")
-        label.setFixedWidth(LABEL_WIDTH)
-        label.setBuddy(self.edit)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(8)
-        row.addWidget(label)
+        row = h_box(self, (0, 1, 0, 1), 8)
+        row.addWidget(field_name("f(z)", self.edit))
         row.addWidget(self.edit, 1)
 
     def profile(self) -> RegionProfile:

@@ -7,13 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QWidget
 
+from ...framework.boxes import empty, h_box, v_box
 from ...framework.fields import ChoiceField, ListField, NumberField, NumberSpec, reason_label
 from ...framework.figures import counted, grouped
-from ...framework.labels import muted
+from ...framework.labels import muted, set_role, show_words
 from ...framework.section import EDGE, hairline, heading
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import SideScroll
 from .better_form import BetterForm
 from .outline_field import OutlineField
 from .points_form import PointsForm
@@ -28,7 +29,7 @@ _BARREL = 2.0
 """A barrel is offered so many tolerances wide in the middle."""
 
 
-class CurvesPanel(QScrollArea):
+class CurvesPanel(SideScroll):
     """A form of how to smooth, and what came of it.
 
     Signals:
@@ -43,11 +44,7 @@ class CurvesPanel(QScrollArea):
     nc_requested = Signal()
 
     def __init__(self) -> None:
-        super().__init__()
-        self.setFixedWidth(WIDTH)
-        self.setWidgetResizable(True)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        super().__init__((EDGE + 1, 12, EDGE, 12), 4)
         self.preset = ChoiceField("Preset", [(value, name) for name, value in PRESETS])
         self.tolerance = NumberField(
             NumberSpec(
@@ -90,11 +87,7 @@ class CurvesPanel(QScrollArea):
         self._connect()
 
     def _lay_out(self) -> None:
-        inner = QWidget()
-        inner.setObjectName("sidePanel")
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(EDGE + 1, 12, EDGE, 12)
-        column.setSpacing(4)
+        column = self.column
         self.program.setWordWrap(True)
         self.title.setWordWrap(True)
         fields = (
@@ -118,14 +111,11 @@ class CurvesPanel(QScrollArea):
             button.setFixedHeight(32)
         column.addWidget(self.smooth)
         column.addWidget(self.reason)
-        told = QVBoxLayout(self._result)
-        told.setContentsMargins(0, 6, 0, 0)
-        told.setSpacing(6)
+        told = v_box(self._result, (0, 6, 0, 0), 6)
         self._grid.setHorizontalSpacing(12)
         self._grid.setVerticalSpacing(4)
         self._grid.setColumnStretch(1, 1)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(8)
+        buttons = h_box(spacing=8)
         buttons.addWidget(self.save, 1)
         buttons.addWidget(self.nc, 1)
         told.addWidget(hairline())
@@ -139,7 +129,6 @@ class CurvesPanel(QScrollArea):
         column.addWidget(self.better)
         column.addStretch(1)
         self._result.hide()
-        self.setWidget(inner)
 
     def _connect(self) -> None:
         self.smooth.clicked.connect(self.smooth_requested)
@@ -204,22 +193,18 @@ class CurvesPanel(QScrollArea):
 
     def show_program(self, name: str) -> None:
         """Name the program that would be smoothed, "" = there is none."""
-        self.program.setText(name)
-        self.program.setVisible(bool(name))
+        show_words(self.program, name)
         self.smooth.setEnabled(bool(name))
         self.better.show_program(bool(name))
 
     def show_busy(self, busy: bool) -> None:
         """Offer to leave what is being done."""
         self.smooth.setText("Cancel" if busy else "Smooth")
-        self.smooth.setProperty("role", "" if busy else "primary")
-        self.smooth.style().unpolish(self.smooth)
-        self.smooth.style().polish(self.smooth)
+        set_role(self.smooth, "" if busy else "primary")
 
     def show_reason(self, sentence: str) -> None:
         """Say why it could not be done, "" = nothing is wrong."""
-        self.reason.setText(sentence)
-        self.reason.setVisible(bool(sentence))
+        show_words(self.reason, sentence)
 
     def show_result(self, done: SmoothedProgram | None) -> None:
         """Show the certificate, or none."""
@@ -231,10 +216,7 @@ class CurvesPanel(QScrollArea):
         told = report(done)
         changed = told["stretches"]["changed"]
         self.title.setText(_headline(told, {piece.kept for piece in done.pieces}))
-        while (item := self._grid.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._grid)
         self.figures = {}
         for row, (name, value, tip) in enumerate(_figures(told) if changed else ()):
             name_label, value_label = muted(name), QLabel(value)

@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter, QPen
-from PySide6.QtWidgets import QWidget
 
 from ....geometry.sample import Box, union
 from ...framework.theme import Theme, mixed
@@ -36,8 +35,8 @@ class CurvesPathView(PathView):
         spot: the place that is marked, or None.
     """
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.curves: CurvesModel | None = None
         self.spot: DeviationSample | None = None
         self._layers: CurveLayers | None = None

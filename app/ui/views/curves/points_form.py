@@ -4,11 +4,12 @@ D).
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from ....fitting.point_curves.correction import CorrectionMove, CorrectionOptions, CorrectionScope
 from ....fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
 from ....fitting.point_curves.effective_points import EffectiveOptions, RangeEnds
+from ...framework.boxes import v_box
 from ...framework.fields import ChoiceField, NumberField, NumberSpec
 
 _USUAL = CorrectionOptions()
@@ -19,8 +20,8 @@ _LEFT_OUT, _CORRECTED = "left out", "corrected"
 class PointsForm(QWidget):
     """Fields of which those are seen that matter."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.points = ChoiceField("Points", [(False, "All"), (True, "Effective")])
         self.epsilon = NumberField(
             NumberSpec(
@@ -64,9 +65,7 @@ class PointsForm(QWidget):
                 "At most", high=10.0, decimals=4, tip="Points that move no farther are corrected, others left out"
             )
         )
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
+        column = v_box(self, spacing=4)
         for field in (
             self.points,
             self.epsilon,

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
+from ...framework.boxes import h_box, v_box
 from ...framework.fields import ChoiceField
 from ...framework.figures import counted
 from ...framework.icons import IconButton
@@ -33,8 +34,8 @@ class CurvesView(QWidget):
     side_requested = Signal(ViewSide)
     spotted = Signal(str)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.side = ViewSide.XY
         self.curves: CurvesModel | None = None
         self._program: ShownProgram | None = None
@@ -46,9 +47,7 @@ class CurvesView(QWidget):
             button.setAccessibleName(f"Seen from {button.text()}")
         self.name, self.comb, self.fit = Elided(role="muted"), Switch("Curvature comb"), IconButton("fit", "Fit (F)")
         self.comb.setToolTip("Show how much the curves bend: taller is tighter")
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addWidget(self._head())
         column.addWidget(self.path, 1)
         column.addWidget(self.deviation)
@@ -63,8 +62,7 @@ class CurvesView(QWidget):
         row = bar(head)
         row.addWidget(self.sides)
         row.addWidget(self.name, 1)
-        beside = QHBoxLayout()
-        beside.setSpacing(6)
+        beside = h_box(spacing=6)
         beside.addWidget(muted("Curvature comb"))
         beside.addWidget(self.comb)
         row.addLayout(beside)

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QBrush, QColor, QShowEvent
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
+from ...framework.boxes import v_box
 from ...framework.figures import grouped
 from ...framework.labels import muted
-from ...framework.theme import LIGHT, Theme, text_font
+from ...framework.plots import dress_axes, quiet_plot
+from ...framework.theme import LIGHT, Theme
 from .cell_colours import STEPS, ColourKey
 from .histogram import Histogram
 
@@ -35,9 +37,7 @@ class HistogramPlot(QWidget):
         self.sums = muted()
         self.sums.setTextFormat(Qt.TextFormat.RichText)
         self.sums.setWordWrap(True)
-        self._column = QVBoxLayout(self)
-        self._column.setContentsMargins(0, 0, 0, 0)
-        self._column.setSpacing(4)
+        self._column = v_box(self, spacing=4)
         self._column.addWidget(self.sums)
         self.setFixedHeight(HEIGHT)
 
@@ -78,14 +78,8 @@ class HistogramPlot(QWidget):
             self._draw_now()
 
     def _made_plot(self) -> PlotWidget:
-        from pyqtgraph import PlotWidget  # heavy; not every cut is judged
-
-        plot = PlotWidget()
-        plot.setMenuEnabled(False)
+        plot = quiet_plot("Histogram of the deviation")
         plot.setMouseEnabled(x=False, y=False)
-        plot.hideButtons()
-        plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        plot.setAccessibleName("Histogram of the deviation")
         return plot
 
     def _draw(self, plot: PlotWidget, histogram: Histogram, key: ColourKey) -> None:
@@ -110,14 +104,11 @@ class HistogramPlot(QWidget):
         plot.setYRange(0.0, max(float(logs.max()), 1.0), padding=0.04)
 
     def _dress(self, plot: PlotWidget, key: ColourKey) -> None:
-        from pyqtgraph import mkPen
-
         plot.setBackground(self._theme.paper)
+        dress_axes(plot, self._theme)
         bottom, left = plot.getAxis("bottom"), plot.getAxis("left")
         for axis in (bottom, left):
-            axis.setPen(mkPen(self._theme.hairline))
-            axis.setTextPen(mkPen(self._theme.muted))
-            axis.setStyle(tickFont=text_font(11), tickLength=3)
+            axis.setStyle(tickLength=3)
         bottom.setTicks([[(tick.at, tick.text) for tick in key.ticks[::2]]])
         left.setTicks([[(power + 3, f"{10.0**power:g}") for power in range(-3, 7, 2)]])
         left.setLabel("mm²", color=self._theme.muted.name())

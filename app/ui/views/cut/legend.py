@@ -13,7 +13,8 @@ from ...framework.fields import ChoiceField, ListField
 from ...framework.legend import LegendRow, LegendSheet
 from ...framework.samples import PathLineKind
 from ...framework.section import heading
-from ...framework.theme import LIGHT, Theme, text_font
+from ...framework.theme import text_font
+from ...framework.themed import Themed
 from .cell_colours import STEPS, ColourKey, CutColourBy
 
 WIDTH = 228
@@ -31,18 +32,12 @@ class SectionAxis(Enum):
     Y = "Y"
 
 
-class ColourScale(QWidget):
+class ColourScale(Themed, QWidget):
     """The scale of the colours, or their names."""
 
     def __init__(self) -> None:
         super().__init__()
-        self._theme = LIGHT
         self._key: ColourKey | None = None
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def show_key(self, key: ColourKey) -> None:
         """Explain other colours."""

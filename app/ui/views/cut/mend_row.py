@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
+from ...framework.boxes import h_box
 from ...framework.labels import Elided
 
 if TYPE_CHECKING:
@@ -30,9 +31,7 @@ class MendRow(QWidget):
         for widget in (self.button, change):
             widget.setToolTip(tip)
         self.button.setAccessibleName(f"{mend.words}: {mend.change}")
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(8)
+        row = h_box(self, spacing=8)
         row.addWidget(self.button)
         row.addWidget(change, 1)
         row.addWidget(self.look)
@@ -50,9 +49,7 @@ class TrialRow(QWidget):
         self.take, self.back = QPushButton(f"Take: {mend.words}"), QPushButton("Back")
         self.take.setProperty("role", "primary")
         self.take.setToolTip(f"{mend.words}: {mend.change}. Ctrl+Z takes it back.")
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(8)
+        row = h_box(self, spacing=8)
         row.addWidget(self.take)
         row.addWidget(self.back)
         row.addStretch(1)

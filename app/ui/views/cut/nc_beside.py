@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
+from ...framework.boxes import h_box, v_box
 from ...framework.figures import grouped
 from ...framework.labels import Elided
 from ...framework.section import EDGE, heading
@@ -31,14 +32,10 @@ class NcBeside(QWidget):
         self.motion = -1
         self._shown: ShownCut | None = None
         self._file = 0
-        head = QHBoxLayout()
-        head.setContentsMargins(EDGE, 0, EDGE, 0)
-        head.setSpacing(12)
+        head = h_box(margins=(EDGE, 0, EDGE, 0), spacing=12)
         head.addWidget(heading("NC"))
         head.addWidget(self.where, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 4, 0, 0)
-        column.setSpacing(6)
+        column = v_box(self, (0, 4, 0, 0), 6)
         column.addLayout(head)
         column.addWidget(self.text, 1)
         self.text.rows_picked.connect(lambda first, last: self.line_picked.emit(self._file, last))

@@ -10,7 +10,8 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from ...framework.catalogue import tr
-from ...framework.theme import LIGHT, Theme, text_font
+from ...framework.theme import text_font
+from ...framework.themed import Themed
 from .camera import Camera, Floats
 from .overlay_text import pitch_words
 
@@ -42,23 +43,18 @@ class PlacePin:
     colour: QColor
 
 
-class CutOverlay(QWidget):
+class CutOverlay(Themed, QWidget):
     """Painted over the cut; mouse and keys pass through it."""
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self._theme, self._camera = LIGHT, Camera()
+        self._camera = Camera()
         self.probe: ProbedCell | None = None
         self.line: Line | None = None
         self.pin: PlacePin | None = None
         self.way: Floats | None = None
         self._pitch, self._finer = "", False
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def show_camera(self, camera: Camera) -> None:
         """Turn the axes, and keep the line where it is."""

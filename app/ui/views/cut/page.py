@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
+from ...framework.boxes import v_box
 from .cut_player import CutPlayer
 from .record_sheet import RecordSheet
 from .surface import pixel_size
@@ -28,9 +29,7 @@ class CutPage(QWidget):
         self.sheet = RecordSheet(self)
         self.sheet.closed.connect(self.close_sheet)
         self._keys = self.transport.keys()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addWidget(view, 1)
         column.addWidget(self.transport)
         self.setFocusProxy(view)

@@ -21,14 +21,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from ...framework.fields import restyle
+from ...framework.boxes import empty, give_ground, h_box, put_away, v_box
 from ...framework.figures import TIMES
-from ...framework.labels import Elided, muted
+from ...framework.labels import Elided, muted, set_role
 from ...framework.section import EDGE, ListRow, hairline, heading, theme_children
-from ...framework.theme import LIGHT, Theme
+from ...framework.side_scroll import WIDTH
+from ...framework.theme import Theme
+from ...framework.themed import Themed
 from ...framework.verdict import VerdictLevel, VerdictSummary
 from ...framework.width_grip import WidthGrip
-from ...panels.side_panel import WIDTH
 from .cell_colours import ColourKey
 from .findings import CutFinding, FindingColour, findings_of, level_of, sentences_of, title_of
 from .histogram_plot import HistogramPlot
@@ -53,18 +54,13 @@ _TITLE_PX = 230
 """So wide a place's title is shown whole; the words of where it lies give way first."""
 
 
-class Dot(QWidget):
+class Dot(Themed, QWidget):
     """A spot of an entry's colour; a ring for what is out of reach."""
 
     def __init__(self, colour: FindingColour) -> None:
         super().__init__()
-        self._theme, self._colour = LIGHT, colour
+        self._colour = colour
         self.setFixedSize(10, 16)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Paint the spot."""
@@ -93,7 +89,7 @@ class _Title(Elided):
         painter.drawText(self.rect(), self.alignment(), text)
 
 
-class CutPanel(QWidget):
+class CutPanel(Themed, QWidget):
     """What is known of the cut.
 
     Signals:
@@ -116,10 +112,8 @@ class CutPanel(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("sidePanel")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "sidePanel")
         self.setFixedWidth(WIDTH)
-        self._theme = LIGHT
         self.shown: ShownCut | None = None
         self.entries: tuple[CutFinding, ...] = ()
         self.chosen: CutFinding | None = None
@@ -159,20 +153,15 @@ class CutPanel(QWidget):
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.nc.text.setMinimumHeight(_TEXT_PX)
         self._mending.setSpacing(4)
-        details = QVBoxLayout(self.details)
-        details.setContentsMargins(0, 0, 0, 0)
-        details.setSpacing(6)
+        details = v_box(self.details, spacing=6)
         details.addLayout(_indented(self.sentence))
         details.addLayout(_indented(self._mending))
         details.addLayout(_indented(self.go, stretch=True))
         self.details.hide()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(1, 12, 0, 8)
-        column.setSpacing(6)
+        column = v_box(self, (1, 12, 0, 8), 6)
         for widget in (self.title, self.name, self.verdict, self.cells):
             column.addLayout(_indented(widget))
-        row = QHBoxLayout(self.foreign)
-        row.setContentsMargins(EDGE - 4, 0, EDGE, 0)
+        row = h_box(self.foreign, (EDGE - 4, 0, EDGE, 0))
         for button in (self.form, self.back):
             button.setProperty("role", "link")
             row.addWidget(button)
@@ -226,8 +215,7 @@ class CutPanel(QWidget):
         if self.shown is None:
             return
         self.title.setText(title_of(self.shown, told))
-        self.title.setProperty("role", _ROLES[level_of(self.shown, told)])
-        restyle(self.title)
+        set_role(self.title, _ROLES[level_of(self.shown, told)])
 
     def show_key(self, key: ColourKey) -> None:
         """Give the histogram the colours of the deviation."""
@@ -263,8 +251,7 @@ class CutPanel(QWidget):
         """Say that what is shown is what a mend would make, and ask whether it is taken."""
         self._clear_mends()
         self.title.setText("Preview")
-        self.title.setProperty("role", "warning")
-        restyle(self.title)
+        set_role(self.title, "warning")
         self.name.setText(mend.words)
         row = TrialRow(mend)
         row.take.clicked.connect(partial(self._mend, mend))
@@ -281,10 +268,7 @@ class CutPanel(QWidget):
         self._mending.addWidget(row)
 
     def _clear_mends(self) -> None:
-        while (item := self._mending.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._mending)
         self.mends, self.looks = [], []
 
     def _preview(self, mend: Mend, *_: object) -> None:
@@ -292,10 +276,6 @@ class CutPanel(QWidget):
 
     def _mend(self, mend: Mend, *_: object) -> None:
         self.mend_requested.emit(mend)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Show as much as there is room for."""
@@ -323,8 +303,7 @@ class CutPanel(QWidget):
         self._filled = True
         for row in self.rows:
             self._rows.removeWidget(row)
-            row.hide()
-            row.deleteLater()
+            put_away(row)
         self.rows = [self._row(entry) for entry in self.entries]
         for k, row in enumerate(self.rows):
             self._rows.insertWidget(k, row)
@@ -357,8 +336,7 @@ class CutPanel(QWidget):
 
 def _indented(what: QWidget | QBoxLayout, stretch: bool = False) -> QHBoxLayout:
     """Return a row that keeps the panel's margins."""
-    line = QHBoxLayout()
-    line.setContentsMargins(EDGE, 0, EDGE, 0)
+    line = h_box(margins=(EDGE, 0, EDGE, 0))
     if isinstance(what, QWidget):
         line.addWidget(what)
     else:

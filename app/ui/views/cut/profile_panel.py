@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QWidget
 
+from ...framework.boxes import h_box, v_box
 from ...framework.icons import IconButton
 from ...framework.labels import muted
+from ...framework.plots import dress_axes, quiet_plot
 from ...framework.section import heading
-from ...framework.theme import LIGHT, Theme, text_font
+from ...framework.theme import LIGHT, Theme
 from .height_profile import HeightProfile
 from .overlay_text import number
 
@@ -38,14 +40,11 @@ class ProfilePanel(QFrame):
         self.figures = muted()
         close = IconButton("cancel", "Close the profile (Esc)", self)
         close.clicked.connect(self.closed)
-        head = QHBoxLayout()
-        head.setSpacing(12)
+        head = h_box(spacing=12)
         head.addWidget(heading("Profile"))
         head.addWidget(self.figures, 1)
         head.addWidget(close)
-        self._column = QVBoxLayout(self)
-        self._column.setContentsMargins(12, 8, 12, 8)
-        self._column.setSpacing(4)
+        self._column = v_box(self, (12, 8, 12, 8), 4)
         self._column.addLayout(head)
         self.hide()
 
@@ -55,7 +54,7 @@ class ProfilePanel(QFrame):
         low, high = float(profile.heights.min()), float(profile.heights.max())
         self.figures.setText(f"{number(float(profile.borders[-1]))} mm long · Z {number(low)} to {number(high)}")
         if self._plot is None:
-            self._plot = self._made_plot()
+            self._plot = quiet_plot(background=None)
             self._column.addWidget(self._plot, 1)
         self._draw(self._plot, profile)
         self.show()
@@ -72,26 +71,15 @@ class ProfilePanel(QFrame):
             self._draw(self._plot, self._profile)
         self.update()
 
-    def _made_plot(self) -> PlotWidget:
-        from pyqtgraph import PlotWidget  # heavy; most cuts are looked at without
-
-        plot = PlotWidget(background=None)
-        plot.setMenuEnabled(False)
-        plot.hideButtons()
-        plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        return plot
-
     def _draw(self, plot: PlotWidget, profile: HeightProfile) -> None:
         from pyqtgraph import mkPen
 
         theme = self._theme
         plot.clear()
+        dress_axes(plot, theme)
         for name, words in (("bottom", "mm along the line"), ("left", "Z mm")):
             axis = plot.getAxis(name)
             axis.enableAutoSIPrefix(False)
-            axis.setPen(mkPen(theme.hairline))
-            axis.setTextPen(mkPen(theme.muted))
-            axis.setStyle(tickFont=text_font(11))
             axis.setLabel(words, color=theme.muted.name())
         fill = QColor(theme.muted)
         fill.setAlphaF(0.18)

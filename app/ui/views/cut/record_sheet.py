@@ -7,14 +7,15 @@ from enum import Enum
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QWidget
 
+from ...framework.boxes import v_box
 from ...framework.fields import ChoiceField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted
 from ...framework.icons import IconButton
 from ...framework.labels import muted
 from ...framework.section import heading
-from ...framework.theme import LIGHT, Theme
+from ...framework.themed import Themed
 from .gif import MOST_PER_SECOND
 
 LENGTH = NumberSpec(
@@ -70,7 +71,7 @@ class RecordPlan:
         return self.width, max(round(self.width * view[1] / view[0]), 1)
 
 
-class RecordSheet(QFrame):
+class RecordSheet(Themed, QFrame):
     """A sheet with a choice, three fields and two buttons.
 
     Signals:
@@ -82,7 +83,6 @@ class RecordSheet(QFrame):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self._theme = LIGHT
         self.plan = RecordPlan()
         self.length, self.rate, self.width_px = NumberField(LENGTH), NumberField(RATE), NumberField(WIDTH)
         self.motion = ChoiceField("Moving", [(each, each.value) for each in RecordedMotion])
@@ -107,9 +107,7 @@ class RecordSheet(QFrame):
         for button in (self.gif, self.pictures):
             buttons.addWidget(button)
         buttons.addStretch(1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(16, 8, 12, 12)
-        column.setSpacing(4)
+        column = v_box(self, (16, 8, 12, 12), 4)
         column.addLayout(head)
         for widget in (self.motion, self.length, self.rate, self.width_px, self.summary):
             column.addWidget(widget)
@@ -135,11 +133,6 @@ class RecordSheet(QFrame):
         self.plan = RecordPlan(self.length.number, self.rate.number, round(self.width_px.number), motion)
         wide, high = self.plan.size(self._size)
         self.summary.setText(f"{counted(self.plan.count, 'picture')} of {wide} {TIMES} {high} px")
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Paint the sheet."""

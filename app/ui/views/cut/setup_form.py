@@ -10,16 +10,17 @@ from functools import partial
 
 import numpy as np
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from ....core.errors import HitofudeError
 from ....model.tool import Tool
 from ....model.tool_kind import ToolKind, shape_keys, tool_kind, tool_kinds
+from ...framework.boxes import h_box, put_away, v_box
 from ...framework.fields import ChoiceField, ListField, NumberField, NumberSpec
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch
 from ...framework.section import EDGE, PanelSection, hairline, heading
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import WIDTH
 from .foreign_program import MissingSetup
 from .user_setup import Box, UserSetup
 
@@ -131,12 +132,8 @@ class SetupForm(QWidget):
         self.cut.setProperty("role", "primary")
         self.wrong.setProperty("role", "error")
         self.wrong.setWordWrap(True)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(1, 12, 0, 12)
-        column.setSpacing(6)
-        head = QHBoxLayout()
-        head.setContentsMargins(EDGE, 0, EDGE, 0)
-        head.setSpacing(12)
+        column = v_box(self, (1, 12, 0, 12), 6)
+        head = h_box(margins=(EDGE, 0, EDGE, 0), spacing=12)
         head.addWidget(self.title)
         head.addWidget(self.name, 1)
         column.addLayout(head)
@@ -154,8 +151,7 @@ class SetupForm(QWidget):
         column.addWidget(hairline())
         self.wrong.setContentsMargins(EDGE, 0, EDGE, 0)
         column.addWidget(self.wrong)
-        buttons = QHBoxLayout()
-        buttons.setContentsMargins(EDGE, 0, EDGE, 0)
+        buttons = h_box(margins=(EDGE, 0, EDGE, 0))
         buttons.addWidget(self.cut)
         buttons.addWidget(self.leave)
         buttons.addStretch(1)
@@ -165,8 +161,7 @@ class SetupForm(QWidget):
         section = PanelSection("Stock")
         for field in self.stock:
             section.add_indented(field)
-        row = QHBoxLayout(self.compare_row)
-        row.setContentsMargins(0, 8, 0, 0)
+        row = h_box(self.compare_row, (0, 8, 0, 0))
         row.addWidget(muted("Compare with the open drawing"))
         row.addStretch(1)
         row.addWidget(self.compare)
@@ -179,8 +174,7 @@ class SetupForm(QWidget):
         self.asked = asked
         for old in self.tools.values():
             self._column.removeWidget(old)
-            old.hide()
-            old.deleteLater()
+            put_away(old)
         self.tools = {}
         self.wrong.hide()
         if asked is None:

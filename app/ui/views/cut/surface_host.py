@@ -6,6 +6,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QWidget
 
 from ....core.errors import HitofudeError
+from ...framework.boxes import put_away
 from .render_scheduler import RenderScheduler
 from .surface import GlSurface, ImageSurface, made_surface
 
@@ -62,8 +63,7 @@ class SurfaceHost(QObject):
         if old is None:
             return
         self._painting.surface = None
-        old.hide()
-        old.deleteLater()
+        put_away(old)
         self._broken += 1
         if self._broken >= MOST:
             self._give_up(f"The graphics system fails ({fault}).")

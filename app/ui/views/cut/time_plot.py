@@ -11,7 +11,8 @@ from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF, Q
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from ...framework.figures import grouped
-from ...framework.theme import LIGHT, Theme, mixed, text_font
+from ...framework.theme import mixed, text_font
+from ...framework.themed import Themed
 from .panel import colour_of
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class _Columns:
     scale: float
 
 
-class TimePlot(QWidget):
+class TimePlot(Themed, QWidget):
     """Painted once for each width; the cursor moves over it.
 
     Signals:
@@ -50,7 +51,6 @@ class TimePlot(QWidget):
         self.setFixedHeight(HEIGHT)
         self.setMouseTracking(True)
         self.setAccessibleName("Timeline: cross-section of the cut and metal removed; click to go there")
-        self._theme = LIGHT
         self._marks: tuple[TimelineMark, ...] = ()
         self._at = 0.0
         self._columns: _Columns | None = None
@@ -69,11 +69,6 @@ class TimePlot(QWidget):
         before, self._at = self._x(self._at), seconds
         for x in (before, self._x(seconds)):
             self.update(QRectF(x - _HANDLE - 2, 0, 2 * _HANDLE + 4, HEIGHT).toAlignedRect())
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Plot for another width."""

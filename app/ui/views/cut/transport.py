@@ -8,8 +8,9 @@ from functools import partial
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QWidget
 
+from ...framework.boxes import give_ground, v_box
 from ...framework.figures import TIMES, grouped
 from ...framework.give_way import give_way
 from ...framework.icons import IconButton
@@ -48,8 +49,7 @@ class Transport(QWidget):
 
     def __init__(self, player: CutPlayer) -> None:
         super().__init__()
-        self.setObjectName("ncPlaces")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "ncPlaces")
         self._player = player
         self.plot = TimePlot()
         self.play, self.play_back = (
@@ -97,9 +97,7 @@ class Transport(QWidget):
         self.record.setFixedSize(_BUTTON_PX, _BUTTON_PX)
         for widget in (self.pace, self.speed, self.record):
             widget.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 4)
-        column.setSpacing(2)
+        column = v_box(self, (0, 0, 0, 4), 2)
         column.addLayout(row)
         column.addWidget(self.plot)
 

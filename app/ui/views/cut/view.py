@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 from PySide6.QtCore import QEasingCurve, QEvent, QPointF, Qt, QVariantAnimation, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QWheelEvent
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
+from ...framework.boxes import give_ground, v_box
 from ...framework.samples import PathLineKind
 from ...framework.theme import Theme
 from ..canvas.viewport import GLIDE_MS
@@ -57,8 +58,8 @@ class CutView(QWidget):
     hovered = Signal(str)
     cursor_moved = Signal(float, float)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.model = model = CutModel(looks=frozenset(int(look) for look in MotionLineStyle))
         self.render_scheduler, self.colours, self.cut_input = (
             RenderScheduler(model, self),
@@ -72,8 +73,7 @@ class CutView(QWidget):
         self.sentence.setProperty("role", "muted")
         self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.sentence.setWordWrap(True)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
+        column = v_box(self)
         column.addWidget(self.sentence)
         self.overlay, self.legend, self.profile = CutOverlay(self), CutLegend(self), ProfilePanel(self)
         self._way = (model.camera, model.camera)
@@ -89,8 +89,7 @@ class CutView(QWidget):
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(200, 150)
-        self.setObjectName("cutView")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "cutView")
         self.setAccessibleName("Cut in three dimensions")
         self.legend.colour_chosen.connect(self.set_colour)
         self.legend.layer_switched.connect(self._on_layer)

@@ -9,23 +9,21 @@ from PySide6.QtGui import (
     QColor,
     QFontMetricsF,
     QKeyEvent,
-    QPainter,
-    QPaintEvent,
-    QPalette,
     QResizeEvent,
     QTextBlock,
     QTextCharFormat,
     QTextCursor,
     QTextFormat,
 )
-from PySide6.QtWidgets import QPlainTextEdit, QTextEdit
+from PySide6.QtWidgets import QTextEdit
 
-from ...framework.theme import LIGHT, Theme, mixed, mono_font
+from ...framework.theme import Theme, mixed, mono_font
 from . import blocks
 from .blocks import KnownName
 from .completion import CompletionItem, CompletionList, offers, word_before
-from .gutter import Gutter, blocks_in_sight
+from .gutter import blocks_in_sight
 from .highlight import ShapeHighlighter
+from .numbered_editor import NumberedEditor
 
 _OFFERED_AFTER = 2
 _MOST_MATCHED = 20_000  # lines; looking for what belongs together in more would be felt
@@ -37,7 +35,7 @@ _HINT = (
 Names = Callable[[], Iterable[KnownName]]
 
 
-class ShapeEditor(QPlainTextEdit):
+class ShapeEditor(NumberedEditor):
     """A text in the shape language.
 
     Signals:
@@ -55,33 +53,22 @@ class ShapeEditor(QPlainTextEdit):
     left = Signal()
 
     def __init__(self) -> None:
-        super().__init__()
+        super().__init__("Text in the shape language")
+        self.highlighter, self.list = ShapeHighlighter(self.document()), CompletionList(self)
         self.setObjectName("shapeEditor")
-        self.setAccessibleName("Text in the shape language")
-        self.setFrameShape(QPlainTextEdit.Shape.NoFrame)
-        self.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
-        self.setFont(mono_font())
-        self.setStyleSheet(f"QPlainTextEdit {{ font-family: '{mono_font().family()}'; }}")
         self.setPlaceholderText(_HINT)
         self.setTabStopDistance(2 * QFontMetricsF(mono_font()).horizontalAdvance(" "))
         self.document().setDocumentMargin(8)
-        self._theme, self._wrong, self._found = LIGHT, (0, 0), ""
+        self._wrong, self._found = (0, 0), ""
         self.names: Names = tuple
-        self.highlighter, self.gutter, self.list = ShapeHighlighter(self.document()), Gutter(self), CompletionList(self)
         self.list.taken.connect(self._take_offer)
-        self.blockCountChanged.connect(lambda _: self._lay_out())
         self.textChanged.connect(self._show_marks)
-        self.updateRequest.connect(self._follow)
         self.cursorPositionChanged.connect(self._show_marks)
         self._lay_out()
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
-        self._theme = theme
-        palette = self.palette()
-        palette.setColor(QPalette.ColorRole.Base, theme.raised)
-        palette.setColor(QPalette.ColorRole.Text, theme.ink)
-        self.setPalette(palette)
+        super().set_theme(theme)
         self.highlighter.set_theme(theme)
         self._show_marks()
 
@@ -152,7 +139,6 @@ class ShapeEditor(QPlainTextEdit):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Give the numbers their place."""
         super().resizeEvent(event)
-        self._lay_out()
         if event.size().width() != event.oldSize().width():
             self.list.hide()
 
@@ -160,12 +146,6 @@ class ShapeEditor(QPlainTextEdit):
         """Offer nothing while somebody else has the keyboard."""
         self.list.hide()
         super().focusOutEvent(event)  # type: ignore[arg-type]
-
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw a hairline between numbers and text, and the text."""
-        super().paintEvent(event)
-        painter = QPainter(self.viewport())
-        painter.fillRect(QRect(0, 0, 1, self.viewport().height()), self._theme.hairline)
 
     def _act_of(self, event: QKeyEvent) -> Callable[[], object] | None:
         control = event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier == Qt.KeyboardModifier.ControlModifier
@@ -191,14 +171,11 @@ class ShapeEditor(QPlainTextEdit):
         return self._ask_help if event.key() == Qt.Key.Key_F1 and plain else None
 
     def _lay_out(self) -> None:
-        width = self.gutter.width_wanted()
-        self.setViewportMargins(width, 0, 0, 0)
-        inside = self.contentsRect()
-        self.gutter.setGeometry(QRect(inside.left(), inside.top(), width, inside.height()))
+        super()._lay_out()
         self._see()
 
     def _follow(self, area: QRect, scrolled: int) -> None:
-        self.gutter.update()
+        super()._follow(area, scrolled)
         self._see()
 
     def _see(self) -> None:

@@ -6,12 +6,13 @@ from PySide6.QtCore import QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QFontMetrics, QMouseEvent, QPainter, QPaintEvent, QTextBlock, QTextCursor
 from PySide6.QtWidgets import QPlainTextEdit, QWidget
 
-from ...framework.theme import LIGHT, Theme, mono_font
+from ...framework.theme import mono_font
+from ...framework.themed import Themed
 
 _LEAST_DIGITS = 3
 
 
-class Gutter(QWidget):
+class Gutter(Themed, QWidget):
     """Line numbers; a click takes the line, a drag the lines.
 
     Attributes:
@@ -20,13 +21,8 @@ class Gutter(QWidget):
 
     def __init__(self, editor: QPlainTextEdit) -> None:
         super().__init__(editor)
-        self._editor, self._theme = editor, LIGHT
+        self._editor = editor
         self.wrong = 0
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def width_wanted(self) -> int:
         """Return how wide the numbers are, px."""

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLabel, QMenu, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QButtonGroup, QLabel, QMenu, QPushButton, QToolButton, QWidget
 
+from ...framework.boxes import h_box, v_box
 from ...framework.dropping import drop
-from ...framework.fields import restyle
 from ...framework.icons import IconButton
+from ...framework.labels import restyle
 from ...framework.section import hairline
 from ..nc.find_bar import FindBar
 from ..nc.program_text import program_text
@@ -141,9 +142,7 @@ class TextPage(QWidget):
 
     def _lay_out(self) -> None:
         ways = QButtonGroup(self)
-        head = QHBoxLayout()
-        head.setContentsMargins(12, 6, 8, 6)
-        head.setSpacing(10)
+        head = h_box(margins=(12, 6, 8, 6), spacing=10)
         for button in (self.add_, self.replace):
             ways.addButton(button)
             head.addWidget(button)
@@ -151,9 +150,7 @@ class TextPage(QWidget):
         head.addWidget(self.find_button)
         head.addWidget(self.more)
         head.addWidget(self.run_button)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addLayout(head)
         column.addWidget(hairline())
         column.addWidget(self.finder)

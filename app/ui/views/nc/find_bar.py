@@ -6,11 +6,11 @@ import re
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
-from ...framework.fields import restyle
+from ...framework.boxes import give_ground, h_box
 from ...framework.icons import IconButton
-from ...framework.labels import muted
+from ...framework.labels import muted, restyle
 from .program_text import ProgramText, program_text
 
 _LINE = re.compile(r":\s*(\d+)\s*")
@@ -29,8 +29,7 @@ class FindBar(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("ncBar")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "ncBar")
         self.setFixedHeight(36)
         self.edit, self.count = QLineEdit(), muted()
         self.edit.setPlaceholderText("Find, or :120 for line 120")
@@ -43,9 +42,7 @@ class FindBar(QWidget):
         self.next.clicked.connect(lambda: self.step())
         close = IconButton("cancel", "Close (Esc)")
         close.clicked.connect(self.close_bar)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(12, 4, 8, 4)
-        row.setSpacing(4)
+        row = h_box(self, (12, 4, 8, 4), 4)
         row.addWidget(self.edit, 1)
         row.addSpacing(4)
         for widget in (self.count, self.before, self.next, close):

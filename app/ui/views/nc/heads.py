@@ -7,6 +7,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from ....gcode.interpreter.dialect import DIALECT_RULES, Dialect
+from ...framework.boxes import give_ground, h_box
 from ...framework.fields import ChoiceField
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
@@ -21,13 +22,9 @@ _LEAST_CHOICE_PX, _LEAST_PX = 72, 360
 
 def bar(widget: QWidget, spacing: int = 8) -> QHBoxLayout:
     """Make a widget a bar over what is below it; return its row."""
-    widget.setObjectName("ncBar")
-    widget.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+    give_ground(widget, "ncBar")
     widget.setFixedHeight(BAR_PX)
-    row = QHBoxLayout(widget)
-    row.setContentsMargins(12, 0, 8, 0)
-    row.setSpacing(spacing)
-    return row
+    return h_box(widget, (12, 0, 8, 0), spacing)
 
 
 class TextHead(QWidget):

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRectF, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPainterPath, QPen
-from PySide6.QtWidgets import QWidget
 
 from ....geometry.sample import Box, union
 from ....model.curves import Point
@@ -50,9 +49,9 @@ class PathView(Viewport):
     hovered = Signal(str)
     cursor_moved = Signal(float, float)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self) -> None:
         scene = ViewportScene(self._scene_steps, self._paint_margins, self._paint_overlay, room=self._room)
-        super().__init__(scene, parent)
+        super().__init__(scene)
         self._how = MotionPaint(LIGHT)
         self.picture: MotionLayer | None = None
         self.other: MotionLayer | None = None

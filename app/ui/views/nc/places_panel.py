@@ -11,16 +11,15 @@ from enum import Enum
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QListWidget,
     QListWidgetItem,
     QStyledItemDelegate,
     QStyleOptionViewItem,
-    QVBoxLayout,
     QWidget,
 )
 
+from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.catalogue import tr
 from ...framework.icons import IconButton
 from ...framework.theme import LIGHT, Theme
@@ -73,8 +72,7 @@ class PlacesPanel(QWidget):
             keys: key of the next row; with Shift it is that of the row before.
         """
         super().__init__()
-        self.setObjectName("ncPlaces")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "ncPlaces")
         self.title, self.list = QLabel(), QListWidget()
         self.list.setAccessibleName(f"{name.capitalize()}s of the program")
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -85,17 +83,13 @@ class PlacesPanel(QWidget):
         self.list.itemClicked.connect(lambda item: self.picked.emit(self.list.row(item)))
         self.places: tuple[ListedPlace, ...] = ()
         self._theme: Theme = LIGHT
-        head = QHBoxLayout()
-        head.setContentsMargins(12, 0, 8, 0)
-        head.setSpacing(4)
+        head = h_box(margins=(12, 0, 8, 0), spacing=4)
         head.addWidget(self.title, 1)
         for icon, way, key in (("up", -1, f"Shift+{keys}"), ("down", 1, keys)):
             button = IconButton(icon, f"{'Next' if way > 0 else 'Previous'} {name} ({key})")
             button.clicked.connect(lambda _=False, w=way: self.step(w))
             head.addWidget(button)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 4, 0, 8)
-        column.setSpacing(2)
+        column = v_box(self, (0, 4, 0, 8), 2)
         column.addLayout(head)
         column.addWidget(self.list)
         self.hide()

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from ....gcode.interpreter.dialect import DIALECT_RULES
 from ....gcode.interpreter.program import ToolNote
+from ...framework.boxes import h_box, put_away, v_box
 from ...framework.figures import clock, grouped
 from ...framework.labels import Elided, muted
 from ...framework.section import EDGE, PanelSection, hairline
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import SideScroll
 from .program_reader import ShownProgram
 
 FACTS = ("Name", "Control", "Motions", "Length", "Time", "Cuts in X", "Cuts in Y", "Cuts in Z")
 _NAME_PX, _ROW_PX = 84, 24
 
 
-class ProgramPanel(QScrollArea):
+class ProgramPanel(SideScroll):
     """Control, size, time and tools of one program.
 
     Attributes:
@@ -25,38 +25,26 @@ class ProgramPanel(QScrollArea):
     """
 
     def __init__(self) -> None:
-        super().__init__()
-        self.setFixedWidth(WIDTH)
-        self.setWidgetResizable(True)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        super().__init__((1, 4, 0, 8))
         self._of_program, self._of_tools = PanelSection("Program"), PanelSection("Tools")
         self.facts = {name: Elided() for name in FACTS}
         for name, value in self.facts.items():
             self._of_program.add_indented(_row(name, value))
         self.tools: list[str] = []
         self._tool_rows: list[QWidget] = []
-        self._tool_column = QVBoxLayout()
-        self._tool_column.setContentsMargins(EDGE, 0, EDGE, 0)
-        self._tool_column.setSpacing(0)
+        self._tool_column = v_box(margins=(EDGE, 0, EDGE, 0), spacing=0)
         self._of_tools.rows.addLayout(self._tool_column)
-        inner = QWidget()
-        inner.setObjectName("sidePanel")
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(1, 4, 0, 8)
-        column.setSpacing(0)
+        column = self.column
         for each in (self._of_program, hairline(), self._of_tools):
             column.addWidget(each)
         column.addStretch(1)
-        self.setWidget(inner)
 
     def show_program(self, shown: ShownProgram | None) -> None:
         """Show what is known of a program; None = it is still being read."""
         for name, text in _facts(shown).items():
             self.facts[name].setText(text)
         for row in self._tool_rows:
-            row.hide()
-            row.deleteLater()
+            put_away(row)
         notes = {note.number: note for note in shown.program.tools} if shown is not None else {}
         used = sorted(set(shown.shapes.tool.tolist())) if shown is not None else []
         self.tools = [_tool_words(notes.get(number)) for number in used]
@@ -72,8 +60,7 @@ def _row(name: str, value: Elided) -> QWidget:
     label, row = muted(name), QWidget()
     label.setFixedWidth(_NAME_PX)
     row.setFixedHeight(_ROW_PX)
-    line = QHBoxLayout(row)
-    line.setContentsMargins(0, 0, 0, 0)
+    line = h_box(row)
     line.addWidget(label)
     line.addWidget(value, 1)
     return row

@@ -7,7 +7,8 @@ from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
 from ...framework.catalogue import tr
-from ...framework.theme import LIGHT, Theme, text_font
+from ...framework.theme import text_font
+from ...framework.themed import Themed
 from .state_words import StateItem
 
 STRIP_PX = 28
@@ -15,12 +16,11 @@ _EDGE, _GAP, _NAME_GAP = 12, 16, 5
 _HINT = "Pick a line, or click a motion: what is in force there is shown here."
 
 
-class StateStrip(QWidget):
+class StateStrip(Themed, QWidget):
     """Shows as many items as fit; the tool tip has them all."""
 
     def __init__(self) -> None:
         super().__init__()
-        self._theme: Theme = LIGHT
         self.items: list[StateItem] = []
         self.setFixedHeight(STRIP_PX)
         self.setMinimumWidth(80)
@@ -29,11 +29,6 @@ class StateStrip(QWidget):
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """A line."""
         return QSize(400, STRIP_PX)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def show_items(self, items: list[StateItem]) -> None:
         """Show what is in force; nothing picked, nothing to show."""

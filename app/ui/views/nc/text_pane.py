@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from PySide6.QtCore import QPoint, Signal
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from ....gcode.interpreter.program import ProgramProblem
+from ...framework.boxes import v_box
 from ...framework.figures import counted
 from .find_bar import FindBar
 from .heads import Banner, TextHead
@@ -38,9 +39,7 @@ class TextPane(QWidget):
         self.head, self.banner, self.finder, self.text = TextHead(closable), Banner(), FindBar(), NcTextView()
         self.panel = PlacesPanel("problem", "F4")
         self.problems: tuple[ProgramProblem, ...] = ()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         for widget in (self.head, self.banner, self.finder, self.text, self.panel):
             column.addWidget(widget, 1 if widget is self.text else 0)
         self.setFocusProxy(self.text)

@@ -15,7 +15,7 @@ from PySide6.QtGui import (
     QPaintEvent,
     QResizeEvent,
 )
-from PySide6.QtWidgets import QAbstractScrollArea, QToolTip, QWidget
+from PySide6.QtWidgets import QAbstractScrollArea, QToolTip
 
 from ....gcode.interpreter.program import ProgramProblem
 from ...framework.theme import LIGHT, Theme, mono_font
@@ -39,8 +39,8 @@ class NcTextView(QAbstractScrollArea):
     rows_picked = Signal(int, int)
     menu_requested = Signal(QPoint)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._look = TextStyle(_NO_TEXT, line_marks(0), LIGHT)
         self.setFrameShape(QAbstractScrollArea.Shape.NoFrame)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

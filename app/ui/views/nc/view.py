@@ -7,8 +7,9 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import QEvent, QPoint, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSplitter, QWidget
 
+from ...framework.boxes import v_box
 from ...framework.figures import clock, counted, grouped
 from .heads import PathHead
 from .line_marks import Ints
@@ -46,8 +47,8 @@ class NcView(QWidget):
     menu_requested = Signal(QPoint)
     comparison_closed = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.side = ViewSide.XY
         self.compared: ComparedProgram | None = None
         self.pane, self.other, self.state = TextPane(), TextPane(closable=True), StateStrip()
@@ -55,9 +56,7 @@ class NcView(QWidget):
         self.differences = PlacesPanel("difference", "F7")
         self.beside, self.foreign = ProgramPanel(), False
         right = QWidget()
-        column = QVBoxLayout(right)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(right, spacing=0)
         column.addWidget(self.path_head)
         column.addWidget(self.path, 1)
         self.splitter = QSplitter(Qt.Orientation.Horizontal)
@@ -68,9 +67,7 @@ class NcView(QWidget):
             self.splitter.setStretchFactor(at, 1 if widget is right else 0)
         self.splitter.setSizes(list(_SHARES))
         self.other.hide()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addWidget(self.splitter, 1)
         column.addWidget(self.differences)
         column.addWidget(self.state)

@@ -5,18 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from ....core.errors import HitofudeError
 from ....drafting.expressions.numbers import length
 from ....formats.plot.layout import PlotOptions, scale_words
 from ....formats.plot.page import Paper
+from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.fields import ChoiceField, ListField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted, grouped
 from ...framework.form import SwitchField
-from ...framework.labels import muted
+from ...framework.labels import muted, show_words
 from ...framework.section import EDGE, hairline, heading
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import WIDTH
 
 _SCALES = (10.0, 5.0, 2.0, 1.0, 1 / 2, 1 / 5, 1 / 10, 1 / 20, 1 / 50, 1 / 100)
 _PAPERS = {paper: paper.name if paper.name[0] == "A" else paper.name.capitalize() for paper in Paper}
@@ -68,8 +69,7 @@ class PlotPanel(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("sidePanel")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "sidePanel")
         self.setFixedWidth(WIDTH)
         self.request = PlotRequest()
         self.paper = ListField("Paper", list(_PAPERS.items()))
@@ -98,9 +98,7 @@ class PlotPanel(QWidget):
         self.wrong.setProperty("role", "error")
         self.wrong.hide()
         self.save.setProperty("role", "primary")
-        column = QVBoxLayout(self)
-        column.setContentsMargins(EDGE + 1, 12, EDGE, 12)
-        column.setSpacing(6)
+        column = v_box(self, (EDGE + 1, 12, EDGE, 12), 6)
         groups = (
             (heading("Plot"), self.paper, self.lies, self.scale, self.factor, self.told, self.wrong),
             (self.framed, self.paths, self.notes, self.black),
@@ -111,8 +109,7 @@ class PlotPanel(QWidget):
             column.addSpacing(4)
             column.addWidget(hairline())
             column.addSpacing(4)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(8)
+        buttons = h_box(spacing=8)
         for button in (self.save, self.print, self.leave):
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
             buttons.addWidget(button)
@@ -171,7 +168,6 @@ class PlotPanel(QWidget):
         self._say(why)
 
     def _say(self, why: str) -> None:
-        self.wrong.setText(why)
-        self.wrong.setVisible(bool(why))
+        show_words(self.wrong, why)
         self.save.setEnabled(not why)
         self.print.setEnabled(not why)

@@ -8,9 +8,10 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QHBoxLayout, QListWidget, QPlainTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QListWidget, QPlainTextEdit, QWidget
 
 from ....raster.trace import PixelChain
+from ...framework.boxes import h_box, v_box
 from ...framework.catalogue import tr
 from ...framework.figures import counted
 from ...framework.icons import IconButton
@@ -44,8 +45,7 @@ class ChainsPanel(QWidget):
         self.copy.clicked.connect(self.copy_all)
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setContentsMargins(0, 0, 0, 0)
+        head = h_box()
         head.addWidget(self.title)
         head.addStretch(1)
         head.addWidget(self.copy)
@@ -58,13 +58,10 @@ class ChainsPanel(QWidget):
         self.text.setFixedHeight(_TEXT_PX)
         self.text.setAccessibleName("Chain code")
         self.text.setObjectName("chainText")
-        above = QHBoxLayout()
-        above.setSpacing(8)
+        above = h_box(spacing=8)
         above.addWidget(self.list, 1)
         above.addWidget(self.rose)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(6)
+        column = v_box(self, spacing=6)
         column.addLayout(head)
         column.addLayout(above)
         column.addWidget(self.text)

@@ -9,25 +9,20 @@ from PySide6.QtGui import QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from ....raster.trace import STEPS
-from ...framework.theme import LIGHT, Theme, text_font
+from ...framework.theme import text_font
+from ...framework.themed import Themed
 
 _SIDE, _ARM, _HEAD = 96, 26.0, 4.0
 
 
-class DirectionRose(QWidget):
+class DirectionRose(Themed, QWidget):
     """Eight arrows with their numbers."""
 
     def __init__(self) -> None:
         super().__init__()
-        self._theme = LIGHT
         self.setFixedSize(_SIDE, _SIDE)
         self.setToolTip("The directions of the chain code")
         self.setAccessibleName("The directions of the chain code: 0 to the right, then counter-clockwise to 7")
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Paint the arrows."""

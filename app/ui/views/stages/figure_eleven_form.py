@@ -6,10 +6,11 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
+from ...framework.boxes import v_box
 from ...framework.fields import ChoiceField
-from ...framework.labels import muted
+from ...framework.labels import muted, show_words
 from ...framework.section import hairline, heading
 
 if TYPE_CHECKING:
@@ -27,8 +28,8 @@ class FigureElevenForm(QWidget):
 
     requested = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.cells = ChoiceField("Cells", [(cells, str(cells)) for cells in (256, 512, 1024)])
         self.cells.setToolTip("Along the longer side of the stock")
         self.cells.show_value(_CELLS)
@@ -40,9 +41,7 @@ class FigureElevenForm(QWidget):
         for label in (self.table, self.why):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 6, 0, 0)
-        column.setSpacing(4)
+        column = v_box(self, (0, 6, 0, 0), 4)
         parts: tuple[QWidget, ...] = (hairline(), heading("Figure 11"), self.cells, self.measure, self.table, self.why)
         for part in parts:
             column.addWidget(part)
@@ -66,8 +65,7 @@ class FigureElevenForm(QWidget):
 
     def show_fault(self, sentence: str) -> None:
         """Say why nothing was measured."""
-        self.why.setText(sentence)
-        self.why.setVisible(bool(sentence))
+        show_words(self.why, sentence)
 
 
 def table_of(figure: FigureEleven) -> str:

@@ -8,6 +8,7 @@ from PySide6.QtCore import QElapsedTimer, QSignalBlocker, Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QWidget
 
+from ...framework.boxes import give_ground
 from ...framework.give_way import give_way
 from ...framework.icons import IconButton
 from ...framework.labels import muted
@@ -34,8 +35,7 @@ class FilmPlayer(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("ncPlaces")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "ncPlaces")
         self.setFixedHeight(HEIGHT)
         self.at, self.count = 0, 0
         self._timer, self._clock = QTimer(self), QElapsedTimer()

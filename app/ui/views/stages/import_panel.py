@@ -6,18 +6,19 @@ from dataclasses import replace
 from enum import Enum
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QPushButton, QScrollArea, QSlider, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QPushButton, QScrollArea, QSlider, QWidget
 
 from ....core.errors import HitofudeError
 from ....raster.ambiguities import AmbiguityKind
 from ....raster.picture_file import MM_PER_INCH
 from ....raster.picture_options import InkMeaning, PictureOptions
-from ...framework.fields import LABEL_WIDTH, ChoiceField, NumberField, NumberSpec
+from ...framework.boxes import give_ground, v_box
+from ...framework.fields import ChoiceField, NumberField, NumberSpec, field_name
 from ...framework.figures import TIMES, counted, grouped
-from ...framework.labels import Elided, muted
+from ...framework.labels import Elided, muted, show_words
 from ...framework.samples import Switch
 from ...framework.section import EDGE, hairline, heading
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import WIDTH
 from .picture_preview import ASSUMED_DPI, PicturePreview, PictureSettings, PixelSize
 
 _LIST_PX = 96
@@ -68,8 +69,7 @@ class ImportPanel(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setObjectName("sidePanel")
-        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self, "sidePanel")
         self.setFixedWidth(WIDTH)
         self.reading: PictureSettings | None = None
         self.by = SizeGivenBy.DPI
@@ -110,9 +110,7 @@ class ImportPanel(QWidget):
         self.list.setAccessibleName("Doubtful places")
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         inner = QWidget()
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(EDGE, 0, EDGE, 8)
-        column.setSpacing(6)
+        column = v_box(inner, (EDGE, 0, EDGE, 8), 6)
         groups = (
             (self.see,),
             (
@@ -149,9 +147,7 @@ class ImportPanel(QWidget):
         for button in (self.take, self.leave):
             buttons.addWidget(button)
         buttons.addStretch(1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(1, 12, 0, 12)
-        column.setSpacing(6)
+        column = v_box(self, (1, 12, 0, 12), 6)
         for row in (head, buttons):
             row.setContentsMargins(EDGE, 0, EDGE, 0)
         for label in (self.about, self.wrong):
@@ -168,10 +164,8 @@ class ImportPanel(QWidget):
         row.setLayout(box)
         box.setContentsMargins(0, 0, 0, 0)
         box.setSpacing(8)
-        name = muted("Threshold")
-        name.setFixedWidth(LABEL_WIDTH)
         self.level.setFixedWidth(self.level.fontMetrics().horizontalAdvance("255"))
-        box.addWidget(name)
+        box.addWidget(field_name("Threshold"))
         for widget in (self.threshold, self.level, self.otsu):
             box.addWidget(widget)
         return row
@@ -181,9 +175,7 @@ class ImportPanel(QWidget):
         row.setLayout(box)
         box.setContentsMargins(0, 2, 0, 2)
         box.setSpacing(8)
-        name = muted(text)
-        name.setFixedWidth(LABEL_WIDTH)
-        box.addWidget(name)
+        box.addWidget(field_name(text))
         box.addWidget(widget)
         box.addStretch(1)
         return row
@@ -236,8 +228,7 @@ class ImportPanel(QWidget):
 
     def refuse(self, reason: str) -> None:
         """Say why the picture cannot become the part; "" = nothing is wrong."""
-        self.wrong.setText(reason)
-        self.wrong.setVisible(bool(reason))
+        show_words(self.wrong, reason)
 
     def add_point(self, col: float, row: float) -> None:
         """Take a point of the picture, px, as one of the two; a third one begins anew."""

@@ -8,14 +8,15 @@ from enum import Enum
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from ....usecases.pixels.options import BitmapSize
+from ...framework.boxes import v_box
 from ...framework.fields import ChoiceField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted, grouped
-from ...framework.labels import muted
+from ...framework.labels import muted, set_role
 from ...framework.section import EDGE, hairline, heading
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import SideScroll
 from .chains_panel import ChainsPanel
 from .film import FilmFrame
 from .film_set import FilmSet
@@ -41,7 +42,7 @@ class FillRules(Enum):
     PUBLISHED = "Published"
 
 
-class StagesPanel(QScrollArea):
+class StagesPanel(SideScroll):
     """Words for one stage, and what the whole film is made with.
 
     Signals:
@@ -54,11 +55,7 @@ class StagesPanel(QScrollArea):
     size_chosen = Signal(BitmapSize)
 
     def __init__(self) -> None:
-        super().__init__()
-        self.setFixedWidth(WIDTH)
-        self.setWidgetResizable(True)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        super().__init__((EDGE + 1, 12, EDGE, 12), 6)
         self.title, self.place, self.sentence, self.notes = heading(""), muted(), QLabel(), muted()
         self.rules = ChoiceField("Fill", [(rules, rules.value) for rules in FillRules])
         self.wrong, self.chains = QLabel(), ChainsPanel()
@@ -95,19 +92,13 @@ class StagesPanel(QScrollArea):
         self.pitch.committed.connect(lambda value: self.size_chosen.emit(BitmapSize(_LEAST_ROUND, value)))
 
     def _lay_out(self) -> None:
-        inner = QWidget()
-        inner.setObjectName("sidePanel")
         made = (self.bitmap, self.given_up, self.rule, self.finding)
         for label in (self.title, self.sentence, self.notes, self.wrong, *made):
             label.setWordWrap(True)
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.rules.show_value(FillRules.SETTLED)
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(EDGE + 1, 12, EDGE, 12)
-        column.setSpacing(6)
-        told = QVBoxLayout(self._told)
-        told.setContentsMargins(0, 0, 0, 0)
-        told.setSpacing(6)
+        column = self.column
+        told = v_box(self._told, spacing=6)
         for label in (self.title, self.place, self.sentence, self.notes):
             told.addWidget(label)
         told.addStretch(1)
@@ -121,7 +112,6 @@ class StagesPanel(QScrollArea):
             for each in group:
                 column.addWidget(each)
         column.addStretch(1)
-        self.setWidget(inner)
 
     def show_still(self, still: FilmFrame | None) -> None:
         """Tell of another stage; of none, only how fine the bitmap is."""
@@ -174,9 +164,7 @@ class StagesPanel(QScrollArea):
         else:
             text, role = "The rules as published get every pixel of this part right.", "ok"
         self.wrong.setText(text)
-        self.wrong.setProperty("role", role)
-        self.wrong.style().unpolish(self.wrong)
-        self.wrong.style().polish(self.wrong)
+        set_role(self.wrong, role)
 
 
 def _place(still: FilmFrame) -> str:

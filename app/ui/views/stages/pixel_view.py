@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPainterPath, QPen
-from PySide6.QtWidgets import QWidget
 
 from ....geometry.primitives import Rows, row_curve, within_half_turn
 from ....model.curves import Point
@@ -60,8 +59,8 @@ class PixelView(Viewport):
     cursor_moved = Signal(float, float)
     clicked = Signal(int, int, float, float)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(ViewportScene(self._scene_steps, self._paint_margins, self._paint_overlay), parent)
+    def __init__(self) -> None:
+        super().__init__(ViewportScene(self._scene_steps, self._paint_margins, self._paint_overlay))
         self._theme = LIGHT
         self.pixels: PixelPaint | None = None
         self.key: tuple[CodeRow, ...] = ()

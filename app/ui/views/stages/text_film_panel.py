@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton
 
+from ...framework.boxes import empty
 from ...framework.catalogue import tr
 from ...framework.fields import ChoiceField
 from ...framework.labels import muted
 from ...framework.section import EDGE, hairline, heading
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import SideScroll
 from .figure_eleven_form import FigureElevenForm
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 _MOST_ROWS = 41
 
 
-class TextFilmPanel(QScrollArea):
+class TextFilmPanel(SideScroll):
     """Words and figures of one step.
 
     Signals:
@@ -34,11 +35,7 @@ class TextFilmPanel(QScrollArea):
     save_requested = Signal()
 
     def __init__(self) -> None:
-        super().__init__()
-        self.setFixedWidth(WIDTH)
-        self.setWidgetResizable(True)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        super().__init__((EDGE + 1, 12, EDGE, 12), 6)
         self.text, self.publication = heading(""), muted()
         self.source = ChoiceField("On", [(False, "Sample"), (True, "Your own")])
         self.source.setToolTip("Your own: the program that NC shows; for text C the scene that Surfaces shows")
@@ -56,11 +53,7 @@ class TextFilmPanel(QScrollArea):
         self.show_step(None)
 
     def _lay_out(self) -> None:
-        inner = QWidget()
-        inner.setObjectName("sidePanel")
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(EDGE + 1, 12, EDGE, 12)
-        column.setSpacing(6)
+        column = self.column
         for label in (self.text, self.publication, self.title, self.says, self.settled, self.table):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -77,7 +70,6 @@ class TextFilmPanel(QScrollArea):
         column.addWidget(self.save)
         column.addWidget(self.figure_eleven)
         column.addStretch(1)
-        self.setWidget(inner)
 
     def show_text(self, title: str, publication: str) -> None:
         """Tell of which text the film is."""
@@ -95,10 +87,7 @@ class TextFilmPanel(QScrollArea):
         self.says.setText(step.says if step is not None else "")
         self.settled.setText(step.settled if step is not None else "")
         self.settled.setVisible(bool(step is not None and step.settled))
-        while (item := self._grid.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._grid)
         self.figures = {}
         for row, figure in enumerate(step.figures if step is not None else ()):
             name, value = muted(figure.name), QLabel(figure.words)

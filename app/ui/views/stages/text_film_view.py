@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QByteArray, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtSvg import QSvgRenderer
-from PySide6.QtWidgets import QAbstractItemView, QFrame, QHBoxLayout, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QAbstractItemView, QListWidget, QListWidgetItem, QWidget
 
+from ...framework.boxes import h_box, v_box
 from ...framework.figures import counted
+from ...framework.section import upright_hairline
 from ...framework.translated_items import TranslatedItems
 from .film_player import FilmPlayer
 from .step_list import WIDTH
@@ -80,16 +82,11 @@ class TextFilmView(QWidget):
         self.rail.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
         self.rail.setAccessibleName("Steps of the text")
         self.rail.setItemDelegate(TranslatedItems(self.rail))
-        line = QFrame()
-        line.setObjectName("hairline")
-        line.setFixedWidth(1)
-        middle = QVBoxLayout()
-        middle.setSpacing(0)
+        line = upright_hairline()
+        middle = v_box(spacing=0)
         middle.addWidget(self.picture, 1)
         middle.addWidget(self.player)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
+        row = h_box(self, spacing=0)
         row.addWidget(self.rail)
         row.addWidget(line)
         row.addLayout(middle, 1)

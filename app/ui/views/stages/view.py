@@ -7,11 +7,13 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QStackedWidget, QWidget
 
 from ....raster.frame import BitmapFrame, Plane
+from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.fields import ChoiceField
 from ...framework.figures import counted
+from ...framework.section import upright_hairline
 from ...framework.theme import LIGHT, Theme
 from . import code_colours
 from .film import Film, FilmFrame, Projector, chain_at, dashed
@@ -54,10 +56,10 @@ class StagesView(QWidget):
     theme_changed = Signal(Theme)
     text_chosen = Signal(str)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.theme = LIGHT
-        self.rail, self.pixels, self.player, self._line = StepList(), PixelView(), FilmPlayer(), QFrame()
+        self.rail, self.pixels, self.player, self._line = StepList(), PixelView(), FilmPlayer(), upright_hairline()
         self.film: Film | None = None
         self._projector: Projector | None = None
         self._frame = BitmapFrame()
@@ -75,34 +77,24 @@ class StagesView(QWidget):
         self.pixels.clicked.connect(self._click)
 
     def _lay_out(self) -> None:
-        line = self._line
-        line.setObjectName("hairline")
-        line.setFixedWidth(1)
-        middle = QVBoxLayout()
-        middle.setSpacing(0)
+        middle = v_box(spacing=0)
         middle.addWidget(self.pixels, 1)
         middle.addWidget(self.player)
         bitmap = QWidget()
-        row = QHBoxLayout(bitmap)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
+        row = h_box(bitmap, spacing=0)
         row.addWidget(self.rail)
-        row.addWidget(line)
+        row.addWidget(self._line)
         row.addLayout(middle, 1)
         for page in (bitmap, self.films):
             self._stack.addWidget(page)
         for letter, tip in TIPS.items():
             self.texts.buttons[letter].setToolTip(tip)
             self.texts.buttons[letter].setAccessibleName(tip)
-        self._head.setObjectName("ncBar")
-        self._head.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        give_ground(self._head, "ncBar")
         self._head.setFixedHeight(HEAD_PX)
-        head = QHBoxLayout(self._head)
-        head.setContentsMargins(12, 0, 8, 0)
+        head = h_box(self._head, (12, 0, 8, 0))
         head.addWidget(self.texts)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addWidget(self._head)
         column.addWidget(self._stack, 1)
 

@@ -4,13 +4,25 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QHBoxLayout, QLabel, QWidget
 
 from ....formats.plot.content import TOOL_COLOURS
-from ...framework.fields import LABEL_WIDTH, ROW_HEIGHT, ChoiceField, ListField, NumberField, NumberSpec, reason_label
+from ...framework.boxes import h_box, put_away
+from ...framework.fields import (
+    ROW_HEIGHT,
+    ChoiceField,
+    ListField,
+    NumberField,
+    NumberSpec,
+    TextField,
+    field_grid,
+    field_name,
+    reason_label,
+)
 from ...framework.form import SwitchField
 from ...framework.labels import muted
-from ...framework.theme import LIGHT, TEXT_PX, Theme, text_font
+from ...framework.theme import TEXT_PX, text_font
+from ...framework.themed import Themed
 from .scene_fields import SceneField, SceneFieldKind
 
 _THIRD = 60
@@ -36,10 +48,8 @@ class VectorField(QWidget):
             for axis, _ in zip(axes, ask.value, strict=False)
         ]
         self.fields = [NumberField(spec, None, reason) for spec in specs]
-        name = muted(ask.name)
-        name.setFixedWidth(LABEL_WIDTH)
         self.setToolTip(ask.tip)
-        grid, row = QGridLayout(self), QHBoxLayout()
+        grid, row = field_grid(self), QHBoxLayout()
         grid.addLayout(row, 0, 1)  # before anything stands in it, as in `PanelSection.add_indented`
         row.setSpacing(4)
         for field in self.fields:
@@ -47,10 +57,7 @@ class VectorField(QWidget):
             row.addWidget(field)
             field.committed.connect(lambda _: self.chosen.emit(tuple(each.number for each in self.fields)))
         row.addStretch(1)
-        grid.setContentsMargins(0, 1, 0, 1)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(2)
-        grid.addWidget(name, 0, 0)
+        grid.addWidget(field_name(ask.name), 0, 0)
         grid.addWidget(reason, 1, 0, 1, 2)
         grid.setColumnStretch(1, 1)
 
@@ -64,49 +71,12 @@ class VectorField(QWidget):
                 field.edit.setCursorPosition(0)
 
 
-class WordsField(QWidget):
-    """A text.
-
-    Signals:
-        chosen(text).
-    """
-
-    chosen = Signal(object)
-
-    def __init__(self, name: str) -> None:
-        super().__init__()
-        label = muted(name)
-        label.setFixedWidth(LABEL_WIDTH)
-        self.edit = QLineEdit()
-        self.edit.setFixedHeight(ROW_HEIGHT)
-        self.edit.setAccessibleName(name)
-        self._value = ""
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 1, 0, 1)
-        row.setSpacing(8)
-        row.addWidget(label)
-        row.addWidget(self.edit, 1)
-        self.edit.editingFinished.connect(self._commit)
-
-    def show_value(self, value: str) -> None:
-        """Show a text, unless another one is being typed."""
-        self._value = value
-        if not (self.edit.isModified() and self.edit.hasFocus()):
-            self.edit.setText(value)
-            self.edit.setCursorPosition(0)
-
-    def _commit(self) -> None:
-        self.edit.setModified(False)
-        if self.edit.text() != self._value:
-            self.chosen.emit(self.edit.text())
-
-
-class ColourSwatch(QAbstractButton):
+class ColourSwatch(Themed, QAbstractButton):
     """A colour to choose; "" stands for the next one of the palette, drawn as a ring."""
 
     def __init__(self, colour: str) -> None:
         super().__init__()
-        self.colour, self._theme = colour, LIGHT
+        self.colour = colour
         self.setCheckable(True)
         self.setFixedSize(_SWATCH, _SWATCH)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
@@ -116,11 +86,6 @@ class ColourSwatch(QAbstractButton):
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """A small square."""
         return QSize(_SWATCH, _SWATCH)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Follow the theme."""
-        self._theme = theme
-        self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Draw the colour, and a ring round the chosen one."""
@@ -145,12 +110,8 @@ class ColourField(QWidget):
 
     def __init__(self, name: str) -> None:
         super().__init__()
-        label = muted(name)
-        label.setFixedWidth(LABEL_WIDTH)
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(0, 3, 0, 3)
-        self._row.setSpacing(2)
-        self._row.addWidget(label)
+        self._row = h_box(self, (0, 3, 0, 3), 2)
+        self._row.addWidget(field_name(name))
         self._row.addSpacing(6)
         self._group = QButtonGroup(self)
         self.swatches: dict[str, ColourSwatch] = {}
@@ -171,13 +132,12 @@ class ColourField(QWidget):
             for colour in [own for own in self.swatches if own not in ("", *(each.lower() for each in TOOL_COLOURS))]:
                 gone = self.swatches.pop(colour)
                 self._group.removeButton(gone)
-                gone.hide()
-                gone.deleteLater()
+                put_away(gone)
             self._add(value)
         self.swatches[value.lower()].setChecked(True)
 
 
-Field = NumberField | VectorField | WordsField | ColourField | ChoiceField | ListField | SwitchField | QLabel
+Field = NumberField | VectorField | TextField | ColourField | ChoiceField | ListField | SwitchField | QLabel
 
 
 def field_of(ask: SceneField) -> Field:
@@ -197,7 +157,7 @@ def field_of(ask: SceneField) -> Field:
         case SceneFieldKind.SWITCH:
             return SwitchField(ask.name, ask.tip)
         case SceneFieldKind.WORDS:
-            return WordsField(ask.name)
+            return TextField(ask.name)
         case SceneFieldKind.COLOUR:
             return ColourField(ask.name)
     made = muted(ask.name) if ask.kind is SceneFieldKind.TOLD else QLabel(ask.name)

@@ -6,13 +6,14 @@ from collections.abc import Mapping, Sequence
 from enum import Enum
 from functools import partial
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QLabel, QMenu, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QMenu, QWidget
 
 from ....formats.plot.surface_plot import colour_of, line_of
 from ....formats.scene.edit import with_table_moved, with_value, without_table
 from ....model.scene import LineType, Scene
+from ...framework.boxes import put_away, v_box
 from ...framework.dropping import drop
 from ...framework.fields import NumberField
 from ...framework.figures import TIMES
@@ -20,8 +21,9 @@ from ...framework.icons import IconButton, IconLabel
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch
 from ...framework.section import ListRow, PanelSection, hairline, theme_children
-from ...framework.theme import LIGHT, Theme
-from ...panels.side_panel import WIDTH
+from ...framework.side_scroll import SideScroll
+from ...framework.theme import Theme
+from ...framework.themed import Themed
 from ...panels.tool_kinds import icon_of
 from .field_widgets import Field, field_of
 from .new_parts import FROM_CURVES, KINDS
@@ -78,15 +80,14 @@ class PartListSection(PanelSection):
         """Show other rows."""
         for row in self.shown:
             self.rows.removeWidget(row)
-            row.hide()
-            row.deleteLater()
+            put_away(row)
         self.shown = list(rows)
         for row in rows:
             self.rows.addWidget(row)
             theme_children(row, theme)
 
 
-class PartPropertiesSection(PanelSection):
+class PartPropertiesSection(Themed, PanelSection):
     """Fields for what is asked of the subject that is chosen; they stay the same widgets while only values change.
 
     Signals:
@@ -106,16 +107,9 @@ class PartPropertiesSection(PanelSection):
             self.head.addWidget(button)
         self.fields: dict[str, Field] = {}
         self._asks: tuple[SceneField, ...] = ()
-        self._theme = LIGHT
         self._body = QWidget()
-        self._column = QVBoxLayout(self._body)
-        self._column.setContentsMargins(0, 0, 0, 0)
-        self._column.setSpacing(0)
+        self._column = v_box(self._body, spacing=0)
         self.add_indented(self._body)
-
-    def set_theme(self, theme: Theme) -> None:
-        """Remember the theme for fields to come."""
-        self._theme = theme
 
     def show_asks(self, title: str, asks: tuple[SceneField, ...], removable: bool) -> None:
         """Show what is asked, with the values that are."""
@@ -132,8 +126,7 @@ class PartPropertiesSection(PanelSection):
     def _build(self, asks: tuple[SceneField, ...]) -> None:
         for field in self.fields.values():
             self._column.removeWidget(field)
-            field.hide()
-            field.deleteLater()
+            put_away(field)
         self.fields = {}
         for at, ask in enumerate(asks):
             field = field_of(ask)
@@ -152,7 +145,7 @@ class PartPropertiesSection(PanelSection):
             self.changed.emit(self._asks[at], value)
 
 
-class ScenePanel(QScrollArea):
+class ScenePanel(Themed, SideScroll):
     """Lists and properties of a scene.
 
     Signals:
@@ -173,11 +166,7 @@ class ScenePanel(QScrollArea):
     text_requested = Signal(str, int)
 
     def __init__(self) -> None:
-        super().__init__()
-        self.setFixedWidth(WIDTH)
-        self.setWidgetResizable(True)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        super().__init__((0, 4, 0, 8))
         self.surfaces, self.passes = (
             PartListSection("Surfaces", "Add a surface"),
             PartListSection("Passes", "Add passes"),
@@ -192,7 +181,6 @@ class ScenePanel(QScrollArea):
         self._shown: Scene | None = None
         self._block: tuple[float, ...] = (0.0,) * 6
         self._posts: Choices = ()
-        self._theme = LIGHT
         self._rows: dict[Subject, ListRow] = {}
         self.awaited: Subject | None = None
         self.menu = QMenu(self.surfaces.add_button)
@@ -215,17 +203,12 @@ class ScenePanel(QScrollArea):
         for kind in FROM_CURVES:
             drawn.addAction(SHAPES[kind], partial(self.curves_requested.emit, kind))
         self.menu.addAction("From a file…", self.file_requested.emit)
-        inner = QWidget()
-        inner.setObjectName("sidePanel")
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(0, 4, 0, 8)
-        column.setSpacing(0)
+        column = self.column
         for section in (self.scene, self.surfaces, self.passes, self.tools):
             column.addWidget(section)
         column.addWidget(hairline())
         column.addWidget(self.form)
         column.addStretch(1)
-        self.setWidget(inner)
 
     def _connect(self) -> None:
         add = self.surfaces.add_button
@@ -235,10 +218,6 @@ class ScenePanel(QScrollArea):
         self.form.changed.connect(self._on_changed)
         self.form.removed.connect(lambda: self._remove(self.subject))
         self.form.text_requested.connect(lambda: self.text_requested.emit(*self.subject))
-
-    def set_theme(self, theme: Theme) -> None:
-        """Remember the theme for rows to come."""
-        self._theme = theme
 
     def show_posts(self, posts: Choices) -> None:
         """Offer controls, by their names."""

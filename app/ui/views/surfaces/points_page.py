@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, Signal
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
 
 from ....usecases.scene.lines import BoundaryPoint
+from ...framework.boxes import v_box
 from ...framework.figures import counted
 from ...framework.labels import muted
 from ...framework.theme import Theme
@@ -99,9 +100,7 @@ class PointsPage(QWidget):
         for column, wide in enumerate((72, 52, 76, 76, 76)):
             header.resizeSection(column, wide)
         header.setSectionResizeMode(5, QHeaderView.ResizeMode.Stretch)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
+        whole = v_box(self, spacing=0)
         whole.addWidget(self.summary)
         whole.addWidget(self.table, 1)
         self.table.selectionModel().currentRowChanged.connect(

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import re
 
-from PySide6.QtCore import QRect, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QFont,
-    QPainter,
-    QPaintEvent,
-    QPalette,
-    QResizeEvent,
     QSyntaxHighlighter,
     QTextCharFormat,
     QTextCursor,
 )
-from PySide6.QtWidgets import QPlainTextEdit, QTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QTextEdit, QWidget
 
+from ...framework.boxes import v_box
 from ...framework.section import hairline
 from ...framework.theme import LIGHT, Theme, mixed, mono_font
-from ..language.gutter import Gutter
+from ..language.numbered_editor import NumberedEditor
 from ..language.page import TrialLabel
 from .scene_document import SceneDocument
 
@@ -60,34 +57,22 @@ class TomlHighlighter(QSyntaxHighlighter):
             self.setFormat(token.start(), token.end() - token.start(), self.formats[str(token.lastgroup)])
 
 
-class SceneEditor(QPlainTextEdit):
+class SceneEditor(NumberedEditor):
     """A text editor with line numbers and one line that is wrong."""
 
     def __init__(self, document: SceneDocument) -> None:
-        super().__init__()
-        self.setAccessibleName("Text of the scene")
+        super().__init__("Text of the scene")
         self.setDocument(document.document)
-        self.setFrameShape(QPlainTextEdit.Shape.NoFrame)
-        self.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
-        self.setFont(mono_font())
-        self.setStyleSheet(f"QPlainTextEdit {{ font-family: '{mono_font().family()}'; }}")
         self.document().setDefaultFont(mono_font())
         self.document().setDocumentMargin(8)
-        self._theme, self.wrong = LIGHT, 0
-        self.gutter, self.highlighter = Gutter(self), TomlHighlighter(self.document())
+        self.wrong, self.highlighter = 0, TomlHighlighter(self.document())
         self.highlighter.set_theme(LIGHT)
-        self.blockCountChanged.connect(lambda _: self._lay_out())
-        self.updateRequest.connect(self._follow)
         self.cursorPositionChanged.connect(self.gutter.update)
         self._lay_out()
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
-        self._theme = theme
-        palette = self.palette()
-        palette.setColor(QPalette.ColorRole.Base, theme.raised)
-        palette.setColor(QPalette.ColorRole.Text, theme.ink)
-        self.setPalette(palette)
+        super().set_theme(theme)
         self.highlighter.set_theme(theme)
         self.show_wrong(self.wrong)
 
@@ -112,28 +97,6 @@ class SceneEditor(QPlainTextEdit):
         self.centerCursor()
         self.setFocus()
 
-    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
-        """Give the numbers their place."""
-        super().resizeEvent(event)
-        self._lay_out()
-
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw a hairline between numbers and text, and the text."""
-        super().paintEvent(event)
-        QPainter(self.viewport()).fillRect(QRect(0, 0, 1, self.viewport().height()), self._theme.hairline)
-
-    def _lay_out(self) -> None:
-        wide = self.gutter.width_wanted()
-        self.setViewportMargins(wide, 0, 0, 0)
-        inner = self.contentsRect()
-        self.gutter.setGeometry(inner.left(), inner.top(), wide, inner.height())
-
-    def _follow(self, area: QRect, shifted: int) -> None:
-        if shifted:
-            self.gutter.scroll(0, shifted)
-        else:
-            self.gutter.update(0, area.y(), self.gutter.width(), area.height())
-
 
 class SceneText(QWidget):
     """Editor, and under it what the scene is, or what is wrong; a click on that goes there.
@@ -148,9 +111,7 @@ class SceneText(QWidget):
         super().__init__()
         self.setFixedWidth(WIDTH)
         self.editor, self.verdict = SceneEditor(document), TrialLabel()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addWidget(self.editor, 1)
         column.addWidget(hairline())
         column.addWidget(self.verdict)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from enum import Enum
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QMenu, QSlider, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QMenu, QSlider, QWidget
 
 from ....model.finding import Finding
 from ....usecases.scene.lines import BoundaryPoint
+from ...framework.boxes import v_box
 from ...framework.dropping import drop
 from ...framework.fields import ChoiceField
 from ...framework.figures import counted
@@ -99,9 +100,7 @@ class SurfacesView(QWidget):
             (self.fit, 0),
         ):
             row.addWidget(widget, stretch)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = v_box(self, spacing=0)
         column.addWidget(head)
         column.addWidget(self.canvas, 1)
         self.setFocusProxy(self.canvas)

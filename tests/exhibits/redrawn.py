@@ -8,21 +8,21 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..core.progress import NO_PROGRESS, Progress
-from ..core.resources import resource
-from ..formats.plot.page import PlotPage
-from ..formats.plot.page_png import page_png
-from ..usecases.better.improve import better
-from ..usecases.better.picture import stock_picture
-from ..usecases.better.result import BetterOptions
-from ..usecases.job.options import MakeOptions
-from ..usecases.pixels.options import BitmapOptions, BitmapSize
-from .figure_eleven import FigureEleven, HeightMethod
-from .films.making import SAMPLES, make_film
-from .films.step import TEXTS, PublishedText
-from .films.step_drawing import AREA, BLUE, GREEN, INK, StepDrawing
-from .stage_files import StagesRun, png, run_stages
-from .stages import Variant
+from app.core.progress import NO_PROGRESS, Progress
+from app.core.resources import resource
+from app.exhibits.figure_eleven import FigureEleven, HeightMethod
+from app.exhibits.films.making import SAMPLES, make_film
+from app.exhibits.films.step import TEXTS, PublishedText
+from app.exhibits.films.step_drawing import AREA, BLUE, GREEN, INK, StepDrawing
+from app.exhibits.stage_files import StagesRun, png, run_stages
+from app.exhibits.stages import Variant
+from app.formats.plot.page import PlotPage
+from app.formats.plot.page_png import page_png
+from app.usecases.better.improve import better
+from app.usecases.better.picture import stock_picture
+from app.usecases.better.result import BetterOptions
+from app.usecases.job.options import MakeOptions
+from app.usecases.pixels.options import BitmapOptions, BitmapSize
 
 FIGURES = (
     "metal",
