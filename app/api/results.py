@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from ..core.atomic import write_together
+from ..core.catalogue import LANGUAGES
 from ..core.errors import InputError
 from ..core.input_file import read_input
-from ..core.wording import counted, minutes_words
+from ..core.wording import counted, either, minutes_words
 from ..formats.sheet import SUFFIXES
 from ..gcode.interpreter.program import ProgramProblem
 from ..model.finding import Finding
@@ -92,22 +93,27 @@ class MadeProgram(_Shown):
         write_together(files)
         return tuple(files)
 
-    def sheet(self, path: str | os.PathLike[str], drawing: str | os.PathLike[str] | None = None) -> Path:
+    def sheet(
+        self, path: str | os.PathLike[str], drawing: str | os.PathLike[str] | None = None, language: str = "en"
+    ) -> Path:
         """Write the sheet that goes to the machine; return its path.
 
         Args:
-            path: ends in .pdf or .html. drawing: whose SHA-256 is to stand on it.
+            path: ends in .pdf or .html. drawing: whose SHA-256 is to stand on it. language: "en" or "ja", Japanese.
 
         Raises:
-            InputError: it cannot be written, or is neither.
+            InputError: it cannot be written, or is neither; the language is none of these, or this machine has no font
+                with its letters.
         """
         from ..usecases.make_files import other_files
 
         target = Path(path)
         if target.suffix.lower() not in SUFFIXES:
             raise InputError(f"{target}: a sheet is .pdf or .html; change the name")
+        if language not in LANGUAGES:
+            raise InputError(f"language is {language!r}; use {either(map(repr, LANGUAGES))}")
         data = None if drawing is None else read_input(Path(drawing))
-        write_together({target: other_files(self.result, {"sheet": target}, data)["sheet"]})
+        write_together({target: other_files(self.result, {"sheet": target}, data, language)["sheet"]})
         return target
 
     def svg(self) -> str:

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import pytest
 
+from app.core.catalogue import catalogue
 from app.exhibits.films.making import make_film
 from app.exhibits.films.step import FilmStep, PublishedText
-from app.ui.framework.catalogue import catalogue
 from app.ui.views.stages.step_notes import NOTES, note
 
 JAPANESE = catalogue("ja")
