@@ -5,7 +5,7 @@ in a notebook.
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +31,7 @@ from ..usecases.making.make import MakeResult
 from ..usecases.scene_program.nc import WrittenScene
 from ..usecases.scene_program.report import SurfaceReport
 from ..usecases.smoothing.result import SmoothedProgram
+from .words import findings_in_python, in_python
 
 Report = dict[str, Any]
 
@@ -70,7 +71,7 @@ class MadeProgram(_Shown):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """Everything there is to say, what counts first."""
-        return self.result.findings
+        return findings_in_python(self.result.findings)
 
     @property
     def clean(self) -> bool:
@@ -159,7 +160,7 @@ class MadeInlay(_Shown):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What is wrong with the fit; each program has its own."""
-        return self.result.findings
+        return findings_in_python(self.result.findings)
 
     @property
     def clean(self) -> bool:
@@ -198,7 +199,7 @@ class CheckedProgram(_Shown):
     @property
     def problems(self) -> tuple[ProgramProblem, ...]:
         """What its control would refuse, or warn of."""
-        return self.result.problems
+        return tuple(replace(each, text=in_python(each.text)) for each in self.result.problems)
 
     @property
     def clean(self) -> bool:
@@ -240,7 +241,7 @@ class _Reported(_Shown):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """Everything that is wrong, with its place; of a cut also what went wrong on the way, what counts first."""
-        return self.told.findings
+        return findings_in_python(self.told.findings)
 
     @property
     def clean(self) -> bool:
@@ -327,7 +328,7 @@ class SmoothedText(_NewText):
         """Stretches that could not be proven and stayed as they were."""
         from ..usecases.smoothing.report import findings
 
-        return findings(self.result)
+        return findings_in_python(findings(self.result))
 
     @property
     def clean(self) -> bool:
@@ -360,7 +361,7 @@ class BetterText(_NewText):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What somebody has to know before it is used."""
-        return better_report.findings(self.result)
+        return findings_in_python(better_report.findings(self.result))
 
     @property
     def clean(self) -> bool:
