@@ -39,7 +39,8 @@ _FLAGS = ("to-zero", "insist")
 _LISTS = ("skip-layer", "skip-type", "layer", "drill", "keep-out")
 _OPTION = re.compile(
     r"(?<![\w-])--(?P<name>[a-z][a-z-]*)"
-    r"(?:[ =](?P<value>\d+=[a-z]+(?::(?:[\d.]*\d|[A-Z]+))+|(?:[A-Z]\d,)+[A-Z]\d|\"[^\"]*\"|\d[\d.]*(?:e-?\d+)?(?![\w.])|"
+    r"(?:[ =](?P<value>\d+=[a-z]+(?::(?:[\d.]*\d|[A-Z]+))+|(?:[A-Z]\d,)+[A-Z]\d|\"[^\"]*\"|"
+    r"\d[\d.]*(?:e-?\d+)?(?![\w.])|"
     r"(?<=-layer )\w+|(?<=-type )[A-Z]+|(?<=--post )\w+|(?<=--as )\w+|(?<=--units )\w+|(?<=--side )\w+|"
     r"[DN]\b|NAME))?"
 )

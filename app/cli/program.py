@@ -31,7 +31,7 @@ class CommandSummary:
 
 SUMMARIES = {
     "make": CommandSummary("make DRAWING -o OUT.ngc", "a drawing into tool paths for pockets, contours and holes"),
-    "inlay": CommandSummary("inlay DRAWING -o OUT", "a V-carved pocket and the plug that fits into it"),
+    "inlay": CommandSummary("inlay DRAWING --job J.toml -o OUT", "a V-carved pocket and the plug that fits into it"),
     "tools": CommandSummary("tools DRAWING", "which tools a drawing wants: what passes, what clears, how long"),
     "feeds": CommandSummary("feeds --material M", "how fast a tool may turn and feed in a material, and why"),
     "cut": CommandSummary("cut PROGRAM.ngc", "any NC program cut out of its stock: what is left, gouges, rapids"),
@@ -45,7 +45,9 @@ SUMMARIES = {
     ),
     "surface": CommandSummary("surface SCENE.toml -o OUT", "tool paths over compound surfaces, each move proven"),
     "batch": CommandSummary("batch FOLDER -o OUT", "many parts made, checked or smoothed, and a table of them"),
-    "study": CommandSummary("study FILE -o OUT", "one file many ways: which tool, which tolerance, least time"),
+    "study": CommandSummary(
+        "study FILE -o OUT --vary O=V,V", "one file many ways: which tool, which tolerance, least time"
+    ),
     "stages": CommandSummary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
     "desktop": CommandSummary("desktop", "the entry of the desktop's menu, icon and kinds of files, for this user"),
     "manual": CommandSummary("manual -o OUT", "the manual as pages for browsers, with search, in both languages"),
@@ -92,5 +94,12 @@ def load_command(name: str) -> CliCommand:
 
 
 def listed() -> str:
-    """Return a line a command for the help."""
-    return "\n".join(f"  hitofude {each.usage:<26} {each.words} ({name} --help)" for name, each in SUMMARIES.items())
+    """Return a line a command for the help; behind a long usage the words stand in a line of their own."""
+    return "\n".join(
+        f"  hitofude {each.usage:<{_COLUMN}}{'' if len(each.usage) <= _COLUMN else _NEXT} {each.words} ({name} --help)"
+        for name, each in SUMMARIES.items()
+    )
+
+
+_COLUMN = 26
+_NEXT = "\n" + " " * (len("  hitofude ") + _COLUMN)
