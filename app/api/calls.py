@@ -41,6 +41,7 @@ from ..usecases.making import make as usecase
 from ..usecases.smoothing.result import SmoothOptions
 from ..usecases.smoothing.smooth import smooth as smooth_text
 from .results import BetterText, CheckedProgram, CutMetal, MadeInlay, MadeProgram, MadeSurface, SmoothedText
+from .words import speaks_python
 
 FilePath = str | os.PathLike[str]
 Given = TypeVar("Given")
@@ -83,6 +84,7 @@ def _ensure_job(job: Job) -> None:
             raise InputError(f"The job's {name} must be a tuple of {name}, such as ({name[:-1]},).")
 
 
+@speaks_python
 def read(
     drawing: FilePath, units: Units | None = None, layers: tuple[str, ...] = (), how: DrawingOptions = AS_DRAWN
 ) -> Drawing:
@@ -101,6 +103,7 @@ def read(
     return read_drawing(path.name, read_input(path), units, layers, how)
 
 
+@speaks_python
 def make(what: FilePath | Job, options: MakeOptions | None = None, progress: Progress = NO_PROGRESS) -> MadeProgram:
     """Return the NC program of a drawing or a job, read back and proven.
 
@@ -121,6 +124,7 @@ def make(what: FilePath | Job, options: MakeOptions | None = None, progress: Pro
     return MadeProgram(usecase.make(path.name, read_input(path), asked, progress))
 
 
+@speaks_python
 def inlay(
     what: FilePath | Job,
     options: MakeOptions | None = None,
@@ -146,6 +150,7 @@ def inlay(
     return MadeInlay(inlay_drawing(path.name, read_input(path), asked, fitting, progress))
 
 
+@speaks_python
 def tools(drawing: FilePath, options: AdviceOptions | None = None, progress: Progress = NO_PROGRESS) -> ToolAdvice:
     """Return which tools a drawing wants, and why: `advice.pocket`, `advice.contour`, what each reaches and leaves.
 
@@ -157,6 +162,7 @@ def tools(drawing: FilePath, options: AdviceOptions | None = None, progress: Pro
     return advice_for(path.name, read_input(path), _given(options, AdviceOptions, "options"), progress)
 
 
+@speaks_python
 def feeds(
     tool: Tool, material: str, engagement: CutEngagement | None = None, machine: Machine | None = None
 ) -> FeedProposal:
@@ -172,6 +178,7 @@ def feeds(
     return proposed_feeds(tool, stock_material(material), _given(engagement, CutEngagement, "engagement"), machine)
 
 
+@speaks_python
 def check(program: FilePath, options: ExamineOptions | None = None, progress: Progress = NO_PROGRESS) -> CheckedProgram:
     """Return what there is to know of an NC program, read as its control would.
 
@@ -183,6 +190,7 @@ def check(program: FilePath, options: ExamineOptions | None = None, progress: Pr
     return CheckedProgram(examine(path.name, read_input(path), _given(options, ExamineOptions, "options"), progress))
 
 
+@speaks_python
 def cut(
     *programs: FilePath,
     against: FilePath | None = None,
@@ -229,6 +237,7 @@ class BatchPart:
     options: MakeOptions | ExamineOptions | SmoothOptions
 
 
+@speaks_python
 def batch(
     parts: Sequence[BatchPart],
     jobs: int | None = None,
@@ -271,6 +280,7 @@ _KINDS = {MakeOptions: BatchKind.MAKE, ExamineOptions: BatchKind.CHECK, SmoothOp
 """What is done with a part of a batch, by its options."""
 
 
+@speaks_python
 def smooth(program: FilePath, options: SmoothOptions | None = None, progress: Progress = NO_PROGRESS) -> SmoothedText:
     """Return an NC program with its short straight moves as fewer lines, arcs or splines, proven within a tolerance.
 
@@ -282,6 +292,7 @@ def smooth(program: FilePath, options: SmoothOptions | None = None, progress: Pr
     return SmoothedText(smooth_text(path.name, read_input(path), _given(options, SmoothOptions, "options"), progress))
 
 
+@speaks_python
 def better(
     program: FilePath,
     options: BetterOptions | None = None,
@@ -303,6 +314,7 @@ def better(
     )
 
 
+@speaks_python
 def surface(scene: FilePath, progress: Progress = NO_PROGRESS) -> MadeSurface:
     """Return the tool paths over the surfaces of a scene, written and proven.
 

@@ -5,14 +5,15 @@ in a notebook.
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from ..core.atomic import write_together
+from ..core.catalogue import LANGUAGES
 from ..core.errors import InputError
 from ..core.input_file import read_input
-from ..core.wording import counted, minutes_words
+from ..core.wording import counted, either, minutes_words
 from ..formats.sheet import SUFFIXES
 from ..gcode.interpreter.program import ProgramProblem
 from ..model.finding import Finding
@@ -30,6 +31,7 @@ from ..usecases.making.make import MakeResult
 from ..usecases.scene_program.nc import WrittenScene
 from ..usecases.scene_program.report import SurfaceReport
 from ..usecases.smoothing.result import SmoothedProgram
+from .words import findings_in_python, in_python
 
 Report = dict[str, Any]
 
@@ -69,7 +71,7 @@ class MadeProgram(_Shown):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """Everything there is to say, what counts first."""
-        return self.result.findings
+        return findings_in_python(self.result.findings)
 
     @property
     def clean(self) -> bool:
@@ -92,22 +94,27 @@ class MadeProgram(_Shown):
         write_together(files)
         return tuple(files)
 
-    def sheet(self, path: str | os.PathLike[str], drawing: str | os.PathLike[str] | None = None) -> Path:
+    def sheet(
+        self, path: str | os.PathLike[str], drawing: str | os.PathLike[str] | None = None, language: str = "en"
+    ) -> Path:
         """Write the sheet that goes to the machine; return its path.
 
         Args:
-            path: ends in .pdf or .html. drawing: whose SHA-256 is to stand on it.
+            path: ends in .pdf or .html. drawing: whose SHA-256 is to stand on it. language: "en" or "ja", Japanese.
 
         Raises:
-            InputError: it cannot be written, or is neither.
+            InputError: it cannot be written, or is neither; the language is none of these, or this machine has no font
+                with its letters.
         """
         from ..usecases.make_files import other_files
 
         target = Path(path)
         if target.suffix.lower() not in SUFFIXES:
             raise InputError(f"{target}: a sheet is .pdf or .html; change the name")
+        if language not in LANGUAGES:
+            raise InputError(f"language is {language!r}; use {either(map(repr, LANGUAGES))}")
         data = None if drawing is None else read_input(Path(drawing))
-        write_together({target: other_files(self.result, {"sheet": target}, data)["sheet"]})
+        write_together({target: other_files(self.result, {"sheet": target}, data, language)["sheet"]})
         return target
 
     def svg(self) -> str:
@@ -153,7 +160,7 @@ class MadeInlay(_Shown):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What is wrong with the fit; each program has its own."""
-        return self.result.findings
+        return findings_in_python(self.result.findings)
 
     @property
     def clean(self) -> bool:
@@ -192,7 +199,7 @@ class CheckedProgram(_Shown):
     @property
     def problems(self) -> tuple[ProgramProblem, ...]:
         """What its control would refuse, or warn of."""
-        return self.result.problems
+        return tuple(replace(each, text=in_python(each.text)) for each in self.result.problems)
 
     @property
     def clean(self) -> bool:
@@ -234,7 +241,7 @@ class _Reported(_Shown):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """Everything that is wrong, with its place; of a cut also what went wrong on the way, what counts first."""
-        return self.told.findings
+        return findings_in_python(self.told.findings)
 
     @property
     def clean(self) -> bool:
@@ -321,7 +328,7 @@ class SmoothedText(_NewText):
         """Stretches that could not be proven and stayed as they were."""
         from ..usecases.smoothing.report import findings
 
-        return findings(self.result)
+        return findings_in_python(findings(self.result))
 
     @property
     def clean(self) -> bool:
@@ -354,7 +361,7 @@ class BetterText(_NewText):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What somebody has to know before it is used."""
-        return better_report.findings(self.result)
+        return findings_in_python(better_report.findings(self.result))
 
     @property
     def clean(self) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from ..core.catalogue import LANGUAGES
 from ..usecases.batch.task import BatchKind
 from .command import OptionParser
 from .lanes import add_lane_options
@@ -23,7 +24,7 @@ clean; 1: some are not, the table tells which; 2: nothing was begun.
 
 NOT_PASSED = frozenset(
     {"help", "memory", "output", "report", "image", "write_job", "timings", "quiet", "frame", "restart_at", "compare"}
-    | {"sheet"}
+    | {"sheet", "language"}
 )
 """What the commands have for one part alone."""
 
@@ -42,6 +43,7 @@ def add_batch_options(parser: OptionParser) -> None:
     parser.add_argument(
         "--sheets", choices=["pdf", "html"], help="of make: the sheet for the machine beside each program"
     )
+    parser.add_argument("--language", choices=LANGUAGES, default=LANGUAGES[0], help="of the sheets (default en)")
     add_passed(parser, BatchKind)
 
 

@@ -70,7 +70,7 @@ def planned(arguments: argparse.Namespace) -> PlannedBatch:
     kind = kind_of(arguments)
     parts = listed_parts(arguments.parts, arguments.output, kind)
     image, sheet = (f".{suffix}" if suffix else "" for suffix in (arguments.images, arguments.sheets))
-    extras = BatchExtras(arguments.reports, image, sheet)
+    extras = BatchExtras(arguments.reports, image, sheet, arguments.language)
     title = f"{arguments.parts.resolve().name}: {kind.value}"
 
     def table(rows: Sequence[BatchRow], files: Files) -> dict[str, bytes]:

@@ -8,6 +8,7 @@ import re
 import textwrap
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, NoReturn
 
 from ..core.errors import InputError, ParameterError
@@ -146,6 +147,13 @@ class OptionParser(argparse.ArgumentParser):
             if any(name in each for each in strings):
                 return next(("/".join(each) for each in strings if name not in each and typed_names & {*each}), None)
         return None
+
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        if action.type is Path and arg_string == "-":
+            raise _ValueError(
+                action, "is '-', and no pipe is read or written; name a file, or ./- for one of that name"
+            )
+        return super()._get_value(action, arg_string)
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:

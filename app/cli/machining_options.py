@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable
 from typing import Any
 
+from ..core.catalogue import LANGUAGES
 from ..core.errors import HitofudeError, InputError
 from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import angle, length
@@ -200,6 +201,12 @@ def add_note_options(group: argparse._ArgumentGroup | argparse.ArgumentParser) -
     """Add the options that write a line of one's own on the sheet."""
     group.add_argument("--clamping", metavar="TEXT", help="how the stock is held, for the sheet")
     group.add_argument("--zero", metavar="TEXT", help="how the zero is set, for the sheet")
+    group.add_argument(
+        "--language",
+        choices=LANGUAGES,
+        default=LANGUAGES[0],
+        help="of the sheet: English (en, the default) or Japanese (ja)",
+    )
 
 
 def machining(arguments: argparse.Namespace, on_pixels: bool) -> MachiningOptions:

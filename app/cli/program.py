@@ -94,5 +94,12 @@ def load_command(name: str) -> CliCommand:
 
 
 def listed() -> str:
-    """Return a line a command for the help."""
-    return "\n".join(f"  hitofude {each.usage:<26} {each.words} ({name} --help)" for name, each in SUMMARIES.items())
+    """Return a line a command for the help; behind a long usage the words stand in a line of their own."""
+    return "\n".join(
+        f"  hitofude {each.usage:<{_COLUMN}}{'' if len(each.usage) <= _COLUMN else _NEXT} {each.words} ({name} --help)"
+        for name, each in SUMMARIES.items()
+    )
+
+
+_COLUMN = 26
+_NEXT = "\n" + " " * (len("  hitofude ") + _COLUMN)

@@ -10,13 +10,15 @@ from .making.make import MakeResult
 _JOB_HEAD = "# A job file of Hitofude for {}: `hitofude make DRAWING -o OUT.ngc --job` this file."
 
 
-def other_files(made: MakeResult, requested: Mapping[str, Path], drawing: bytes | None = None) -> dict[str, bytes]:
+def other_files(
+    made: MakeResult, requested: Mapping[str, Path], drawing: bytes | None = None, language: str = "en"
+) -> dict[str, bytes]:
     """Return the bytes of what was asked for beside the program, by what it is.
 
     Args:
         requested: names of files by what they are to hold: report, image (.svg or .png), sheet (.pdf or .html),
             write_job; others are passed over, but that of the program, output, stands on the sheet.
-        drawing: its bytes, for the sheet; None where it is no file.
+        drawing: its bytes, for the sheet; None where it is no file. language: of the sheet.
     """
     texts = {}
     if "report" in requested:
@@ -36,7 +38,7 @@ def other_files(made: MakeResult, requested: Mapping[str, Path], drawing: bytes 
         from .sheet.made import made_sheet
 
         program = requested.get("output", requested["sheet"].with_suffix(".ngc"))
-        sources = {} if drawing is None else {f"drawing {made.job.part.name}": drawing}
+        sources = {} if drawing is None else {f"Drawing: {made.job.part.name}": drawing}
         sheet = made_sheet(made, program, sources)
-        texts["sheet"] = sheet_bytes(sheet, requested["sheet"].suffix.lower())
+        texts["sheet"] = sheet_bytes(sheet, requested["sheet"].suffix.lower(), language)
     return texts

@@ -6,6 +6,7 @@ import re
 
 import pytest
 
+from app.core.catalogue import Catalogue, catalogue
 from app.core.errors import HitofudeError
 from app.core.resources import resource
 from app.core.toml_tables import EXPECTED
@@ -16,7 +17,6 @@ from app.model.fields import Unit, declared_of
 from app.model.finding import FindingKind
 from app.model.operation_kinds import OPERATION_KINDS, parameters
 from app.model.tool import Tool
-from app.ui.framework.catalogue import Catalogue, catalogue
 from app.ui.panels.parameter_fields import sentence, spec_of
 from app.usecases.examine import ExamineOptions, examine
 from app.usecases.manual.parameter_table import parameter_table

@@ -11,8 +11,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QStyleOptionViewItem, QWidget
 
+from app.core.catalogue import Catalogue, catalogue, catalogue_files
 from app.core.settings import Language, load_settings
-from app.ui.framework.catalogue import Catalogue, catalogue, catalogue_files, set_language, tr
+from app.ui.framework.catalogue import set_language, tr
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
 from app.ui.framework.legend import LegendRow
 from app.ui.framework.samples import PathLineKind

@@ -13,9 +13,9 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
+from app.core.catalogue import catalogue
 from app.drafting.document import Document
 from app.model.curves import Circle, Line, Point
-from app.ui.framework.catalogue import catalogue
 from app.ui.shell.window_controller import WindowController
 from app.ui.views.canvas.drawing_tool import DrawingTool, ToolContext
 from app.ui.views.canvas.modes import CanvasTool as T

@@ -24,7 +24,8 @@ the drawing's; the plug's drawing is mirrored, x to -x.
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean and fitting, 1 with findings."""
     outputs = named_files(arguments, "report")
-    check_outputs(outputs, [arguments.drawing, arguments.job])
+    pocket = arguments.output.with_name(f"{arguments.output.name}_pocket.ngc")
+    check_outputs({"output": pocket, **outputs}, [arguments.drawing, arguments.job])
     progress = shown_progress(arguments.quiet, stopped)
     job = read_job(arguments.job.name, read_input(arguments.job))
     sizes = InlayOptions(arguments.glue, arguments.gap, arguments.saw)

@@ -33,7 +33,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     if times:
         made = replace(made, report=made.report.with_timings(times.seconds()))
     programs = {file.named(arguments.output): file.nc.text.encode("ascii") for file in made.files}
-    others = by_path(outputs, other_files(made, outputs, drawing))
+    others = by_path(outputs, other_files(made, outputs, drawing, arguments.language))
     _ensure_apart(outputs["output"], [*programs], [*others])
     summary = made.report.summary(", ".join(map(str, programs)))
     lines = [summary, *made.proposed(), *finding_lines(made.findings), *(times.lines() if times else [])]

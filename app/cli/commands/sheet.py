@@ -47,14 +47,13 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     programs = examined_programs(arguments, progress.part(0.0, 0.2))
     request = setup_request(arguments)
     done, why = _cut(arguments, programs, request, progress.part(0.2, 0.95))
-    files = {f"program {path.name}": read_input(path) for path in arguments.programs}
+    hashed = {f"Program: {path.name}": read_input(path) for path in arguments.programs}
     if arguments.against is not None:
-        files = {f"part {arguments.against.name}": read_input(arguments.against), **files}
-    sheet = program_sheet(programs, files, done, why, _notes(arguments, request))
+        hashed = {f"Part: {arguments.against.name}": read_input(arguments.against), **hashed}
+    sheet = program_sheet(programs, hashed, done, why, _notes(arguments, request))
     lines = [f"{arguments.output}: {sheet.verdict}"]
-    return CommandOutcome({arguments.output: sheet_bytes(sheet, suffix)}, lines, bool(sheet.findings)).delivered(
-        arguments, progress
-    )
+    files = {arguments.output: sheet_bytes(sheet, suffix, arguments.language)}
+    return CommandOutcome(files, lines, bool(sheet.findings)).delivered(arguments, progress)
 
 
 def _notes(arguments: argparse.Namespace, request: SetupRequest) -> SheetNotes:

@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 _TOLERANCE = 0.002
 _STEPS = np.linspace(0.0, 1.0, 9)[1:, None]
-_CAPITAL, _LETTER_WIDTH = 0.72, 0.07
+CAPITAL, _LETTER_WIDTH = 0.72, 0.07
 """Height of capitals and width of their lines, of the height of a text."""
 
 
@@ -86,7 +86,7 @@ def letters_in(face: StrokeFont, words: TextLine, place: Similarity) -> Iterator
     letters = list(placed(face, words.text))
     if not letters:
         return
-    size = words.height * _CAPITAL / face.capital
+    size = words.height * CAPITAL / face.capital
     long = letters[-1][1] + letters[-1][0].advance - face.between
     turn = cmath.rect(1.0, words.angle)
     foot = complex(*place(words.at)) + turn * complex(-words.anchor * long * size, words.lift)

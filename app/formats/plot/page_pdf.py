@@ -8,19 +8,23 @@ import math
 import zlib
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .flat import FlatPolyline, flat_drawing, flat_frame
 from .page import PageContent, Pen, PlotPage, TextLine
-from .pdf_text import is_helvetica, pdf_string, text_width
+from .pdf_text import is_helvetica, pdf_string, runs_of, text_width
 
 _POINTS_PER_MM = 72 / 25.4
 _FONTS = tuple(
     f"<< /Type /Font /Subtype /Type1 /BaseFont /{name} /Encoding /WinAnsiEncoding >>"
     for name in ("Helvetica", "Helvetica-Bold")
 )
+
+_BOLDER = 0.035
+"""Width of the line round bold letters that are drawn, of their size."""
 
 
 def pages_pdf(pages: Iterable[PlotPage], title: str, in_font: bool = False) -> bytes:
@@ -85,19 +89,21 @@ def _content(page: PlotPage, in_font: bool) -> Iterator[str]:
     frame = page.frame
     yield from _lines(flat_frame(replace(page, frame=PageContent((), frame.patches, (), frame.traces))))
     yield from _lines(flat_frame(replace(page, frame=PageContent(frame.strokes))))
-    for words in frame.words:
+    for words in chain.from_iterable(map(runs_of, frame.words)):
         if is_helvetica(words.text):
             yield _text(words)
         elif (outlines := outlined_words(words)) is not None:
-            yield _filled(words.pen, outlines)
+            yield _filled(words, outlines)
         else:
             yield from _lines(flat_frame(replace(page, frame=PageContent(words=(words,)))))
 
 
-def _filled(pen: Pen, outlines: Iterable[NDArray[np.float64]]) -> str:
-    """Return what fills contours even-odd."""
+def _filled(words: TextLine, outlines: Iterable[NDArray[np.float64]]) -> str:
+    """Return what fills the contours of letters even-odd; bold ones have a line round them."""
     runs = (" l ".join(f"{x:.4f} {y:.4f}" for x, y in points.tolist()).replace(" l ", " m ", 1) for points in outlines)
-    return f"{_colour(pen)} rg {' '.join(f'{run} l h' for run in runs)} f*"
+    colour, width = _colour(words.pen), _n(_BOLDER * words.height)
+    contours = " ".join(f"{run} l h" for run in runs)
+    return f"{colour} rg {colour} RG {width} w [] 0 d {contours} B*" if words.bold else f"{colour} rg {contours} f*"
 
 
 def _text(words: TextLine) -> str:

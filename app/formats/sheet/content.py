@@ -36,10 +36,20 @@ class SheetTable:
 
 @dataclass(frozen=True)
 class SheetFact:
-    """Something that whoever sets the machine up has to know: a word for it, and a sentence."""
+    """Something that whoever sets the machine up has to know.
+
+    Attributes:
+        label: a word for it. text: sentences of the program. own: somebody's own words, which stand before these.
+    """
 
     label: str
     text: str
+    own: str = ""
+
+    @property
+    def said(self) -> str:
+        """All of it."""
+        return " ".join(filter(None, (self.own, self.text)))
 
 
 @dataclass(frozen=True)
@@ -64,6 +74,10 @@ class SheetHash:
     sha256: str
 
 
+Legend = tuple[tuple[str, TracedPolyline], ...]
+"""Word and line of each kind of line in a picture."""
+
+
 @dataclass(frozen=True, eq=False)
 class SetupPicture:
     """Stock, part and paths seen from above, mm, in one frame of coordinates.
@@ -72,13 +86,38 @@ class SetupPicture:
         stock: x0, y0, x1, y1 of the stock; None = not known.
         zero: where the program's X 0 Y 0 is; None = not known.
         lines: what is drawn, first to last.
-        legend: word and line of each kind.
+        legend: of the kinds of line that are seen.
     """
 
     stock: Box | None
     zero: tuple[float, float] | None
     lines: tuple[TracedPolyline, ...]
-    legend: tuple[tuple[str, TracedPolyline], ...] = ()
+    legend: Legend = ()
+
+
+@dataclass(frozen=True)
+class SheetWords:
+    """What a sheet says itself.
+
+    Attributes:
+        sheet: what it is. goes_on: on a page that is not the first. holds, fails, open: of a line of the certificate,
+            where it is proven, is not so, or nobody has looked. set_up_by, date: what is written by hand.
+    """
+
+    sheet: str = "Set-up sheet"
+    goes_on: str = "goes on"
+    certificate: str = "Certificate"
+    holds: str = "holds"
+    fails: str = "does not hold"
+    open: str = "not proven"
+    counts: str = "What counts"
+    remarks: str = "Remarks"
+    set_up_by: str = "Set up by"
+    date: str = "Date"
+
+    def verdict(self, holds: bool | None) -> str:
+        """Return the word for a line of the certificate."""
+        return self.open if holds is None else self.holds if holds else self.fails
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +132,7 @@ class SetupSheet:
         findings: sentences that count; remarks: others.
         hashes: of drawing, job and each file.
         made_by: program and version.
+        language: code of that which it is in. words: what it says itself.
     """
 
     title: str
@@ -107,3 +147,5 @@ class SetupSheet:
     remarks: tuple[str, ...]
     hashes: tuple[SheetHash, ...]
     made_by: str
+    language: str = "en"
+    words: SheetWords = SheetWords()

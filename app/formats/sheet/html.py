@@ -6,19 +6,22 @@ from html import escape
 
 import numpy as np
 
-from .content import SetupPicture, SetupSheet, SheetProof, SheetTable
+from .content import SetupPicture, SetupSheet, SheetProof, SheetTable, SheetWords
 from .layout import BAD, MUTED, box_of
 
-_VERDICTS = {True: ("holds", "proven"), False: ("fails", "does not hold"), None: ("unknown", "not proven")}
+_LOOKS = {True: "holds", False: "fails", None: "unknown"}
 
 
 def sheet_html(sheet: SetupSheet) -> bytes:
     """Return the sheet as a page in UTF-8."""
-    facts = "".join(f"<dt>{escape(fact.label)}</dt><dd>{escape(fact.text)}</dd>" for fact in sheet.facts)
+    facts = "".join(f"<dt>{escape(fact.label)}</dt><dd>{escape(fact.said)}</dd>" for fact in sheet.facts)
     hashes = "".join(
         f"<tr><td>{escape(each.what)}</td><td><code>{each.sha256}</code></td></tr>" for each in sheet.hashes
     )
+    words = sheet.words
     page = _PAGE.format(
+        language=sheet.language,
+        words=words,
         title=escape(sheet.title),
         program=escape(sheet.program),
         look="open" if sheet.good is None else "good" if sheet.good else "bad",
@@ -26,8 +29,8 @@ def sheet_html(sheet: SetupSheet) -> bytes:
         picture=picture_svg(sheet.picture),
         facts=facts,
         tables="".join(map(_table, sheet.tables)),
-        proofs="".join(map(_proof, sheet.proofs)),
-        findings=_sentences("What counts", "counts", sheet.findings) + _sentences("Remarks", "", sheet.remarks),
+        proofs="".join(_proof(proof, words) for proof in sheet.proofs),
+        findings=_sentences(words.counts, "counts", sheet.findings) + _sentences(words.remarks, "", sheet.remarks),
         hashes=hashes,
         made_by=escape(sheet.made_by),
         style=_STYLE,
@@ -47,8 +50,8 @@ def _table(table: SheetTable) -> str:
     return f"<h2>{title}</h2><div><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody>{foot}</table></div>"
 
 
-def _proof(proof: SheetProof) -> str:
-    look, word = _VERDICTS[proof.holds]
+def _proof(proof: SheetProof, words: SheetWords) -> str:
+    look, word = _LOOKS[proof.holds], words.verdict(proof.holds)
     claim, bound = escape(proof.claim), escape(proof.bound)
     return f'<tr><td><b>{claim}</b></td><td>{bound}</td><td class="{look}">{word}</td></tr>'
 
@@ -79,13 +82,13 @@ def picture_svg(picture: SetupPicture) -> str:
         left, below = np.array(picture.stock[:2]) * (scale, -scale) + shift
         right, above = np.array(picture.stock[2:]) * (scale, -scale) + shift
         wide, high = (f"{picture.stock[k + 2] - picture.stock[k]:.4g} mm" for k in (0, 1))
-        middle = (above + below) / 2
+        middle, (outside, over) = (above + below) / 2, np.array([x1, y1]) * (scale, -scale) + shift
         parts.append(
             f'<rect x="{left:.1f}" y="{above:.1f}" width="{right - left:.1f}" height="{below - above:.1f}" '
             f'stroke="{MUTED}" stroke-dasharray="8 5"/>'
-            f'<text x="{(left + right) / 2:.1f}" y="{above - 10:.1f}" text-anchor="middle">{wide}</text>'
-            f'<text x="{right + 22:.1f}" y="{middle:.1f}" text-anchor="middle" '
-            f'transform="rotate(-90 {right + 22:.1f} {middle:.1f})">{high}</text>'
+            f'<text x="{(left + right) / 2:.1f}" y="{over - 10:.1f}" text-anchor="middle">{wide}</text>'
+            f'<text x="{outside + 22:.1f}" y="{middle:.1f}" text-anchor="middle" '
+            f'transform="rotate(-90 {outside + 22:.1f} {middle:.1f})">{high}</text>'
         )
     if picture.zero is not None:
         x, y = (np.array(picture.zero) * (scale, -scale) + shift).tolist()
@@ -106,22 +109,22 @@ def picture_svg(picture: SetupPicture) -> str:
 
 _PAGE = """\
 <!DOCTYPE html>
-<html lang="en">
+<html lang="{language}">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}: set-up sheet</title>
+<title>{title}: {words.sheet}</title>
 <style>{style}</style>
 </head>
 <body>
-<header><div><h1>{title}</h1><p>{program}</p></div><p>Set-up sheet</p></header>
+<header><div><h1>{title}</h1><p>{program}</p></div><p>{words.sheet}</p></header>
 <p class="verdict {look}">{verdict}</p>
 <section>{picture}<dl>{facts}</dl></section>
 {tables}
-<h2>Certificate</h2><table class="proofs"><tbody>{proofs}</tbody></table>
+<h2>{words.certificate}</h2><table class="proofs"><tbody>{proofs}</tbody></table>
 {findings}
 <h2>SHA-256</h2><table class="hashes"><tbody>{hashes}</tbody></table>
-<footer><span>Set up by <u></u></span><span>Date <u></u></span><span>{made_by}</span></footer>
+<footer><span>{words.set_up_by} <u></u></span><span>{words.date} <u></u></span><span>{made_by}</span></footer>
 </body>
 </html>
 """
@@ -134,7 +137,7 @@ _STYLE = """
   --line: #3a3f45; --band: #23272c; --good: #4cc79a; --bad: #ff7b72; --open: #e3a94b; } }
 * { box-sizing: border-box; }
 body { max-width: 52rem; margin: 1.5rem auto; padding: 0 1.2rem; background: var(--paper); color: var(--ink);
-  font: 14px/1.4 Helvetica, Arial, system-ui, sans-serif; }
+  font: 14px/1.4 Helvetica, Arial, system-ui, "Noto Sans CJK JP", "Hiragino Sans", "Yu Gothic", sans-serif; }
 header { display: flex; justify-content: space-between; align-items: baseline; gap: 2rem; color: var(--muted); }
 h1 { color: var(--ink); font-size: 1.8rem; line-height: 1.15; margin: 0; overflow-wrap: anywhere; }
 header p { margin: .2rem 0; } h2 { font-size: 1.05rem; margin: 1.1rem 0 .35rem; break-after: avoid; }

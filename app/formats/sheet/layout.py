@@ -12,15 +12,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ...geometry.transform import Similarity
-from ...model.curves import Line
+from ...model.curves import Line, Point
 from ..plot.page import Box, FilledPolygon, PageContent, Pen, PenStroke, PlotPage, TextLine
 from ..plot.pdf_text import text_width, wrapped
-from .content import SetupPicture, SetupSheet, SheetColumn, SheetTable
+from .content import Legend, SetupPicture, SetupSheet, SheetColumn, SheetTable
 
 WIDTH, HEIGHT, MARGIN = 210.0, 297.0, 12.0
 INNER = WIDTH - 2 * MARGIN
 INK, MUTED, RULE, BAND, GOOD, BAD, OPEN = "#1E2227", "#5C626A", "#C9CCD1", "#F1F2EE", "#0B6B4B", "#B3261E", "#8A5A00"
 _SMALL, _TITLE = 2.5, 7.0
+_LEGEND_ROW, _LEGEND_EDGE = 4.5, 3.0
 _FOOT = 14.0
 
 
@@ -31,13 +32,15 @@ class _Density:
     Attributes:
         body: size of letters. lead: distance of lines, of the letters' size. row: what a row of a table has beside its
             lines.
-        heading: what a heading takes. fact: what stands between two facts. picture: width and height.
+        heading: what a heading takes. label: what the label of a fact takes. fact: what stands between two facts.
+        picture: width and height.
     """
 
     body: float = 3.0
     lead: float = 1.3
     row: float = 1.5
     heading: float = 7.0
+    label: float = 3.6
     fact: float = 2.1
     picture: tuple[float, float] = (108.0, 80.0)
 
@@ -52,7 +55,7 @@ class _Density:
         return self.row / 2 + 0.85 * self.body
 
 
-_COMPACT = _Density(body=2.7, lead=1.16, row=0.8, heading=5.7, fact=0.9, picture=(82.0, 58.0))
+_COMPACT = _Density(body=2.7, lead=1.16, row=0.8, heading=5.7, label=3.0, fact=1.5, picture=(82.0, 58.0))
 
 
 def sheet_pages(sheet: SetupSheet) -> tuple[PlotPage, ...]:
@@ -69,8 +72,8 @@ def _laid_out(sheet: SetupSheet, density: _Density) -> tuple[PlotPage, ...]:
     for table in sheet.tables:
         pages.table(table)
     pages.certificate()
-    pages.sentences("What counts", sheet.findings, BAD)
-    pages.sentences("Remarks", sheet.remarks, MUTED)
+    pages.sentences(sheet.words.counts, sheet.findings, BAD)
+    pages.sentences(sheet.words.remarks, sheet.remarks, MUTED)
     pages.hashes()
     return pages.done()
 
@@ -127,7 +130,12 @@ class _SheetPages:
             self._pages.append(_SheetPage())
             self._y = HEIGHT - MARGIN
             self._write(self._sheet.title, MARGIN, self._y - 4, _Look(4.0, bold=True))
-            self._write("goes on", WIDTH - MARGIN, self._y - 4, _Look(self._density.body, anchor=1.0, colour=MUTED))
+            self._write(
+                self._sheet.words.goes_on,
+                WIDTH - MARGIN,
+                self._y - 4,
+                _Look(self._density.body, anchor=1.0, colour=MUTED),
+            )
             self._rule(self._y - 6.5)
             self._y -= 9
 
@@ -148,7 +156,7 @@ class _SheetPages:
         self._y -= 5.5
         title = wrapped(sheet.title, _TITLE, INNER - 46, bold=True)[0]
         self._write(title, MARGIN, self._y, _Look(_TITLE, bold=True))
-        self._write("Set-up sheet", WIDTH - MARGIN, self._y, _Look(4.2, anchor=1.0, colour=MUTED))
+        self._write(sheet.words.sheet, WIDTH - MARGIN, self._y, _Look(4.2, anchor=1.0, colour=MUTED))
         for line in wrapped(sheet.program, self._density.body, INNER)[:2]:
             self._y -= 5.2
             self._write(line, MARGIN, self._y, _Look(self._density.body, colour=MUTED))
@@ -166,8 +174,8 @@ class _SheetPages:
         x, room, y = MARGIN + width + 6, INNER - width - 6, top
         for fact in self._sheet.facts:
             self._write(fact.label, x, y - 3.0, _Look(_SMALL, bold=True, colour=MUTED))
-            y -= 3.6
-            for line in wrapped(fact.text, self._density.body, room):
+            y -= self._density.label
+            for line in wrapped(fact.said, self._density.body, room):
                 self._write(line, x, y - 3.4, _Look(self._density.body))
                 y -= self._density.line
             y -= self._density.fact
@@ -178,7 +186,8 @@ class _SheetPages:
         x0, y0, x1, y1 = frame
         corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)]
         self._page.strokes.append(PenStroke(Pen(1, RULE, 0.2), tuple(Line(a, b) for a, b in pairwise(corners))))
-        legend, inner = 6.0 if picture.legend else 0.0, 9.0
+        rows = _legend_rows(picture, x1 - x0 - 2 * _LEGEND_EDGE)
+        legend, inner = _LEGEND_ROW * len(rows) + 1.5 if picture.legend else 0.0, 9.0
         window = (x0, y0 + legend, x1, y1)
         box = box_of(picture)
         size = max(box[2] - box[0], 1e-6), max(box[3] - box[1], 1e-6)
@@ -188,23 +197,31 @@ class _SheetPages:
         self._page.window, self._page.place = window, place
         self._page.drawing = PageContent(traces=picture.lines)
         if picture.stock is not None:
-            self._stock(picture.stock, place)
+            self._stock(picture.stock, place, place(box[2:]))
         if picture.zero is not None:
             self._zero(place(picture.zero))
-        x = x0 + 3
-        for word, line in picture.legend:
-            self._page.strokes.append(PenStroke(line.pen, (Line((x, y0 + 3.2), (x + 7, y0 + 3.2)),)))
-            self._write(word, x + 8.5, y0 + 2.3, _Look(_SMALL, colour=MUTED))
-            x += 12 + text_width(word, _SMALL)
+        for number, row in enumerate(reversed(rows)):
+            self._legend(row, x0 + _LEGEND_EDGE, y0 + 3.2 + number * _LEGEND_ROW)
 
-    def _stock(self, stock: Box, place: Similarity) -> None:
-        """Draw the stock's outline, its width above it and its height at its right, where no zero is."""
+    def _legend(self, row: Legend, x: float, y: float) -> None:
+        """Write words, each behind a piece of its line."""
+        for word, line in row:
+            self._page.strokes.append(PenStroke(line.pen, (Line((x, y), (x + 7, y)),)))
+            self._write(word, x + 8.5, y - 0.9, _Look(_SMALL, colour=MUTED))
+            x += _legend_width(word)
+
+    def _stock(self, stock: Box, place: Similarity, corner: Point) -> None:
+        """Draw the stock's outline, its width above and its height at the right of all that is drawn, where no zero is.
+
+        Args:
+            corner: the upper right one of all that is drawn, on paper.
+        """
         (x0, y0), (x1, y1) = place(stock[:2]), place(stock[2:])
         corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)]
         outline = tuple(Line(a, b) for a, b in pairwise(corners))
         self._page.strokes.append(PenStroke(Pen(1, MUTED, 0.3, (2.2, 1.2)), outline))
         thin = Pen(1, MUTED, 0.15)
-        above, right = y1 + 4.2, x1 + 4.2
+        right, above = corner[0] + 4.2, corner[1] + 4.2
         arms = [Line((x0, above), (x1, above)), Line((right, y0), (right, y1))]
         arms += [Line((x, y1 + 1), (x, above + 1)) for x in (x0, x1)]
         arms += [Line((x1 + 1, y), (right + 1, y)) for y in (y0, y1)]
@@ -275,12 +292,10 @@ class _SheetPages:
 
     def certificate(self) -> None:
         """Write what was proven, and by which bound."""
-        self._title("Certificate", 14.0)
+        self._title(self._sheet.words.certificate, 14.0)
         left = 62.0
         for proof in self._sheet.proofs:
-            word, colour = {True: ("proven", GOOD), False: ("does not hold", BAD), None: ("not proven", OPEN)}[
-                proof.holds
-            ]
+            colour = {True: GOOD, False: BAD, None: OPEN}[proof.holds]
             claim = wrapped(proof.claim, self._density.body, left - 2, bold=True)
             bound = wrapped(proof.bound, self._density.body, INNER - left - 27)
             height = max(len(claim), len(bound)) * self._density.line + self._density.row
@@ -300,7 +315,7 @@ class _SheetPages:
                     _Look(self._density.body),
                 )
             self._write(
-                word,
+                self._sheet.words.verdict(proof.holds),
                 WIDTH - MARGIN,
                 self._y - self._density.first,
                 _Look(self._density.body, bold=True, anchor=1.0, colour=colour),
@@ -314,14 +329,16 @@ class _SheetPages:
         if not sentences:
             return
         self._title(title, 6.0)
+        first = self._density.first
         for sentence in sentences:
             lines = wrapped(sentence, self._density.body, INNER - 4)
             self._room(len(lines) * self._density.line + 1.0)
-            self._fill((MARGIN + 0.4, self._y - 3.0, MARGIN + 1.5, self._y - 1.9), colour)
+            self._fill((MARGIN + 0.4, self._y - first + 0.4, MARGIN + 1.5, self._y - first + 1.5), colour)
             for line in lines:
-                self._write(line, MARGIN + 4, self._y - 3.4, _Look(self._density.body))
+                self._write(line, MARGIN + 4, self._y - first, _Look(self._density.body))
                 self._y -= self._density.line
             self._y -= 0.9
+        self._y -= 1.0
 
     def hashes(self) -> None:
         """Write the SHA-256 of every file that the certificate is about."""
@@ -336,7 +353,7 @@ class _SheetPages:
         """Return the pages, each with its foot."""
         count = len(self._pages)
         for number, page in enumerate(self._pages, 1):
-            self._pages_foot(page, f"{self._sheet.made_by}    {number} / {count}")
+            self._foot(page, f"{self._sheet.made_by}    {number} / {count}")
         return tuple(
             PlotPage(
                 WIDTH,
@@ -349,14 +366,29 @@ class _SheetPages:
             for page in self._pages
         )
 
-    @staticmethod
-    def _pages_foot(page: _SheetPage, text: str) -> None:
-        muted = Pen(1, MUTED)
-        for label, x0, x1 in (("Set up by", MARGIN, 75.0), ("Date", 80.0, 115.0)):
+    def _foot(self, page: _SheetPage, text: str) -> None:
+        muted, words = Pen(1, MUTED), self._sheet.words
+        for label, x0, x1 in ((words.set_up_by, MARGIN, 75.0), (words.date, 80.0, 115.0)):
             page.words.append(TextLine(label, (x0, 8.0), _SMALL, pen=muted))
             start = x0 + text_width(label, _SMALL) + 1.5
             page.strokes.append(PenStroke(Pen(1, MUTED, 0.15), (Line((start, 7.6), (x1, 7.6)),)))
         page.words.append(TextLine(text, (WIDTH - MARGIN, 8.0), _SMALL, 1.0, pen=muted))
+
+
+def _legend_width(word: str) -> float:
+    return 12.0 + text_width(word, _SMALL)
+
+
+def _legend_rows(picture: SetupPicture, room: float) -> list[Legend]:
+    """Return the legend in rows that are no wider than `room`, mm, as long as a word is not."""
+    rows: list[Legend] = [()]
+    for entry in picture.legend:
+        row = (*rows[-1], entry)
+        if rows[-1] and sum(_legend_width(word) for word, _ in row) > room:
+            rows.append((entry,))
+        else:
+            rows[-1] = row
+    return rows
 
 
 def box_of(picture: SetupPicture) -> Box:

@@ -2,18 +2,33 @@
 
 from __future__ import annotations
 
+from ...core.errors import InputError
 from ..plot.page_pdf import pages_pdf
+from ..plot.pdf_outlines import has_letters
 from .content import SetupSheet
 from .html import sheet_html
 from .layout import sheet_pages
+from .translated import translated
 
 
-def sheet_bytes(sheet: SetupSheet, suffix: str) -> bytes:
+def sheet_bytes(sheet: SetupSheet, suffix: str, language: str = "en") -> bytes:
     """Return a sheet as a file's bytes.
 
     Args:
-        suffix: one of the folder's `SUFFIXES`.
+        suffix: one of the folder's `SUFFIXES`. language: code of one of the program's.
+
+    Raises:
+        InputError: no font of this machine has the letters of that language, which a PDF has to hold.
     """
+    sheet = translated(sheet, language)
     if suffix == ".html":
         return sheet_html(sheet)
-    return pages_pdf(sheet_pages(sheet), f"{sheet.title}: set-up sheet", in_font=True)
+    if language != "en" and not has_letters(sheet.verdict):
+        raise InputError(_NO_FONT)
+    return pages_pdf(sheet_pages(sheet), f"{sheet.title}: {sheet.words.sheet}", in_font=True)
+
+
+_NO_FONT = (
+    "No font of this machine has Japanese letters, which a PDF has to hold; install one, such as Noto Sans CJK JP or "
+    "IPAGothic, or write the sheet as .html."
+)

@@ -14,8 +14,9 @@ from PySide6.QtCore import QEvent, QLibraryInfo, QLocale, QObject, QSignalBlocke
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QMenu, QWidget
 
+from ...core.catalogue import catalogue
 from ...core.settings import Language
-from ..framework.catalogue import active_language, catalogue, set_language
+from ..framework.catalogue import active_language, set_language
 from ..framework.commands import Commands, on_trigger
 from ..framework.preferences import Preferences
 

@@ -56,12 +56,13 @@ class BatchExtras:
     Attributes:
         report: everything that was measured, as JSON.
         image: suffix of a picture of part and paths, .svg or .png; "" = none. sheet: of the sheet for the machine, .pdf
-            or .html, alike.
+            or .html, alike. language: of sheets.
     """
 
     report: bool = False
     image: str = ""
     sheet: str = ""
+    language: str = "en"
 
 
 class NamedTask(Protocol):

@@ -71,7 +71,8 @@ def _made(task: BatchTask, options: MakeOptions, progress: Progress) -> BatchRes
 
     made = make(_file_name(task), task.data, options, progress)
     named = {what: Path(path) for what, path in _beside(task).items()} | {"output": Path(task.output)}
-    files = {named[what].as_posix(): data for what, data in other_files(made, named, task.data).items()}
+    others = other_files(made, named, task.data, task.extras.language)
+    files = {named[what].as_posix(): data for what, data in others.items()}
     for file in made.files:
         files[file.named(Path(task.output)).as_posix()] = file.nc.text.encode("ascii")
     return BatchResult(made_row(task.name, made), files)

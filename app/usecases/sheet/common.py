@@ -140,7 +140,7 @@ def _tool_words(tool: Tool) -> str:
     shape = [f"R {tool.corner_radius:g}"] if tool.corner_radius else []
     shape += [f"{np.degrees(tool.tip_angle):.4g}°"] if tool.tip_angle else []
     shape += [f"flutes {tool.flute_length:g} mm long"] if tool.flute_length else []
-    return ", ".join([tool.name or tool.kind.value.capitalize(), *shape])
+    return ", ".join([tool.label, *shape])
 
 
 def _holder_words(tool: Tool) -> str:
@@ -151,15 +151,18 @@ def _holder_words(tool: Tool) -> str:
     return known or f"Ø {2 * radius:g} x {tool.holder[-1][0]:g} mm"
 
 
-def own_words(note: str) -> list[str]:
+def own_words(note: str) -> str:
     """Return what somebody has written for the sheet, as a sentence; nothing where it is empty."""
     note = " ".join(note.split())
-    return [note if note[-1] in ".!?。" else f"{note}."] if note else []
+    if not note or note[-1] in ".!?。":
+        return note
+    return f"{note}." if note[-1].isascii() else f"{note}。"
 
 
 def zero_note(note: str) -> Iterator[SheetFact]:
     """Yield what somebody has written about how the zero is set."""
-    yield from (SheetFact("Setting the zero", text) for text in own_words(note))
+    if own := own_words(note):
+        yield SheetFact("Setting the zero", "", own)
 
 
 def hashed(*files: tuple[str, bytes]) -> tuple[SheetHash, ...]:

@@ -60,8 +60,8 @@ def made_sheet(made: MakeResult, program: Path, sources: Mapping[str, bytes]) ->
     box = stock_box(job, made.program.regions, made.program.lines)
     counting = tuple(finding.text for finding in made.findings if finding.counts)
     names = [file.named(program).name for file in made.files]
-    as_file = ("job, as --write-job writes it", ("\n".join(job_lines(job)) + "\n").encode())
-    texts = [(f"program {name}", file.nc.text.encode("ascii")) for name, file in zip(names, made.files, strict=True)]
+    as_file = ("Job as --write-job writes it", ("\n".join(job_lines(job)) + "\n").encode())
+    texts = [(f"Program: {name}", file.nc.text.encode("ascii")) for name, file in zip(names, made.files, strict=True)]
     post = load_post(job.post)
     units = "inches" if job.out_units is Units.INCH else "millimetres"
     return SetupSheet(
@@ -124,7 +124,7 @@ def _facts(made: MakeResult, box: StockBox, report: Json) -> list[SheetFact]:
         SheetFact("Zero Z", _zero_z_words(job, box)),
         *zero_note(job.zero_note),
         offset_fact(file.nc.text for file in made.files),
-        SheetFact("Clamping", _clamping(made, box)),
+        SheetFact("Clamping", _clamping(made, box), own_words(job.clamping_note)),
         SheetFact("Clearance height", f"{job.travel_z:g} mm above the stock's top"),
         SheetFact("Total time", total),
     ]
@@ -156,7 +156,7 @@ def _clamping(made: MakeResult, box: StockBox) -> str:
     """Return what the way that the stock is held has to allow, as far as the paths tell."""
     job, deep = made.job, deepest_cut(made.program.moves)
     through = deep - job.stock.thickness
-    told = own_words(job.clamping_note)
+    told = []
     if made.program.clamps:
         layers = ", ".join(job.keep_out_layers)
         told.append(
@@ -221,7 +221,7 @@ def _operation_row(made: MakeResult, number: int, index: int) -> tuple[str, ...]
     operation = job.operations[index]
     tool = job.tool(operation.cut.tool)
     left = f", {told['stock_to_leave_mm']:g} mm left on walls" if told.get("stock_to_leave_mm") else ""
-    curves = f" of {', '.join(told['curves'])}" if told.get("curves") else ""
+    curves = f", curves {', '.join(told['curves'])}" if told.get("curves") else ""
     count = _holes(moves, index) if operation.HOLES else 0
     size = f" {told['thread']}" if told.get("thread") else ""
     size += f" Ø {told['diameter_mm']:g}" if told.get("diameter_mm") else ""

@@ -96,7 +96,7 @@ def program_sheet(
 
 
 _COUNTING, _REMARKS = 12, 6
-_PROGRAM = "program "
+_PROGRAM = "Program: "
 """What the names of files that are programs begin with."""
 
 
@@ -138,7 +138,7 @@ def _facts(
     boxes = [each.cut_box for each in programs]
     low = np.fmin.reduce([box.low for box in boxes])
     high = np.fmax.reduce([box.high for box in boxes])
-    held = own_words(notes.clamping)
+    own, held = own_words(notes.clamping), ""
     if cut is None:
         yield SheetFact("Stock", "not known")
     else:
@@ -149,11 +149,11 @@ def _facts(
         yield SheetFact("Zero X Y", corner_words(-data["low"][0], -data["low"][1]))
         height = "top of the stock" if top == 0 else f"{abs(top):.4g} mm {'below' if top > 0 else 'above'} its top"
         yield SheetFact("Zero Z", height)
-        held.append(_clamping(low[2], data["low"][2], bool(held)))
+        held = _clamping(low[2], data["low"][2], bool(own))
     yield from zero_note(notes.zero)
     yield offset_fact(texts)
-    if held:
-        yield SheetFact("Clamping", " ".join(held))
+    if own or held:
+        yield SheetFact("Clamping", held, own)
     sides = zip("XYZ", low, high, strict=True)
     yield SheetFact("Cuts", ", ".join(f"{axis} {a:.3f} to {b:.3f}" for axis, a, b in sides if a == a))
     yield SheetFact("Highest motion", f"Z {max(each.box.high[2] for each in programs):.3f}")

@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 import app
+from app.core.catalogue import catalogue
 from app.exhibits.films.making import make_film
 from app.exhibits.films.step import FilmStep, PublishedText
 from app.exhibits.published_stages import CODES
-from app.ui.framework.catalogue import catalogue
 from app.ui.views.stages.step_notes import NOTES, note
 
 JAPANESE = catalogue("ja")

@@ -56,7 +56,7 @@ def made(job: Job) -> MakeResult:
 
 @pytest.fixture(scope="module")
 def sheet(made: MakeResult) -> SetupSheet:
-    return made_sheet(made, Path("plate.ngc"), {"drawing plate": b"some bytes"})
+    return made_sheet(made, Path("plate.ngc"), {"Drawing: plate": b"some bytes"})
 
 
 def cells(sheet: SetupSheet, table: int, column: str) -> list[str]:
@@ -100,7 +100,7 @@ def test_who_runs_it_is_told_of_what_and_how_many_holes(job: Job) -> None:
     sheet = made_sheet(export(drilled), Path("a.ngc"), {})
     facts = {fact.label: fact.text for fact in sheet.facts}
     assert facts["Stock"] == "70 x 50 x 12 mm, brass"
-    assert cells(sheet, 1, "Operation") == ["Drill, 2 holes of circles:5", "Tap M6, 2 holes of circles:5"]
+    assert cells(sheet, 1, "Operation") == ["Drill, 2 holes, curves circles:5", "Tap M6, 2 holes, curves circles:5"]
     assert [word for word, _ in sheet.picture.legend] == ["Part"], "nothing else is seen from above"
 
 
@@ -128,8 +128,8 @@ def test_its_figures_are_those_of_the_report(sheet: SetupSheet, made: MakeResult
 
 def test_the_certificate_is_about_these_files(sheet: SetupSheet, made: MakeResult) -> None:
     hashes = {each.what: each.sha256 for each in sheet.hashes}
-    assert hashes["drawing plate"] == hashlib.sha256(b"some bytes").hexdigest()
-    assert hashes["program plate.ngc"] == hashlib.sha256(made.nc.text.encode()).hexdigest()
+    assert hashes["Drawing: plate"] == hashlib.sha256(b"some bytes").hexdigest()
+    assert hashes["Program: plate.ngc"] == hashlib.sha256(made.nc.text.encode()).hexdigest()
     assert {proof.claim: proof.holds for proof in sheet.proofs} == {
         "No gouge": True,
         "Nothing left within reach": True,
@@ -215,7 +215,7 @@ def test_nine_tools_stand_on_one_page(sheet: SetupSheet) -> None:
 
 def test_what_somebody_writes_of_clamping_and_zero_is_on_it(job: Job) -> None:
     noted = replace(job, clamping_note="Two vices, jaws 8 mm  high", zero_note="3D taster on the lower left corner")
-    facts = {fact.label: fact.text for fact in made_sheet(export(noted), Path("a.ngc"), {}).facts}
+    facts = {fact.label: fact.said for fact in made_sheet(export(noted), Path("a.ngc"), {}).facts}
     assert facts["Clamping"].startswith("Two vices, jaws 8 mm high. No clamp is drawn")
     assert facts["Setting the zero"] == "3D taster on the lower left corner."
     text = "\n".join(job_lines(noted))

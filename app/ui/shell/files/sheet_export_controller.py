@@ -18,6 +18,7 @@ from ....formats.sheet.write import sheet_bytes
 from ....gcode.posts import load_post
 from ....usecases.making.make import MakeResult
 from ....usecases.sheet.made import made_sheet
+from ...framework.catalogue import active_language
 from ...framework.computation import ComputationState
 from ...framework.controller import Controller
 from ...framework.worker import JobOutcome, Worker
@@ -81,7 +82,7 @@ class SheetExportController(Controller):
         stem = document.path.stem if document.path else document.part.name or "sheet"
         path = self.choose_file(folder / f"{stem}.pdf")
         if path is not None:
-            self._worker.start(partial(_write, made, path), document.revision)
+            self._worker.start(partial(_write, made, path, active_language()), document.revision)
 
     def _choose(self, first: Path) -> Path | None:
         dialog = QFileDialog(self._over, "Sheet for the machine", str(first), ";;".join(FILTERS))
@@ -98,11 +99,11 @@ class SheetExportController(Controller):
         self.written.emit(done.path)
 
 
-def _write(made: MakeResult, path: Path, progress: Progress) -> _WrittenSheet:
+def _write(made: MakeResult, path: Path, language: str, progress: Progress) -> _WrittenSheet:
     progress.step(0.0, "Writing the sheet")
     program = path.with_suffix(load_post(made.job.post).extension)
-    sources = {"drawing, as .draw writes it": draw_text(made.job.part).text.encode()}
+    sources = {"Drawing as .draw writes it": draw_text(made.job.part).text.encode()}
     sheet = made_sheet(made, program, sources)
     suffix = path.suffix.lower() if path.suffix.lower() in SUFFIXES else ".pdf"
-    write_atomically(path, sheet_bytes(sheet, suffix))
+    write_atomically(path, sheet_bytes(sheet, suffix, language))
     return _WrittenSheet(path, sheet.verdict)
