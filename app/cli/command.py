@@ -221,7 +221,7 @@ def number(what: str, *, least: float | None = None, unit: str = "mm") -> Callab
             value = length(text) if unit == "mm" else float(text)
         except CommandError as error:
             kind = text.partition(":")[0].isalpha() and ":" in text
-            reason = "its kind is not asked for here" if kind else error.reason
+            reason = "its kind is not asked for here" if kind else error.reason.partition(";")[0]
             raise argparse.ArgumentTypeError(
                 f"is wrong: '{text}' is no {what} ({reason}); write a length in mm, such as 6, or 1/4in"
             ) from error

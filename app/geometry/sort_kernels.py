@@ -12,6 +12,7 @@ from ..core.jit import kernel
 @kernel("void(int64[::1])")
 def sort_integers(values):
     """Sort in place."""
+    # as numba does: equal integers cannot be told apart, so that no order among them is lost
     values.sort()
 
 

@@ -64,8 +64,8 @@ def japanese(wiring):
         (
             "T1 flat 6 mm: 1 entry is straight down as no ramp fits, at (43.929, 9.286); 3 entries are a helix as no "
             "drilled hole is near, the first at (1.000, -2.000).",
-            "T1 フラット 6 mm: 1 か所の進入はランプが入らないため真下への突込み、位置 (43.929, 9.286)。"
-            "3 か所の進入は近くに下穴がないためヘリカル (最初は (1.000, -2.000))。",
+            "T1 フラット 6 mm: ランプが収まらないため、まっすぐ降りる進入が 1 か所 ((43.929, 9.286))。"
+            "近くに下穴がないため、ヘリカルの進入が 3 か所 (最初は (1.000, -2.000))。",
         ),
         ("No findings, 1 remark", "問題なし、備考 1 件"),
         ("2 findings, 1 remark", "検査結果 2 件、備考 1 件"),

@@ -61,7 +61,9 @@ def test_pieces_follow_the_moves_and_part_at_every_boundary_point() -> None:
         np.testing.assert_array_equal(before.points[-1], after.points[0])
     boundaries = computed.families[0].path.boundaries.place
     joints = np.array([piece.points[-1] for piece in pieces])
-    assert all(np.linalg.norm(joints - place, axis=1).min() < 2 * computed.grid for place in boundaries)
+    # the shortest chord is two steps of the grid long, and its ends are rounded to it
+    beside = [np.linalg.norm((joints - place)[:, :2], axis=1).min() for place in boundaries]
+    assert max(beside) < 2.5 * computed.grid
 
 
 def test_every_boundary_point_is_marked_and_most_are_named() -> None:

@@ -38,7 +38,7 @@ def bounding(runs: list[list[Curve]]) -> list[list[Curve]]:
     boxes = np.array([(*each.min(axis=0), *each.max(axis=0)) for each in corners if len(each)])
     if len(boxes) < len(corners) or not np.isfinite(boxes).all():
         return runs
-    rings = [_Ring(each) for each in corners]
+    rings = [_ChordRing(each) for each in corners]
     return list(compress(runs, [_is_border(ring, rings, boxes) for ring in rings]))
 
 
@@ -47,7 +47,7 @@ def _corners(run: Sequence[Curve]) -> Floats:
     return np.concatenate([sample(curve) for curve in run]) if run else np.empty((0, 2))
 
 
-class _Ring:
+class _ChordRing:
     """A ring of chords that are kept by bands of Y, so that few are asked at each place."""
 
     def __init__(self, corners: Floats) -> None:
@@ -77,7 +77,7 @@ class _Ring:
         return int(np.count_nonzero(up)) - int(np.count_nonzero(down))
 
 
-def _is_border(ring: _Ring, rings: Sequence[_Ring], boxes: Floats) -> bool:
+def _is_border(ring: _ChordRing, rings: Sequence[_ChordRing], boxes: Floats) -> bool:
     """Tell whether somewhere along a ring one side is not painted, or another ring runs along it."""
     corners = ring.corners
     along = np.diff(corners, axis=0)

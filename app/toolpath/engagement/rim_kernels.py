@@ -98,6 +98,7 @@ def _stretches(shapes, k, circle, less, window, out):
 @kernel("float64[:, ::1](float64[:, ::1], int64)")
 def _in_order(found, count):
     """Return the first stretches (count, 2) by where they begin."""
+    # by the beginnings alone: `_bare` takes the farthest end so far, so the order among equal ones is all the same
     starts, ordered = np.empty(count), np.empty((count, 2))
     for k in range(count):
         starts[k] = found[k, 0]

@@ -123,6 +123,7 @@ def cheapest_way(first, to, cost, come_from, start, goal, limit, way, came, out)
                     touches += 1
                 way[other], came[other] = total, e
                 heapq.heappush(heap, (total, other))
+    # `out` has told which nodes were seen up to here; from here on it takes the edges
     reached = way[goal] < math.inf
     for k in range(touches):
         way[out[k]] = math.inf

@@ -118,7 +118,7 @@ class CutPanel(Themed, QWidget):
         self.entries: tuple[CutFinding, ...] = ()
         self.chosen: CutFinding | None = None
         self.rows: list[ListRow] = []
-        self._filled = False
+        self._listed: tuple[CutFinding, ...] = ()
         self.title, self.name, self.verdict, self.cells = heading("Cut"), Elided(role="muted"), QLabel(), muted()
         self.counted, self.sentence, self.go = heading("Places"), muted(), QPushButton("Show the line")
         self.nc, self.histogram = NcBeside(), HistogramPlot()
@@ -181,8 +181,7 @@ class CutPanel(Themed, QWidget):
         """Tell of another cut."""
         self.shown, self.chosen = shown, None
         self.entries = findings_of(shown) if shown is not None else ()
-        self._filled = False
-        if self.isVisible():
+        if self.isVisible() or not self.entries:
             self._fill()
         self.nc.show_cut(shown)
         self.show_mends(())
@@ -298,9 +297,9 @@ class CutPanel(Themed, QWidget):
 
     def _fill(self) -> None:
         """Have a row for each place, made once: many of them hold the window up."""
-        if self._filled:
+        if self._listed == self.entries:
             return
-        self._filled = True
+        self._listed = self.entries
         for row in self.rows:
             self._rows.removeWidget(row)
             put_away(row)
