@@ -11,12 +11,12 @@ LONG = LogLine(
 )
 
 
-def test_a_long_reply_begins_right_behind_its_command(qtbot) -> None:
+def test_replies_stand_in_a_column_but_behind_a_long_command(qtbot) -> None:
     painter = _LinePainter()
     column = painter.reply_at(SHORT, 1264)
-    assert painter.reply_at(LONG, 1264) < column / 2
-    wide = LogLine(LONG.command * 20, LONG.reply)
-    assert painter.reply_at(wide, 1264) == column, "a long command has no more than its share"
+    assert painter.reply_at(LONG, 1264) == column < 1264 / 4, "whatever the reply's length"
+    assert column < painter.reply_at(LogLine(LONG.command * 2, LONG.reply), 1264) < 0.4 * 1264
+    assert painter.reply_at(LogLine(LONG.command * 20, LONG.reply), 1264) == int(0.4 * 1264), "no more than its share"
 
 
 def test_the_tip_of_a_line_has_all_of_it_and_is_wrapped(qtbot) -> None:

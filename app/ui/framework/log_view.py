@@ -1,4 +1,6 @@
-"""The log above the command line: commands at the left, replies at the right; lines can be copied and put back."""
+"""The log above the command line: commands at the left, replies in a column beside them; lines can be copied and put
+back.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ from .theme import LIGHT, Theme, mono_font, text_font
 SHOWN_LINES = 3
 LINE_PX = 20
 _EDGE_PX = 16
-_COMMAND_SHARE = 0.4
+_REPLY_PX, _COMMAND_SHARE = 264, 0.4
+"""Where replies begin, for commands that leave room for that; of a row, what a longer command may take."""
+
 _Index = QModelIndex | QPersistentModelIndex
 
 
@@ -157,8 +161,8 @@ def _tip(line: LogLine) -> str:
 
 
 class _LinePainter(QStyledItemDelegate):
-    """Paints a command and its reply, each as far as there is room; a reply that is too long for its column begins
-    right behind its command.
+    """Paints a command and its reply, each as far as there is room: the replies in a column, but right behind a command
+    that is longer.
     """
 
     theme: Theme = LIGHT
@@ -180,10 +184,8 @@ class _LinePainter(QStyledItemDelegate):
 
     def reply_at(self, line: LogLine, width: int) -> int:
         """Return where the reply begins in a row so many px wide."""
-        column = int(width * _COMMAND_SHARE)
-        if QFontMetrics(text_font()).horizontalAdvance(tr(line.reply)) <= width - column - _EDGE_PX:
-            return column
-        return min(column, 3 * _EDGE_PX + QFontMetrics(mono_font()).horizontalAdvance(_one_line(line)))
+        behind = 3 * _EDGE_PX + QFontMetrics(mono_font()).horizontalAdvance(_one_line(line))
+        return min(max(_REPLY_PX, behind), int(width * _COMMAND_SHARE))
 
     def _text(self, painter: QPainter, place: QPoint, width: int, text: str) -> None:
         short = QFontMetrics(painter.font()).elidedText(text, Qt.TextElideMode.ElideRight, width)
