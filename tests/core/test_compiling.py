@@ -240,6 +240,7 @@ def test_a_kernel_that_cannot_be_compiled_stops_nothing_else(tmp_path: Path) -> 
         (tmp_path / path).write_text(
             'from app.core.jit import kernel\n\n\n@kernel("int64(int64)")\ndef f(x):\n    return x + 1\n'
         )
+    (tmp_path / "resources" / "usual_kernels.txt").write_text("")
     broken, last = kernels[0], kernels[-1]
     (tmp_path / broken).write_text(
         'from app.core.jit import kernel\n\n\n@kernel("int64(int64)")\ndef f(x):\n    return x.no_such_thing + '

@@ -104,7 +104,9 @@ class EffectiveMethod:
         Args:
             state: (n,) what each is by the facets of its surface; None: by the ranges of the path.
         """
-        effective = effective_points(points, self.choose, corners.tolist(), at_bends=True)
+        # a correction curve is told by the points inside a range, too, and loses those that lie behind a bend: within a
+        # facet that holds the joint of a line and an arc it came out 0.0124 mm off, where 0.0038 holds without
+        effective = effective_points(points, self.choose, corners.tolist(), at_bends=self.correct is None)
         if state is not None:
             known = state.copy()
             known[corners] = PointState.EFFECTIVE
