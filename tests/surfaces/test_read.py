@@ -60,10 +60,10 @@ def test_faces_of_an_obj_file_may_have_textures_normals_and_materials(faces: byt
     assert sorted(sorted(map(tuple, triangle)) for triangle in found) == sorted(map(sorted, square))
 
 
-@pytest.mark.parametrize("texture", [(b"s", b"t"), (b"u", b"v"), (b"texture_u", b"texture_v")])
-def test_corners_of_a_ply_file_may_have_places_in_a_texture(texture: tuple[bytes, bytes]) -> None:
+@pytest.mark.parametrize(("across", "up"), [(b"s", b"t"), (b"u", b"v"), (b"texture_u", b"texture_v")])
+def test_corners_of_a_ply_file_may_have_places_in_a_texture(across: bytes, up: bytes) -> None:
     header = b"ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 3\n"
-    columns = b"".join(b"property float %s\n" % name for name in (b"x", b"y", b"z", *texture))
+    columns = b"".join(b"property float %s\n" % name for name in (b"x", b"y", b"z", across, up))
     faces = b"element face 1\nproperty list uchar int vertex_indices\nend_header\n"
     rows = b"0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n3 0 1 2\n"
     assert np.array_equal(read_mesh("a.ply", header + columns + faces + rows), [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]])

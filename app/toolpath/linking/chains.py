@@ -317,6 +317,25 @@ class Corridor:
 
 
 @dataclass(frozen=True, eq=False)
+class _SearchRoom:
+    """Room that all searches of a net share, so that each costs what it sees and not the whole net.
+
+    Attributes:
+        way: to each place, mm; inf between searches.
+        came: the edge by which each place was come to. seen: places that a search has seen, then the edges of its way.
+    """
+
+    way: Floats
+    came: Indices
+    seen: Indices
+
+    @staticmethod
+    def of(places: int) -> _SearchRoom:
+        """Return room for a net of so many places."""
+        return _SearchRoom(np.full(places, np.inf), np.empty(places, np.int64), np.empty(places + 1, np.int64))
+
+
+@dataclass(frozen=True, eq=False)
 class LinkGraph:
     """Places on rings, and the ways between them.
 
@@ -370,10 +389,8 @@ class LinkGraph:
         return np.where(self.air, 0, -1)
 
     @cached_property
-    def _room(self) -> tuple[Floats, Indices, Indices]:
-        """Room that all searches share: the way to each place, inf between searches, and two of indices."""
-        size = len(self.places) + 1
-        return np.full(size, np.inf), np.empty(size, np.int64), np.empty(size, np.int64)
+    def _room(self) -> _SearchRoom:
+        return _SearchRoom.of(len(self.places))
 
     def nearest(self, label: Indices, sources: Indices, longest: float, most: int) -> tuple[Indices, Floats]:
         """Return (source, place) (m, 2) and the costs of the ways to the places nearest to each source.
@@ -382,19 +399,19 @@ class LinkGraph:
             label, sources: as `chain_kernels.nearest_goals` wants them. longest: way, mm. most: places a source.
         """
         found, costs = np.empty((most * len(sources), 2), np.int64), np.empty(most * len(sources))
-        way, touched, _ = self._room
+        room = self._room
         count = chain_kernels.nearest_goals(
-            self.first, self.to, self.cost, label, sources, longest, most, way, touched, found, costs
+            self.first, self.to, self.cost, label, sources, longest, most, room.way, room.seen, found, costs
         )
         return found[:count], costs[:count]
 
     def way(self, start: int, goal: int, limit: float) -> Indices:
         """Return the edges of the cheapest way between two places."""
-        way, came, out = self._room
+        room = self._room
         count = chain_kernels.cheapest_way(
-            self.first, self.to, self.cost, self.come_from, start, goal, limit, way, came, out
+            self.first, self.to, self.cost, self.come_from, start, goal, limit, room.way, room.came, room.seen
         )
-        return out[:count][::-1].copy()
+        return room.seen[:count][::-1].copy()
 
     def rows(self, chunks: RingChunks, edge: int) -> Rows:
         """Return the rows of an edge."""
