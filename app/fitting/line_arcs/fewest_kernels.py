@@ -57,7 +57,7 @@ there, the longest chord since the state before.
 
 
 @kernel("UniTuple(float64, 2)(float64, float64, float64, float64, float64)", counts=False)
-def narrowed(low, high, x, y, off):
+def narrowed(low, high, x, y, off):  # type: ignore[no-untyped-def]
     """Return which of the heights between two arcs over the chord from (-1, 0) to (1, 0) have that pass a point within
     `off` of it.
 
@@ -85,7 +85,7 @@ def narrowed(low, high, x, y, off):
     f"UniTuple(float64, 2)({_SAMPLES}, int64, int64, float64, float64, float64, float64, float64, int64[::1])",
     counts=False,
 )
-def _window(samples, first, last, ax, ay, bx, by, widened, hardest):
+def _window(samples, first, last, ax, ay, bx, by, widened, hardest):  # type: ignore[no-untyped-def]
     """Return between which heights arcs from a to b keep near samples first to last; the lower one above the other:
     none does.
 
@@ -123,7 +123,7 @@ def _window(samples, first, last, ax, ay, bx, by, widened, hardest):
 
 
 @kernel("UniTuple(float64, 2)(float64, float64, float64, boolean, float64)", counts=False)
-def _halves(low, high, size, bent, limit):
+def _halves(low, high, size, bent, limit):  # type: ignore[no-untyped-def]
     """Return the halves of the sweep, left positive, that heights are; of a line alone where there may be no arc."""
     least, most = -2.0 * math.atan(high), -2.0 * math.atan(low)
     if not bent:
@@ -135,7 +135,7 @@ def _halves(low, high, size, bent, limit):
 
 
 @kernel(f"void({_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, int64, int64, float64, float64, int64)", counts=False)
-def _keep(counts, directions, before, at, pieces, low, high, entry):
+def _keep(counts, directions, before, at, pieces, low, high, entry):  # type: ignore[no-untyped-def]
     """Keep a path to place `at` that goes on from an entry, unless there is one of fewer pieces, or one that may arrive
     likewise.
 
@@ -159,7 +159,7 @@ def _keep(counts, directions, before, at, pieces, low, high, entry):
 
 
 @kernel(f"void({_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, int64, int64, float64, float64, float64, float64)", counts=False)
-def _extend(counts, directions, before, source, at, chord, least, most, bend):
+def _extend(counts, directions, before, source, at, chord, least, most, bend):  # type: ignore[no-untyped-def]
     """Extend all paths to place `source` by a piece to place `at` with halves of its sweep between two.
 
     It leaves in the direction chord - half, which is no farther than `bend` from that in which the path arrives.
@@ -181,7 +181,7 @@ def _extend(counts, directions, before, source, at, chord, least, most, bend):
     f"boolean({_SAMPLES}, int64[::1], {_STATES}, float64[::1], int64, int64, float64, float64, {_COUNTS}, "
     f"{_DIRECTIONS}, {_ENTRIES}, int64[::1])"
 )
-def _reach(samples, at, states, aside, i, j, longest, limit, counts, directions, before, hardest):
+def _reach(samples, at, states, aside, i, j, longest, limit, counts, directions, before, hardest):  # type: ignore[no-untyped-def]
     """Extend all paths to state i by a piece to state j, an arc where no chord is too long; tell whether the points
     allow about one.
     """
@@ -224,7 +224,7 @@ def _reach(samples, at, states, aside, i, j, longest, limit, counts, directions,
 @kernel(
     f"void({_SAMPLES}, int64[::1], {_STATES}, int64[::1], float64[::1], float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES})"
 )
-def search(samples, at, states, points, aside, limit, counts, directions, before):
+def search(samples, at, states, points, aside, limit, counts, directions, before):  # type: ignore[no-untyped-def]
     """Find the paths of the fewest pieces from the first state to all others.
 
     Args:
@@ -253,7 +253,7 @@ def search(samples, at, states, points, aside, limit, counts, directions, before
 
 
 @kernel("float64(float64, float64, float64, float64, float64)", counts=False)
-def _chosen(low, high, size, largest, slight):
+def _chosen(low, high, size, largest, slight):  # type: ignore[no-untyped-def]
     """Return one of the halves of a sweep between two: their middle, or a line's where that is as good as one, or
     flatter than may be.
     """
@@ -271,7 +271,7 @@ def _chosen(low, high, size, largest, slight):
     f"int64({_STATES}, float64[::1], float64, float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, int64[::1], float64[::1], "
     "float64[::1])"
 )
-def trace(states, aside, largest, slight, counts, directions, before, rows, left, half):
+def trace(states, aside, largest, slight, counts, directions, before, rows, left, half):  # type: ignore[no-untyped-def]
     """Write the path of the fewest pieces to the last state, from its end on, and return how many they are; 0: there is
     none.
 

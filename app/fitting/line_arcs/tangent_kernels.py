@@ -38,7 +38,7 @@ _DONE = 1e-3
 
 
 @kernel("float64(complex128, complex128, float64, complex128)", counts=False)
-def _apart(a, b, half, p):
+def _apart(a, b, half, p):  # type: ignore[no-untyped-def]
     """Return how far a point lies left of the circle that a piece from a to b is of."""
     c, w = b - a, p - a
     size = abs(c)
@@ -49,14 +49,14 @@ def _apart(a, b, half, p):
 
 
 @kernel(f"float64({_Z}, {_R}, int64)", counts=False)
-def _bend(z, half, j):
+def _bend(z, half, j):  # type: ignore[no-untyped-def]
     """Return by how much the path turns at joint j, radians."""
     turn = cmath.phase((z[j + 1] - z[j]) / (z[j] - z[j - 1])) - half[j] - half[j - 1]
     return turn - 2.0 * math.pi * round(turn / (2.0 * math.pi))
 
 
 @kernel("float64(float64, float64)", counts=False)
-def _ease(share, swell):
+def _ease(share, swell):  # type: ignore[no-untyped-def]
     """Return what a distance from a place of a chord counts for, where the region is wider between points than at
     them.
     """
@@ -64,20 +64,20 @@ def _ease(share, swell):
 
 
 @kernel(f"complex128({_Z}, int64)", counts=False)
-def _sample(xy, s):
+def _sample(xy, s):  # type: ignore[no-untyped-def]
     """Return sample s of a polyline: its points and, between them, places that part its chords evenly."""
     k, share = s // _EACH, (s % _EACH) / _EACH
     return xy[k] if share == 0.0 else xy[k] + share * (xy[k + 1] - xy[k])
 
 
 @kernel(f"float64({_Z}, complex128, complex128, float64, int64, float64)", counts=False)
-def _off(xy, a, b, half, s, swell):
+def _off(xy, a, b, half, s, swell):  # type: ignore[no-untyped-def]
     """Return how far sample s lies left of the circle that a piece from a to b is of, as it counts."""
     return _apart(a, b, half, _sample(xy, s)) * _ease((s % _EACH) / _EACH, swell)
 
 
 @kernel("UniTuple(int64, 3)(float64, float64, float64)", counts=False)
-def _samples(low, high, swell):
+def _samples(low, high, swell):  # type: ignore[no-untyped-def]
     """Return first, stop and step of the samples between two feet: of many those at points, where these have less
     room.
     """
@@ -89,7 +89,7 @@ def _samples(low, high, swell):
 
 
 @kernel(f"void({_Z}, {_R}, {_Z}, {_R}, {_R}, int64, int64, {_R}, {_Z})", counts=False)
-def place(xy, along, ahead, s, left, first, stop, feet, z):
+def place(xy, along, ahead, s, left, first, stop, feet, z):  # type: ignore[no-untyped-def]
     """Write the feet, in chords of the polyline, and the places of joints first to stop - 1."""
     for j in range(first, stop):
         k = min(max(int(np.searchsorted(along, s[j], side="right")) - 1, 0), len(xy) - 2)
@@ -100,7 +100,7 @@ def place(xy, along, ahead, s, left, first, stop, feet, z):
 
 
 @kernel(f"float64({_Z}, complex128, complex128, float64, float64, float64, float64)", counts=False)
-def _farthest(xy, a, b, half, low, high, swell):
+def _farthest(xy, a, b, half, low, high, swell):  # type: ignore[no-untyped-def]
     """Return how far the polyline between two feet is from the circle that a piece is of: at its points, and where a
     chord is parallel.
     """
@@ -121,7 +121,7 @@ def _farthest(xy, a, b, half, low, high, swell):
 
 
 @kernel(f"void({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, boolean, float64, {_R})", counts=False)
-def measure(xy, z, feet, left, half, first, stop, whole, swell, off):
+def measure(xy, z, feet, left, half, first, stop, whole, swell, off):  # type: ignore[no-untyped-def]
     """Write how far each of pieces first to stop - 1 is from its samples, or from the whole polyline, or its joints
     from it, at most.
     """
@@ -136,7 +136,7 @@ def measure(xy, z, feet, left, half, first, stop, whole, swell, off):
 
 
 @kernel(f"float64({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, {_R}, {_R}, float64, float64)", counts=False)
-def _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight, swell):
+def _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight, swell):  # type: ignore[no-untyped-def]
     """Return what is to be least: squared bends, and walls at the limits; inf beyond these."""
     walls, count = 0.0, len(half)
     for k in range(first, stop):
@@ -162,7 +162,7 @@ def _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight, swell):
 
 
 @kernel(f"void({_BANDS}, {_R}, int64, {_R}, float64, float64)", counts=False)
-def _add(band, slope, at, part, value, second):
+def _add(band, slope, at, part, value, second):  # type: ignore[no-untyped-def]
     """Add a function of the variables from `at` on: its slopes `part`, times `value` to the slope, and times `second`
     as squares.
     """
@@ -173,7 +173,7 @@ def _add(band, slope, at, part, value, second):
 
 
 @kernel(f"void(complex128, complex128, float64, complex128, {_Z})", counts=False)
-def _slopes(a, b, half, p, found):
+def _slopes(a, b, half, p, found):  # type: ignore[no-untyped-def]
     """Write how `_apart` changes: by the real part of found[0] da + found[1] dhalf + found[2] db."""
     c, w = b - a, p - a
     size = abs(c)
@@ -197,7 +197,7 @@ def _slopes(a, b, half, p, found):
 
 
 @kernel(f"void({_Z}, {_R}, {_Z}, {_R}, {_R}, int64, int64, {_FRAMES})", counts=False)
-def _frames(xy, along, ahead, feet, left, first, stop, frames):
+def _frames(xy, along, ahead, feet, left, first, stop, frames):  # type: ignore[no-untyped-def]
     """Write how joints first to stop - 1 move with their distance along and with their distance from the polyline."""
     for j in range(first, stop):
         k = min(int(feet[j]), len(xy) - 2)
@@ -212,7 +212,7 @@ def _frames(xy, along, ahead, feet, left, first, stop, frames):
 
 
 @kernel(f"void({_Z}, {_Z}, {_R}, {_R}, {_FRAMES}, int64, int64, {_R}, {_R}, float64, float64, {_BANDS}, {_R})")
-def _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell, band, slope):
+def _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell, band, slope):  # type: ignore[no-untyped-def]
     """Add the walls: of piece first + i its half at 3 i, of joint first + i its distances at 3 i - 2 and 3 i - 1."""
     part, found = np.empty(5), np.empty(3, np.complex128)
     for k in range(first, stop):
@@ -238,7 +238,7 @@ def _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell,
 
 
 @kernel(f"void({_R}, {_R}, int64, int64, {_R}, float64, float64, {_BANDS}, {_R})", counts=False)
-def _rails(feet, left, first, stop, limits, weight, swell, band, slope):
+def _rails(feet, left, first, stop, limits, weight, swell, band, slope):  # type: ignore[no-untyped-def]
     """Add the walls of the joints."""
     for j in range(first + 1, stop):
         square = (min(limits[j - 1], limits[j]) / _ease(feet[j] % 1.0, swell)) ** 2
@@ -250,7 +250,7 @@ def _rails(feet, left, first, stop, limits, weight, swell, band, slope):
 
 
 @kernel(f"void({_Z}, {_R}, {_FRAMES}, int64, int64, {_BANDS}, {_R})")
-def _turns(z, half, frames, first, stop, band, slope):
+def _turns(z, half, frames, first, stop, band, slope):  # type: ignore[no-untyped-def]
     """Add the squared bends."""
     part = np.empty(8)
     for j in range(max(first, 1), min(stop, len(half) - 1) + 1):
@@ -265,7 +265,7 @@ def _turns(z, half, frames, first, stop, band, slope):
 
 
 @kernel(f"boolean({_BANDS}, {_R})", counts=False)
-def _solved(band, right):
+def _solved(band, right):  # type: ignore[no-untyped-def]
     """Solve a symmetric positive system, given by its lower band, in place."""
     count, p = len(band), band.shape[1] - 1
     for i in range(count):
@@ -292,7 +292,7 @@ def _solved(band, right):
 
 
 @kernel(f"void({_BANDS}, {_R}, boolean[::1], int64, int64)", counts=False)
-def _hold(band, slope, bent, first, stop):
+def _hold(band, slope, bent, first, stop):  # type: ignore[no-untyped-def]
     """Keep lines straight, and make the system's numbers firm."""
     for i in range(len(slope)):
         band[i, 0] += 1e-9 + 1e-12 * band[i, 0]
@@ -305,7 +305,7 @@ def _hold(band, slope, bent, first, stop):
 
 
 @kernel(f"UniTuple(boolean, 2)({_R}, int64, int64, float64, {_R})", counts=False)
-def _limits(off, first, stop, limit, limits):
+def _limits(off, first, stop, limit, limits):  # type: ignore[no-untyped-def]
     """Set the walls of what is beyond the limit farther out, never farther than before; tell whether any is, and comes
     nearer.
     """
@@ -325,7 +325,7 @@ def _limits(off, first, stop, limit, limits):
     f"float64({_Z}, {_Z}, {_R}, {_R}, {_FRAMES}, {_R}, boolean[::1], int64, int64, {_R}, {_R}, float64, float64, "
     f"{_BANDS}, {_R})"
 )
-def _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes, weight, swell, band, way):
+def _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes, weight, swell, band, way):  # type: ignore[no-untyped-def]
     """Write Newton's step, to be taken off; return by how much the merit falls along it at first, -1 if there is
     none.
     """
@@ -345,7 +345,7 @@ def _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes,
 
 
 @kernel(f"void({_R}, {_R}, {_R}, int64, int64, {_R}, float64, {_R}, {_R}, {_R})", counts=False)
-def _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new):
+def _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new):  # type: ignore[no-untyped-def]
     """Write where a share of a step leads."""
     for k in range(first, stop):
         i = 3 * (k - first)
@@ -355,7 +355,7 @@ def _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new):
 
 
 @kernel(f"float64({_Z}, {_R}, {_Z}, {_R}, {_R}, {_R}, boolean[::1], int64, int64, float64, float64, {_R})")
-def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):
+def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):  # type: ignore[no-untyped-def]
     """Move joints first + 1 to stop - 1 and bend pieces first to stop - 1, in place, so that the path turns as little
     as it can there.
 
@@ -416,7 +416,7 @@ def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):
 
 
 @kernel(f"void({_Z}, {_R}, {_R})")
-def bends(z, half, found):
+def bends(z, half, found):  # type: ignore[no-untyped-def]
     """Write by how much the path turns at each joint, radians: (m + 1,), 0 at the ends."""
     found[:] = 0.0
     for j in range(1, len(half)):

@@ -15,7 +15,7 @@ _FLAT = 1e-300
 
 
 @kernel("void(float64[:, ::1], int64, float64[::1], float64[::1], float64[:, ::1])", counts=False)
-def _distances(flat, count, guess, off, slope):
+def _distances(flat, count, guess, off, slope):  # type: ignore[no-untyped-def]
     """Write how far points are to the left of the arcs of a guess, and by how much more with each of its numbers.
 
     Of an arc of curvature k that leaves 0, 0 along X a point x, y is (2 y - k (x² + y²)) / (1 + w) to the left, where
@@ -39,7 +39,7 @@ def _distances(flat, count, guess, off, slope):
 
 
 @kernel("void(float64[::1], float64[:, ::1], float64, float64[:, ::1], float64[::1])", counts=False)
-def _step(off, slope, damping, normal, step):
+def _step(off, slope, damping, normal, step):  # type: ignore[no-untyped-def]
     """Write the step that makes the squared distances least if they go on as they do here, damped; the matrix of the
     normal equations is positive then, and needs no choice of rows.
     """
@@ -66,7 +66,7 @@ def _step(off, slope, damping, normal, step):
 
 
 @kernel("float64(float64[:, ::1], int64, float64[::1])")
-def two_arcs(flat, count, joint):
+def two_arcs(flat, count, joint):  # type: ignore[no-untyped-def]
     """Improve a joint (x, y, angle, curvature before it, behind it) of arcs by points (n, 2), the first `count` of
     which lie before it; return how far they are from the arcs at most.
     """

@@ -19,7 +19,7 @@ point does.
 
 
 @kernel("void(float64[::1], int64, int64, float64, float64[::1])", counts=False)
-def _basis(knots, degree, span, t, values):
+def _basis(knots, degree, span, t, values):  # type: ignore[no-untyped-def]
     """Write the degree + 1 B-splines that are not 0 between knots span and span + 1 (de Boor and Cox)."""
     values[0] = 1.0
     for level in range(1, degree + 1):
@@ -32,7 +32,7 @@ def _basis(knots, degree, span, t, values):
 
 
 @kernel("int64(float64[::1], int64, float64, int64)", counts=False)
-def _span_of(knots, degree, t, span):
+def _span_of(knots, degree, t, span):  # type: ignore[no-untyped-def]
     """Return the span that holds a parameter, looked for from one before on."""
     last = len(knots) - degree - 2
     while span < last and t >= knots[span + 1]:
@@ -41,7 +41,7 @@ def _span_of(knots, degree, t, span):
 
 
 @kernel("boolean(float64[:, ::1], float64[:, ::1])", counts=False)
-def _cholesky(band, right):
+def _cholesky(band, right):  # type: ignore[no-untyped-def]
     """Solve a symmetric positive system, given by its lower band (k, p + 1), in place."""
     count, p = len(band), band.shape[1] - 1
     for i in range(count):
@@ -71,7 +71,7 @@ def _cholesky(band, right):
 
 
 @kernel("boolean(float64[::1], int64, float64[:, ::1], float64[::1], float64[::1], float64[:, ::1], float64[:, ::1])")
-def solve(knots, degree, points, places, weights, lead, control):
+def solve(knots, degree, points, places, weights, lead, control):  # type: ignore[no-untyped-def]
     """Write the control points (k, 3) of least squares; the last is the last point. False: singular.
 
     Args:
@@ -119,7 +119,7 @@ def solve(knots, degree, points, places, weights, lead, control):
 
 
 @kernel("int64(float64[:, :, ::1], float64[:, ::1], float64[::1], float64, float64, boolean[::1])")
-def failing(control, points, feet, end, swell, bad):
+def failing(control, points, feet, end, swell, bad):  # type: ignore[no-untyped-def]
     """Mark the chords (n - 1,) whose stretch of the curve is not proven to be in their region; return how many."""
     here, count = np.empty(3), 0
     bad[:] = False
@@ -136,7 +136,7 @@ def failing(control, points, feet, end, swell, bad):
 
 
 @kernel("void(float64[::1], int64, float64[:, ::1], float64[:, :, ::1])")
-def cut(knots, degree, control, pieces):
+def cut(knots, degree, control, pieces):  # type: ignore[no-untyped-def]
     """Write the Bézier pieces (m, 6, 3) of a spline with clamped ends and single knots within, raised to degree 5.
 
     Control point j of a span is the blossom at its ends, taken p - j and j times.
@@ -171,7 +171,7 @@ def cut(knots, degree, control, pieces):
     "void(float64[::1], int64, float64[:, ::1], float64[::1], float64[::1], int64, float64, float64, "
     "float64[:, ::1], float64[:, ::1], float64[:, :, ::1], float64[::1], float64[::1], boolean[::1])"
 )
-def tried(breaks, degree, samples, places, weights, every, end, swell, lead, control, pieces, feet, moved, bad):
+def tried(breaks, degree, samples, places, weights, every, end, swell, lead, control, pieces, feet, moved, bad):  # type: ignore[no-untyped-def]
     """Fit a spline over breaks to samples and see where it is proven.
 
     Args:

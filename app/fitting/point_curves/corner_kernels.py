@@ -10,7 +10,7 @@ from ...core.jit import kernel
 
 
 @kernel("void(float64[:, ::1], float64, float64[::1], float64[::1])")
-def turns(points, reach, along, turn):
+def turns(points, reach, along, turn):  # type: ignore[no-untyped-def]
     """Write the length up to each point (n,), mm, and the turn there (n,), radians; 0 at the outer ones.
 
     Args:
@@ -52,7 +52,7 @@ def turns(points, reach, along, turn):
 
 
 @kernel("void(float64[::1], float64[::1], float64, float64, boolean[::1])")
-def peaks(turn, along, angle, reach, kept):
+def peaks(turn, along, angle, reach, kept):  # type: ignore[no-untyped-def]
     """Mark the points that turn by more than an angle, and more than all others within a reach: the first of equals."""
     n = len(turn)
     kept[:] = False

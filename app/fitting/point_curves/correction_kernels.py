@@ -14,7 +14,7 @@ _HALVINGS = 50
 
 
 @kernel("void(float64[::1], float64[:, ::1], float64[:, ::1])")
-def spline_slopes(at, value, slope):
+def spline_slopes(at, value, slope):  # type: ignore[no-untyped-def]
     """Write the slopes (m, 3) of the cubic spline through values (m, 3), C2, the outer two pieces at each end one
     cubic.
 
@@ -56,7 +56,7 @@ def spline_slopes(at, value, slope):
 
 
 @kernel("void(float64[::1], float64[:, ::1], float64[:, ::1])")
-def least_squares(at, value, slope):
+def least_squares(at, value, slope):  # type: ignore[no-untyped-def]
     """Replace values (m, 3) by those of the cubic nearest to them, and write its slopes; by orthogonal polynomials."""
     m = len(at)
     fitted, basis, old = np.zeros((m, 3)), np.ones(m), np.zeros(m)
@@ -85,7 +85,7 @@ def least_squares(at, value, slope):
     "float64(float64, float64[::1], float64[:, ::1], float64[:, ::1], float64[::1], float64[::1], float64[::1])",
     counts=False,
 )
-def _ahead(t, at, value, slope, point, along, place):
+def _ahead(t, at, value, slope, point, along, place):  # type: ignore[no-untyped-def]
     """Write the place of the curve at t, and return how far it is ahead of a point: as seen along a direction, else its
     own (0).
     """
@@ -107,7 +107,7 @@ def _ahead(t, at, value, slope, point, along, place):
 
 
 @kernel("float64(float64[::1], float64[::1])", counts=False)
-def _gap(a, b):
+def _gap(a, b):  # type: ignore[no-untyped-def]
     return math.sqrt((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2)
 
 
@@ -116,7 +116,7 @@ def _gap(a, b):
     "float64[::1])",
     counts=False,
 )
-def _foot(low, high, at, value, slope, point, along, nothing, place):
+def _foot(low, high, at, value, slope, point, along, nothing, place):  # type: ignore[no-untyped-def]
     """Write the place of a stretch of the curve that is level with a point along a direction; the nearest if there is
     none.
 
@@ -148,7 +148,7 @@ def _foot(low, high, at, value, slope, point, along, nothing, place):
     "int64(float64[:, ::1], int64[::1], boolean[::1], int64, int64, int64, float64[::1], float64[:, ::1], int64[::1])",
     counts=False,
 )
-def choose(points, effective, kept, gap, before, after, at, value, chosen):
+def choose(points, effective, kept, gap, before, after, at, value, chosen):  # type: ignore[no-untyped-def]
     """Write which effective points the correction curve of a gap goes by (S21), their places and the lengths up to
     them.
 
@@ -175,7 +175,7 @@ _SIGNATURE = "void(float64[:, ::1], int64[::1], boolean[::1], int64, int64, bool
 
 
 @kernel(_SIGNATURE)
-def correct(points, effective, kept, before, after, near, upright, places):
+def correct(points, effective, kept, before, after, near, upright, places):  # type: ignore[no-untyped-def]
     """Write where every point of a path moves to (n, 3), were all to move; an effective one by the mean of its gaps'
     moves.
 

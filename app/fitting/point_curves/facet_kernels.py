@@ -14,7 +14,7 @@ _SWEEPS = 12
 
 
 @kernel("float64(float64[:, ::1], int64[::1], int64, float64[::1])")
-def lay(points, members, count, plane):
+def lay(points, members, count, plane):  # type: ignore[no-untyped-def]
     """Write normal and centre (6,) of the plane nearest to members; return the mean square of their distances, mm2.
 
     By Jacobi's rotations of the 3 x 3 matrix of their spread.
@@ -54,7 +54,7 @@ def lay(points, members, count, plane):
 
 
 @kernel("void(float64[:, ::1], int64[::1], int64[::1], float64[::1])")
-def roughness(points, offsets, beside, rough):
+def roughness(points, offsets, beside, rough):  # type: ignore[no-untyped-def]
     """Write how far each point and its neighbours (beside[offsets[i]:offsets[i + 1]]) lie off one plane, mm2."""
     members, plane = np.empty(len(points), np.int64), np.empty(6)
     for i in range(len(points)):
@@ -68,7 +68,7 @@ def roughness(points, offsets, beside, rough):
     "int64(float64[:, ::1], int64[::1], int64[::1], int64, float64, float64[::1], int64[::1], int64[::1], int64, "
     "int64[::1])"
 )
-def _flood(points, offsets, beside, seed, epsilon, plane, facet, seen, mark, members):
+def _flood(points, offsets, beside, seed, epsilon, plane, facet, seen, mark, members):  # type: ignore[no-untyped-def]
     """Write what is reached from a seed over free points within epsilon of a plane; return how many."""
     members[0] = seed
     seen[seed] = mark
@@ -90,7 +90,7 @@ def _flood(points, offsets, beside, seed, epsilon, plane, facet, seen, mark, mem
 
 
 @kernel("int64(float64[:, ::1], int64[::1], int64[::1], int64[::1], float64, int64[::1], float64[:, ::1])")
-def grow(points, offsets, beside, order, epsilon, facet, planes):
+def grow(points, offsets, beside, order, epsilon, facet, planes):  # type: ignore[no-untyped-def]
     """Write each point's facet (n,) and the facets' planes (normal, centre); return the number of facets.
 
     Args:

@@ -28,7 +28,7 @@ _GOLDEN = 0.3819660112501051
 
 
 @kernel("float64(float64[:, :, ::1], float64, float64, float64[::1], float64[::1])", counts=False)
-def _nearest(control, low, high, point, here):
+def _nearest(control, low, high, point, here):  # type: ignore[no-untyped-def]
     """Return the place of a stretch that is nearest to a point: of five in it, and by golden sections from there."""
     step, best, least = (high - low) / 4, low, math.inf
     for k in range(5):
@@ -52,7 +52,7 @@ def _nearest(control, low, high, point, here):
 
 
 @kernel("float64(float64[::1], float64[::1], float64[::1])", counts=False)
-def _share(c, a, b):
+def _share(c, a, b):  # type: ignore[no-untyped-def]
     """Return where on a chord it is nearest to a point, as a part of it."""
     size, along = 0.0, 0.0
     for axis in range(3):
@@ -62,7 +62,7 @@ def _share(c, a, b):
 
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64, float64[::1])")
-def guess(control, points, slack, feet):
+def guess(control, points, slack, feet):  # type: ignore[no-untyped-def]
     """Write a likely place (n,) for each point, never falling: the nearest of those about as far along.
 
     Args:
@@ -93,7 +93,7 @@ def guess(control, points, slack, feet):
 
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64[::1])")
-def settle(control, points, feet):
+def settle(control, points, feet):  # type: ignore[no-untyped-def]
     """Move each foot nearer to its point, by a step of Newton's in its own piece; their order stays.
 
     Args:
@@ -127,7 +127,7 @@ def settle(control, points, feet):
 
 
 @kernel("UniTuple(int64, 2)(float64[:, :, ::1], float64[:, ::1], float64[::1], float64, float64)")
-def proven(control, points, feet, end, swell):
+def proven(control, points, feet, end, swell):  # type: ignore[no-untyped-def]
     """Return INSIDE, or what the first chord that is not proven gives, and its number.
 
     Args:
@@ -149,7 +149,7 @@ def proven(control, points, feet, end, swell):
     "UniTuple(int64, 2)(float64[:, :, ::1], float64[:, ::1], float64, float64, float64[:, :, ::1], int64[::1], "
     "float64[::1])"
 )
-def reach(control, points, end, swell, ways, counts, witness):
+def reach(control, points, end, swell, ways, counts, witness):  # type: ignore[no-untyped-def]
     """Find the places of the curve that can answer to each point, in order: INSIDE and -1 where the last one is
     reached.
 
@@ -192,7 +192,7 @@ def reach(control, points, end, swell, ways, counts, witness):
 
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64, float64, float64[:, :, ::1], int64[::1], float64[::1])")
-def step_back(control, points, end, swell, ways, counts, feet):
+def step_back(control, points, end, swell, ways, counts, feet):  # type: ignore[no-untyped-def]
     """Write a place (n,) for each point out of those that `reach` has found: the nearest from which the next is
     reached.
     """
@@ -210,7 +210,7 @@ def step_back(control, points, end, swell, ways, counts, feet):
 
 
 @kernel("UniTuple(float64, 4)(float64[:, :, ::1], float64[:, ::1], float64[::1])")
-def found_apart(control, points, feet):
+def found_apart(control, points, feet):  # type: ignore[no-untyped-def]
     """Return the largest distance found from the curve and where, of three places a chord; and from a point and
     which.
     """
@@ -231,7 +231,7 @@ def found_apart(control, points, feet):
 
 
 @kernel("float64(float64[:, ::1], float64[::1], float64[::1])", counts=False)
-def _most_off(piece, a, b):
+def _most_off(piece, a, b):  # type: ignore[no-untyped-def]
     """Return a distance from a chord that no place of a piece exceeds: that of its farthest control point."""
     most = 0.0
     for k in range(len(piece)):
@@ -240,7 +240,7 @@ def _most_off(piece, a, b):
 
 
 @kernel("UniTuple(float64, 3)(float64[:, :, ::1], float64[:, ::1], float64[::1], float64, UniTuple(float64, 3))")
-def bound_apart(control, points, feet, share, start):
+def bound_apart(control, points, feet, share, start):  # type: ignore[no-untyped-def]
     """Return a proven bound of how far curve and polyline are apart, the largest distance found from the curve, and
     where.
 
@@ -278,7 +278,7 @@ def bound_apart(control, points, feet, share, start):
 
 
 @kernel("float64(float64[::1], float64[:, ::1], int64)", counts=False)
-def _off_near(here, points, chord):
+def _off_near(here, points, chord):  # type: ignore[no-untyped-def]
     """Return the squared distance of a place from the chords up to 256 before and behind one."""
     least = math.inf
     for k in range(max(0, chord - 256), min(len(points) - 1, chord + 257)):
@@ -287,7 +287,7 @@ def _off_near(here, points, chord):
 
 
 @kernel("UniTuple(float64, 3)(float64[:, :, ::1], float64, float64[:, ::1], int64, float64, float64)")
-def excursion(control, left, points, chord, end, swell):
+def excursion(control, left, points, chord, end, swell):  # type: ignore[no-untyped-def]
     """Return where a curve that leaves the region of a chord is farthest from the path before it comes back, and how
     far.
 
@@ -327,7 +327,7 @@ def excursion(control, left, points, chord, end, swell):
 
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64[::1], float64[::1])")
-def off_chords(control, points, feet, off):
+def off_chords(control, points, feet, off):  # type: ignore[no-untyped-def]
     """Write how far each piece is found from the chords that it answers to, at most, mm: at feet and half way
     between.
     """

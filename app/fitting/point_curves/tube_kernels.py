@@ -22,7 +22,7 @@ _WEIGHTS = np.array(
 
 
 @kernel("void(float64[:, :, ::1], float64, float64, float64[:, ::1])", counts=False)
-def portion(control, a, b, out):
+def portion(control, a, b, out):  # type: ignore[no-untyped-def]
     """Write the control points (6, 3) of the curve between parameters a <= b of one piece."""
     k = min(int(a), len(control) - 1)
     if b <= k:
@@ -41,7 +41,7 @@ def portion(control, a, b, out):
 
 
 @kernel("void(float64[:, ::1], float64[:, ::1], float64[:, ::1])", counts=False)
-def halved(b, left, right):
+def halved(b, left, right):  # type: ignore[no-untyped-def]
     """Write the two halves of a piece (6, 3)."""
     for axis in range(3):
         for i in range(P + 1):
@@ -53,7 +53,7 @@ def halved(b, left, right):
 
 
 @kernel("void(float64[:, :, ::1], float64, float64[::1])", counts=False)
-def point_at(control, u, out):
+def point_at(control, u, out):  # type: ignore[no-untyped-def]
     """Write the curve's point at a parameter."""
     k = min(int(u), len(control) - 1)
     t = u - k
@@ -69,7 +69,7 @@ def point_at(control, u, out):
 
 
 @kernel("float64(float64[::1], float64[::1], float64[::1])", counts=False)
-def squared_off_chord(c, a, b):
+def squared_off_chord(c, a, b):  # type: ignore[no-untyped-def]
     """Return the squared distance of a point from a chord."""
     dx, dy, dz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
     px, py, pz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
@@ -81,7 +81,7 @@ def squared_off_chord(c, a, b):
 
 
 @kernel("boolean(float64[::1], float64[::1], float64[::1], float64, float64)", counts=False)
-def holds_point(c, a, b, end, swell):
+def holds_point(c, a, b, end, swell):  # type: ignore[no-untyped-def]
     """Tell whether the region round a chord holds a point.
 
     Args:
@@ -101,7 +101,7 @@ def holds_point(c, a, b, end, swell):
 
 
 @kernel("boolean(float64[:, ::1], float64, float64, float64, float64)", counts=False)
-def _signs(work, end, swell, size, guard):
+def _signs(work, end, swell, size, guard):  # type: ignore[no-untyped-def]
     """Tell whether all coefficients of the body's inequality are above the rounding."""
     for k in range(2 * P + 1):
         value = end
@@ -116,7 +116,7 @@ def _signs(work, end, swell, size, guard):
 
 
 @kernel("boolean(float64[:, ::1], float64, float64, float64, float64, float64)", counts=False)
-def _ball_signs(work, x, y, z, end, guard):
+def _ball_signs(work, x, y, z, end, guard):  # type: ignore[no-untyped-def]
     """Tell whether all coefficients of a ball's inequality are above the rounding; its centre counts from the chord's
     start.
     """
@@ -139,7 +139,7 @@ def _ball_signs(work, x, y, z, end, guard):
 
 
 @kernel("boolean(float64[:, ::1], float64[::1], float64[::1], float64, float64, float64[:, ::1])", counts=False)
-def holds_piece(piece, a, b, end, swell, work):
+def holds_piece(piece, a, b, end, swell, work):  # type: ignore[no-untyped-def]
     """Tell whether Bernstein signs prove that the region round a chord holds a piece: True is a proof, False is none.
 
     The body holds it where 0 <= share <= 1 and end + swell share (1 - share) - off^2 >= 0 in all coefficients, a ball
@@ -166,7 +166,7 @@ def holds_piece(piece, a, b, end, swell, work):
 
 
 @kernel("boolean(float64[:, ::1], float64[::1], float64)", counts=False)
-def _keeps_off(piece, centre, end):
+def _keeps_off(piece, centre, end):  # type: ignore[no-untyped-def]
     """Tell whether Bernstein signs prove that a piece has no point in a ball."""
     for k in range(2 * P + 1):
         value = -end
@@ -181,7 +181,7 @@ def _keeps_off(piece, centre, end):
 
 
 @kernel("float64(float64[:, :, ::1], float64, float64, float64[::1], float64[::1], float64, float64)")
-def first_exit(control, start, stop, a, b, end, swell):
+def first_exit(control, start, stop, a, b, end, swell):  # type: ignore[no-untyped-def]
     """Return up to where, from `start` on, the curve is proven to lie in the region round a chord; at most `stop`."""
     piece, work, stack = np.empty((P + 1, 3)), np.empty((P + 1, 4)), np.empty(64)
     low = start
@@ -201,7 +201,7 @@ def first_exit(control, start, stop, a, b, end, swell):
 
 
 @kernel("float64(float64[:, :, ::1], float64, float64, float64[::1], float64)")
-def first_entry(control, start, stop, centre, end):
+def first_entry(control, start, stop, centre, end):  # type: ignore[no-untyped-def]
     """Return where, from `start` on, the curve first lies in a ball; more than `stop` where it does not up to there."""
     piece, stack = np.empty((P + 1, 3)), np.empty(64)
     low = start

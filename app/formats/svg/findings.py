@@ -1,29 +1,38 @@
-"""Sentences about what an SVG shows otherwise than it is read: properties, widths, gaps and arrowheads of outlines."""
+"""Sentences about what of an SVG cannot be read, and what it shows otherwise than it is read."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...core.wording import place_mm, together
+from ...core.wording import counted, place_mm, together
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
 from .strokes import BroadOutline
 from .walk import SvgContent
 
 
+def reading_findings(content: SvgContent) -> Iterator[Finding]:
+    """Say what is damaged, missing, or read by a guess."""
+    yield from _faults(content)
+    yield from _unread(content)
+    yield from _of_fonts(content)
+
+
 def paint_findings(content: SvgContent) -> Iterator[Finding]:
     """Say what of the picture is not in the part, and what may lie elsewhere than in the picture."""
+    yield from _clipped(content)
     yield from _unfollowed(content)
     yield from _within(content)
     for layer in content.painted.layers:
         yield _broad([each for each in content.painted.broad if each.layer == layer])
     yield from _details(content)
+    yield from _unread_rules(content)
 
 
 def _unfollowed(content: SvgContent) -> Iterator[Finding]:
     count = content.unfollowed.total()
     if count:
-        what = "1 element is" if count == 1 else f"{count} elements are"
+        what = counted(count, "element is", "elements are")
         yield Finding(
             FindingKind.LEFT_OUT,
             f"{what} moved or formed by {together(sorted(content.unfollowed))}, which is not followed, so that the "
@@ -34,7 +43,7 @@ def _unfollowed(content: SvgContent) -> Iterator[Finding]:
 
 def _within(content: SvgContent) -> Iterator[Finding]:
     if content.within:
-        what = "1 outline lies" if content.within == 1 else f"{content.within} outlines lie"
+        what = counted(content.within, "outline lies", "outlines lie")
         yield remark(
             f"{what} within the area that the path paints (fill-rule: nonzero) and cannot be seen; left out.",
             float(content.within),
@@ -66,5 +75,60 @@ def _details(content: SvgContent) -> Iterator[Finding]:
     )
     for count, what in told:
         if count:
-            who = "1 shape has" if count == 1 else f"{count} shapes have"
-            yield remark(f"{who} {what}.", float(count))
+            yield remark(f"{counted(count, 'shape has', 'shapes have')} {what}.", float(count))
+
+
+def _faults(content: SvgContent) -> Iterator[Finding]:
+    if content.faults:
+        what = counted(len(content.faults), "shape has", "shapes have")
+        first = next((fault for fault in content.faults if fault.what), content.faults[0])
+        why = f" ({first.what})" if first.what else ""
+        text = (
+            f"{what} data that cannot be read to the end, the first in line {first.line}{why}; what stands before is "
+            "drawn. Check it."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(content.faults)))
+
+
+def _unread(content: SvgContent) -> Iterator[Finding]:
+    """Name shapes that are missing since a length of theirs cannot be read."""
+    if content.unread:
+        first, count = content.unread[0], len(content.unread)
+        what = counted(count, "shape is", "shapes are")
+        where = "in" if count == 1 else "the first in"
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{what} missing from the part, {where} line {first.line}: the length {first.what[:60]!r} cannot be read; "
+            "write it in mm, px or user units.",
+            amount=float(count),
+        )
+
+
+def _of_fonts(content: SvgContent) -> Iterator[Finding]:
+    """Say that lengths were read that depend on a font."""
+    if content.of_font:
+        what = counted(content.of_font, "shape has", "shapes have")
+        yield remark(
+            f"{what} lengths in ex or ch, which depend on a font; half of the height of the letters is taken. "
+            "Measure one of them, or write them in mm.",
+            float(content.of_font),
+        )
+
+
+def _clipped(content: SvgContent) -> Iterator[Finding]:
+    if content.clipped:
+        yield remark(
+            f"{counted(content.clipped, 'curve is', 'curves are')} clipped or masked in the "
+            "drawing; all of it is read.",
+            float(content.clipped),
+        )
+
+
+def _unread_rules(content: SvgContent) -> Iterator[Finding]:
+    if content.unread_rules:
+        count, first = len(content.unread_rules), content.unread_rules[0][:60]
+        yield remark(
+            f"{counted(count, 'rule')} of the style sheet cannot be followed, the first for "
+            f"{first}; check that nothing hidden is read.",
+            float(count),
+        )

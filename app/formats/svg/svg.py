@@ -40,7 +40,7 @@ from ..reading_question import (
     far_question,
     pixels_question,
 )
-from .findings import paint_findings
+from .findings import paint_findings, reading_findings
 from .generator import CSS_PER_INCH, KNOWN_PER_INCH, PixelDensity, density_of
 from .lengths import LengthBasis, WrittenLength, length
 from .numbers import UnreadableError, ViewBox, fitted, numbers, view_box
@@ -124,13 +124,9 @@ def read_svg(
     findings = [
         *_units(units, page, density, how),
         *placement_findings(found),
-        *_faults(content),
-        *_unread(content),
-        *_of_fonts(content),
+        *reading_findings(content),
         *without_length(content.nothing + found.nothing),
-        *_clipped(content),
         *paint_findings(content),
-        *_unread_rules(content),
         *switched_off(part, layers),
         *all_left_out(content.left_out),
     ]
@@ -279,59 +275,3 @@ def _units(given: Units | None, page: _Page, density: PixelDensity, how: Drawing
             f"mm or 1 inch, choose --units, or on opening{other}."
         )
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
-
-
-def _faults(content: SvgContent) -> Iterator[Finding]:
-    if content.faults:
-        what = "1 shape has" if len(content.faults) == 1 else f"{len(content.faults)} shapes have"
-        first = next((fault for fault in content.faults if fault.what), content.faults[0])
-        why = f" ({first.what})" if first.what else ""
-        text = (
-            f"{what} data that cannot be read to the end, the first in line {first.line}{why}; what stands before is "
-            "drawn. Check it."
-        )
-        yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(content.faults)))
-
-
-def _unread(content: SvgContent) -> Iterator[Finding]:
-    """Name shapes that are missing since a length of theirs cannot be read."""
-    if content.unread:
-        first, count = content.unread[0], len(content.unread)
-        what = "1 shape is" if count == 1 else f"{count} shapes are"
-        where = "in" if count == 1 else "the first in"
-        yield Finding(
-            FindingKind.LEFT_OUT,
-            f"{what} missing from the part, {where} line {first.line}: the length {first.what[:60]!r} cannot be read; "
-            "write it in mm, px or user units.",
-            amount=float(count),
-        )
-
-
-def _of_fonts(content: SvgContent) -> Iterator[Finding]:
-    """Say that lengths were read that depend on a font."""
-    if content.of_font:
-        what = "1 shape has" if content.of_font == 1 else f"{content.of_font} shapes have"
-        yield remark(
-            f"{what} lengths in ex or ch, which depend on a font; half of the height of the letters is taken. "
-            "Measure one of them, or write them in mm.",
-            float(content.of_font),
-        )
-
-
-def _clipped(content: SvgContent) -> Iterator[Finding]:
-    if content.clipped:
-        yield remark(
-            f"{content.clipped} {'curve is' if content.clipped == 1 else 'curves are'} clipped or masked in the "
-            "drawing; all of it is read.",
-            float(content.clipped),
-        )
-
-
-def _unread_rules(content: SvgContent) -> Iterator[Finding]:
-    if content.unread_rules:
-        count, first = len(content.unread_rules), content.unread_rules[0][:60]
-        yield remark(
-            f"{count} {'rule' if count == 1 else 'rules'} of the style sheet cannot be followed, the first for "
-            f"{first}; check that nothing hidden is read.",
-            float(count),
-        )

@@ -14,7 +14,7 @@ _G, _N = 71, 78
 
 
 @kernel("boolean(uint8)", counts=False)
-def _blank(byte):
+def _blank(byte):  # type: ignore[no-untyped-def]
     """Tell whether a byte is a space, a tab, a vertical one, a form or line feed, a return or a separator of files to
     units.
     """
@@ -22,19 +22,19 @@ def _blank(byte):
 
 
 @kernel("boolean(uint8)", counts=False)
-def _digit(byte):
+def _digit(byte):  # type: ignore[no-untyped-def]
     return _ZERO <= byte <= _NINE
 
 
 @kernel(f"int64({_BYTES}, int64, int64)", counts=False)
-def _past_blanks(text, at, stop):
+def _past_blanks(text, at, stop):  # type: ignore[no-untyped-def]
     while at < stop and _blank(text[at]):
         at += 1
     return at
 
 
 @kernel(f"int64({_BYTES}, int64, int64)", counts=False)
-def _past_number(text, at, stop):
+def _past_number(text, at, stop):  # type: ignore[no-untyped-def]
     """Return where the line's number, if it begins with one, and the blanks round it end."""
     at = _past_blanks(text, at, stop)
     if at + 1 < stop and text[at] & _UPPER == _N and _digit(text[at + 1]):
@@ -45,7 +45,7 @@ def _past_number(text, at, stop):
 
 
 @kernel(f"int64({_BYTES}, int64, int64)", counts=False)
-def _past_code(text, at, stop):
+def _past_code(text, at, stop):  # type: ignore[no-untyped-def]
     """Return where a G1 that begins here ends, `at` itself where there is none."""
     end = at + 1
     if at >= stop or text[at] & _UPPER != _G:
@@ -58,7 +58,7 @@ def _past_code(text, at, stop):
 
 
 @kernel(f"Tuple((int64, float64))({_BYTES}, int64, int64)", counts=False)
-def _number(text, at, stop):
+def _number(text, at, stop):  # type: ignore[no-untyped-def]
     """Return where a decimal number that begins here ends, and its value; `at` itself where there is none."""
     begin, sign = at, 1.0
     if at < stop and (text[at] == _PLUS or text[at] == _MINUS):
@@ -75,7 +75,7 @@ def _number(text, at, stop):
 
 
 @kernel(f"boolean({_BYTES}, int64, int64, float64[::1], float64[::1], float64, int64[::1])", counts=False)
-def _says(text, at, stop, end, shift, unit, feed):
+def _says(text, at, stop, end, shift, unit, feed):  # type: ignore[no-untyped-def]
     """Tell whether words X, Y, Z and F, each once, are all that is left of a line, and say where it ends.
 
     Args:
@@ -110,7 +110,7 @@ def _says(text, at, stop, end, shift, unit, feed):
     f"void({_BYTES}, {_INTS}, {_INTS}, float64[:, ::1], {_INTS}, float64[:, ::1], float64[::1], {_FLAGS}, {_FLAGS}, "
     f"{_FLAGS}, int64[:, ::1])"
 )
-def read_moves(text, begins, lines, ends, states, shifts, units, plain, coded, numbered, feeds):
+def read_moves(text, begins, lines, ends, states, shifts, units, plain, coded, numbered, feeds):  # type: ignore[no-untyped-def]
     """Read the lines of n straight moves.
 
     Args:
@@ -133,7 +133,7 @@ def read_moves(text, begins, lines, ends, states, shifts, units, plain, coded, n
 
 
 @kernel(f"int64({_BYTES}, {_INTS}, {_INTS})")
-def read_lines(text, begins, filled):
+def read_lines(text, begins, filled):  # type: ignore[no-untyped-def]
     """Write where each line begins, and behind the last one; and how many lines with something in them are before each,
     and in all.
 

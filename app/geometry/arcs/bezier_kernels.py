@@ -22,7 +22,7 @@ _ROUNDING = 1e-3
 
 
 @kernel(f"void({_CONTROL}, float64, {_PIECE}, {_FOUND})", counts=False)
-def place(control, u, work, found):
+def place(control, u, work, found):  # type: ignore[no-untyped-def]
     """Write the place at a parameter, mm, and a vector along the tangent there, of any length.
 
     Args:
@@ -45,7 +45,7 @@ def place(control, u, work, found):
 
 
 @kernel(f"UniTuple(float64, 2)({_CONTROL}, float64, boolean, float64, {_PIECE}, {_FOUND})", counts=False)
-def direction(control, u, forward, still, work, found):
+def direction(control, u, forward, still, work, found):  # type: ignore[no-untyped-def]
     """Return the unit tangent just after (forward) or just before a parameter; (0, 0) where the curve stands still.
 
     Args:
@@ -75,7 +75,7 @@ def direction(control, u, forward, still, work, found):
 
 
 @kernel(f"void({_CONTROL}, float64, float64, {_PIECE}, {_PIECE})", counts=False)
-def cut(control, first, last, work, piece):
+def cut(control, first, last, work, piece):  # type: ignore[no-untyped-def]
     """Write the stretch between two parameters of one piece: control point j is the blossom of its ends, taken p - j
     and j times.
     """
@@ -94,7 +94,7 @@ def cut(control, first, last, work, piece):
 
 
 @kernel(f"float64({_PIECE}, float64, float64, float64, float64)", counts=False)
-def off_line(piece, ax, ay, bx, by):
+def off_line(piece, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     """Return a bound of how far a piece is from the line from a to b, mm: that of its control points, each way by
     itself.
     """
@@ -111,7 +111,7 @@ def off_line(piece, ax, ay, bx, by):
 
 
 @kernel(f"float64({_PIECE}, float64, float64, float64, float64, {_CONTROL})", counts=False)
-def off_circle(piece, x, y, cx, cy, products):
+def off_circle(piece, x, y, cx, cy, products):  # type: ignore[no-untyped-def]
     """Return a bound of how far a piece is from the circle round a centre c through a place, mm.
 
     The squared distance from the centre is a polynomial over the squared weight; its Bernstein coefficients enclose it,
@@ -138,7 +138,7 @@ def off_circle(piece, x, y, cx, cy, products):
 
 
 @kernel(f"void({_PIECE}, {_FOUND}, int64[::1], {_CONTROL})")
-def blossoms(points, knots, spans, result):
+def blossoms(points, knots, spans, result):  # type: ignore[no-untyped-def]
     """Write the control points of a B-spline's Bézier pieces: j of a span is the blossom at its ends, taken p - j and j
     times.
 
@@ -166,7 +166,7 @@ def blossoms(points, knots, spans, result):
 
 
 @kernel(f"boolean({_CONTROL}, boolean, float64, float64, float64)")
-def surely_not_round(control, given, cx, cy, tolerance):
+def surely_not_round(control, given, cx, cy, tolerance):  # type: ignore[no-untyped-def]
     """Tell whether places on a curve show that it is no circle round a centre, or through three of them; False where
     they do not.
 

@@ -12,7 +12,7 @@ from .bezier_kernels import place
 
 
 @kernel("Tuple((float64[:, ::1], int64))(float64[:, :, ::1], float64, int64)")
-def chords(control, tolerance, finest):
+def chords(control, tolerance, finest):  # type: ignore[no-untyped-def]
     """Return (places along a curve (m, 2), how many), so that the middle of each stretch is near that of its chord.
 
     Every piece has two chords at least: an S has its middle on its chord.

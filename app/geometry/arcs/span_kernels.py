@@ -30,7 +30,7 @@ _TRIALS, _BISECTIONS, _PARTS = 60, 48, 6
 
 
 @kernel("float64(float64, float64, float64, float64, float64, float64, float64, float64, float64)", counts=False)
-def _apart(x, y, ax, ay, bx, by, cx, cy, turn):
+def _apart(x, y, ax, ay, bx, by, cx, cy, turn):  # type: ignore[no-untyped-def]
     """Return the distance of a place from a line or arc from a to b."""
     px, py = x - ax, y - ay
     if turn == 0.0:
@@ -46,7 +46,7 @@ def _apart(x, y, ax, ay, bx, by, cx, cy, turn):
 
 
 @kernel(f"boolean({_FOUND}, float64, float64, float64, float64)", counts=False)
-def _put_biarc(row, out_x, out_y, in_x, in_y):
+def _put_biarc(row, out_x, out_y, in_x, in_y):  # type: ignore[no-untyped-def]
     """Write the line or the two arcs between a row's ends that leave and arrive in unit directions; tell whether there
     are any.
     """
@@ -66,7 +66,7 @@ def _put_biarc(row, out_x, out_y, in_x, in_y):
 
 
 @kernel(f"float64({_CONTROL}, float64, float64, float64, {_PIECE}, {_PIECE}, {_FOUND})")
-def _trial(control, first, last, still, work, places, row):
+def _trial(control, first, last, still, work, places, row):  # type: ignore[no-untyped-def]
     """Write what replaces a span, its chord where it turns back; return its greatest distance from samples, mm."""
     count, length = max(_SAMPLES, _EACH * math.ceil(last - first)), 0.0
     found = places[len(places) - 1]
@@ -103,7 +103,7 @@ def _trial(control, first, last, still, work, places, row):
 
 
 @kernel(f"float64({_CONTROL}, float64, float64, float64, float64, float64, {_PIECE}, {_PIECE}, {_FOUND}, {_FOUND})")
-def _longest(control, first, last, step, target, still, work, places, trial, row):
+def _longest(control, first, last, step, target, still, work, places, trial, row):  # type: ignore[no-untyped-def]
     """Write about the longest span from a parameter on that stays within the target; return a step to try next.
 
     The error of a biarc grows with the third power of its length, so few trials find the length.
@@ -132,7 +132,7 @@ def _longest(control, first, last, step, target, still, work, places, trial, row
 
 
 @kernel(f"int64({_CONTROL}, {_FOUND}, float64, float64, float64, {_PIECE})")
-def cover(control, state, last, target, still, rows):
+def cover(control, state, last, target, still, rows):  # type: ignore[no-untyped-def]
     """Cover a curve with spans, each about the longest within a target, until they end or the rows are full; return how
     many there are.
 
@@ -152,7 +152,7 @@ def cover(control, state, last, target, still, rows):
 
 
 @kernel(f"float64({_CONTROL}, {_FOUND}, {_PIECE}, {_FOUND})", counts=False)
-def _share(control, row, work, found):
+def _share(control, row, work, found):  # type: ignore[no-untyped-def]
     """Return the parameter where a span's two parts share it: where the curve crosses their common normal."""
     low, high = row[FIRST], row[LAST]
     x, y = row[X1] - row[X0], row[Y1] - row[Y0]
@@ -169,7 +169,7 @@ def _share(control, row, work, found):
 
 
 @kernel(f"float64({_CONTROL}, float64, float64, {_FOUND}, {_CONTROL}, {_PIECE}, {_PIECE})", counts=False)
-def _bound(control, first, last, part, products, work, piece):
+def _bound(control, first, last, part, products, work, piece):  # type: ignore[no-untyped-def]
     """Return a bound of how far a curve between two parameters is from a line or arc: start, end, centre, turn.
 
     It is cut in a few parts, and wherever a piece ends.
@@ -189,7 +189,7 @@ def _bound(control, first, last, part, products, work, piece):
 
 
 @kernel(f"void({_FOUND}, int64, int64, int64, {_FOUND})")
-def _take(row, start, end, centre, part):
+def _take(row, start, end, centre, part):  # type: ignore[no-untyped-def]
     """Write the piece of a row that begins, ends and has its centre and turn from these columns on: x0, y0, x1, y1, cx,
     cy, turn. Number by number, see `geometry.kernels.enlarged`.
     """
@@ -200,7 +200,7 @@ def _take(row, start, end, centre, part):
 
 
 @kernel(f"void({_CONTROL}, {_PIECE}, {_CONTROL}, {_FOUND})")
-def bounds(control, rows, products, found):
+def bounds(control, rows, products, found):  # type: ignore[no-untyped-def]
     """Write for each row (k, COLUMNS) a bound of its distance from the span that it replaces, both ways, mm.
 
     Args:

@@ -46,7 +46,7 @@ _RIM = 1.0 - 1e-9
 
 
 @kernel(f"float64({_MANY}, int64, float64, float64, {_R}, float64)", counts=False)
-def bound(boxes, node, x, y, shape, known):
+def bound(boxes, node, x, y, shape, known):  # type: ignore[no-untyped-def]
     """Return what the tip comes down to at most over what a node holds; -inf where that is out of reach or not above
     `known`.
 
@@ -81,7 +81,7 @@ def bound(boxes, node, x, y, shape, known):
 
 
 @kernel(f"int64({_MANY}, int64, float64, float64, {_R}, float64, {_INTS}, {_R}, int64)", counts=False)
-def open_node(boxes, node, x, y, shape, known, nodes, bounds, depth):
+def open_node(boxes, node, x, y, shape, known, nodes, bounds, depth):  # type: ignore[no-untyped-def]
     """Put the children of a node that could be above `known` on the stack, the higher one last; return how deep it
     is.
     """
@@ -98,7 +98,7 @@ def open_node(boxes, node, x, y, shape, known, nodes, bounds, depth):
 
 
 @kernel(f"float64({TREE}, int64, float64, float64, {_R}, float64, float64, {DESK})", counts=False)
-def over_facet(tree, n, x, y, shape, known, fine, desk):
+def over_facet(tree, n, x, y, shape, known, fine, desk):  # type: ignore[no-untyped-def]
     """Return how low the tip comes at (x, y) over what a facet stands for; `known` where that is not less.
 
     Args:
@@ -131,7 +131,7 @@ def over_facet(tree, n, x, y, shape, known, fine, desk):
 
 
 @kernel(f"Tuple((float64, int64))({TREE}, {_R}, float64, float64, int64, float64, {DESK})", counts=False)
-def drop_one(tree, shape, x, y, whose, fine, desk):
+def drop_one(tree, shape, x, y, whose, fine, desk):  # type: ignore[no-untyped-def]
     """Return the tip's height at (x, y) and the facet that it touches, NONE and -inf where nothing is in reach.
 
     Args:
@@ -163,7 +163,7 @@ def drop_one(tree, shape, x, y, whose, fine, desk):
 
 
 @kernel(f"void({TREE}, {_R}, {_MANY}, int64, int64, int64, float64, {_R}, {_INTS})")
-def drop(tree, shape, places, first, stop, whose, fine, heights, touched):
+def drop(tree, shape, places, first, stop, whose, fine, heights, touched):  # type: ignore[no-untyped-def]
     """Drop a cutter at places first to stop - 1; `heights` and `touched` (m,) come out, see `drop_one`."""
     desk = new_desk()
     for k in range(first, stop):

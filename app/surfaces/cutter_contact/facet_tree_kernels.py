@@ -41,7 +41,7 @@ ANY = -1
 
 
 @kernel(f"{DESK}()")
-def new_desk():
+def new_desk():  # type: ignore[no-untyped-def]
     """Return arrays to work on."""
     return (
         np.empty((ROOM, COLUMNS)),
@@ -56,7 +56,7 @@ def new_desk():
 
 
 @kernel(f"void({TREE}, int64, {_MANY})", counts=False)
-def lay(tree, n, work):
+def lay(tree, n, work):  # type: ignore[no-untyped-def]
     """Lay a facet on row 1 of `work`, with nothing known of its height."""
     for c in range(9):
         work[1, c] = tree[TRIANGLES][n, c]
@@ -66,7 +66,7 @@ def lay(tree, n, work):
 
 
 @kernel(f"int64({_MANY}, int64, float64)", counts=False)
-def put_quarters(work, depth, known):
+def put_quarters(work, depth, known):  # type: ignore[no-untyped-def]
     """Put the quarters that could be above `known` on rows `depth` on, the highest last; return how far that goes."""
     for _ in range(4):
         low = QUARTERS

@@ -51,7 +51,7 @@ _AROUND = 2.5
 
 
 @kernel(f"float64({_R})", counts=False)
-def _lean(t):
+def _lean(t):  # type: ignore[no-untyped-def]
     """Return how much more a triangle (9,) is off upwards than across, at most _LEAN."""
     ux, uy, uz, vx, vy, vz = t[3] - t[0], t[4] - t[1], t[5] - t[2], t[6] - t[0], t[7] - t[1], t[8] - t[2]
     x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
@@ -60,7 +60,7 @@ def _lean(t):
 
 
 @kernel(f"UniTuple(float64, 3)({TREE}, int64, float64, float64, {_R}, float64, float64, float64, {DESK})", counts=False)
-def _refined(tree, n, x, y, shape, known, fine, care, desk):
+def _refined(tree, n, x, y, shape, known, fine, care, desk):  # type: ignore[no-untyped-def]
     """Return the tip's height over what a facet stands for, `known` where that is not less, and where it touches."""
     work = desk[WORK]
     lay(tree, n, work)
@@ -86,13 +86,13 @@ def _refined(tree, n, x, y, shape, known, fine, care, desk):
 
 
 @kernel(f"float64({TREE}, int64)", counts=False)
-def _off(tree, n):
+def _off(tree, n):  # type: ignore[no-untyped-def]
     """Return how far the tip over a facet may be from that over what it stands for."""
     return tree[ERROR][n] * _lean(tree[TRIANGLES][n]) if tree[PATCH][n] >= 0 else 0.0
 
 
 @kernel(f"int64({DESK}, int64, int64, float64)", counts=False)
-def _remember(desk, count, n, low):
+def _remember(desk, count, n, low):  # type: ignore[no-untyped-def]
     """Put a facet among those that may be touched, the highest first; return how many they are."""
     which, heights = desk[WHICH], desk[HEIGHTS]
     at = min(count, LIKELY - 1)
@@ -106,7 +106,7 @@ def _remember(desk, count, n, low):
 
 
 @kernel(f"int64({TREE}, {_R}, float64, float64, int64, float64, float64, {DESK})", counts=False)
-def _likely(tree, shape, x, y, whose, slack, known, desk):
+def _likely(tree, shape, x, y, whose, slack, known, desk):  # type: ignore[no-untyped-def]
     """Set the facets that may be touched and their own heights, the highest first; return how many."""
     boxes, triangles, nodes, bounds = tree[BOXES], tree[TRIANGLES], desk[NODES], desk[BOUNDS]
     inner = len(boxes) // 2
@@ -139,14 +139,14 @@ def _likely(tree, shape, x, y, whose, slack, known, desk):
 
 
 @kernel(f"UniTuple(float64, 2)({TREE}, int64)", counts=False)
-def _middle(tree, n):
+def _middle(tree, n):  # type: ignore[no-untyped-def]
     """Return the parameters in the middle of a facet."""
     c = tree[CORNERS][n]
     return (c[0] + c[2] + c[4]) / 3.0, (c[1] + c[3] + c[5]) / 3.0
 
 
 @kernel(f"boolean({TREE}, int64, float64, float64)", counts=False)
-def _around(tree, n, u, v):
+def _around(tree, n, u, v):  # type: ignore[no-untyped-def]
     """Return whether a facet lies round a place of its patch."""
     c, (mid_u, mid_v) = tree[CORNERS][n], _middle(tree, n)
     wide = abs(c[0] - mid_u) + abs(c[2] - mid_u) + abs(c[4] - mid_u)
@@ -155,7 +155,7 @@ def _around(tree, n, u, v):
 
 
 @kernel(f"void({TREE}, {_R}, int64, float64, float64, {_R}, {DESK})", counts=False)
-def quick_one(tree, shape, whose, slack, fine, found, desk):
+def quick_one(tree, shape, whose, slack, fine, found, desk):  # type: ignore[no-untyped-def]
     """Drop a cutter at one place.
 
     Args:

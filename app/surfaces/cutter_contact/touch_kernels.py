@@ -25,7 +25,7 @@ _INSIDE = 1.0 - 1e-9
 
 
 @kernel(f"float64({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
-def tip_over(control, patch, u, v, x, y, shape):
+def tip_over(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
     """Return how low the tip comes at (x, y) over one place of a patch; -inf where that is out of reach."""
     at_x, at_y, z = place(control, patch, u, v)
     r = length(at_x - x, at_y - y)
@@ -33,7 +33,7 @@ def tip_over(control, patch, u, v, x, y, shape):
 
 
 @kernel(f"UniTuple(float64, 2)({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
-def _off(control, patch, u, v, x, y, shape):
+def _off(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
     """Return how far, in x and y, a place is from where it would be touched."""
     ax, ay, az = place(control, patch, u, v)
     bx, by, bz = place(control, patch, u + _SLOPE_STEP, v)
@@ -49,7 +49,7 @@ def _off(control, patch, u, v, x, y, shape):
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
-def touch_within(control, patch, u, v, x, y, shape):
+def touch_within(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
     """Return the tip's height and where it touches, by Newton's method from (u, v); -inf and where it left a patch, or
     NaN.
     """
@@ -89,7 +89,7 @@ def touch_within(control, patch, u, v, x, y, shape):
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, float64, float64, float64, float64, {_R}, int64)", counts=False)
-def _on_side(control, patch, u, v, x, y, shape, side):
+def _on_side(control, patch, u, v, x, y, shape, side):  # type: ignore[no-untyped-def]
     """Return the tip's height and where it touches a side of a patch (u = 0, 1 or v = 0, 1), climbing from (u, v)."""
     at, fixed = (v, float(side)) if side < 2 else (u, float(side - 2))
     at = min(max(at, 0.0), 1.0)
@@ -136,7 +136,7 @@ def _on_side(control, patch, u, v, x, y, shape, side):
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
-def touch(control, patch, u, v, x, y, shape):
+def touch(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
     """Return the tip's height at (x, y) over a patch and the parameters of where it touches, near (u, v).
 
     -inf where Newton's method led nowhere. The height is that over a true place; another one may be higher.

@@ -73,7 +73,7 @@ NO_PROOF, NO_ROOM = -2, -1
 
 
 @kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, float64, {_R})", counts=False)
-def _onward(tree, shape, line, rules, left, s, right):
+def _onward(tree, shape, line, rules, left, s, right):  # type: ignore[no-untyped-def]
     """Set `right` to what is touched further on the patch that is touched on the left; False where that is not
     known.
     """
@@ -89,7 +89,7 @@ def _onward(tree, shape, line, rules, left, s, right):
 
 
 @kernel(f"float64({TREE}, {_R}, {_R}, {_R}, {_R})", counts=False)
-def _spare(tree, shape, rules, left, right):
+def _spare(tree, shape, rules, left, right):  # type: ignore[no-untyped-def]
     """Return how many times as long a chord on one patch could be, by how low the tip comes over the patch in its
     middle; 0: unknown.
     """
@@ -108,7 +108,7 @@ def _spare(tree, shape, rules, left, right):
 
 
 @kernel(f"int64({TREE}, {_R}, {_R}, {_MANY}, int64, int64, {DESK})", counts=False)
-def _proven(tree, shape, rules, out, first, count, desk):
+def _proven(tree, shape, rules, out, first, count, desk):  # type: ignore[no-untyped-def]
     """Return how many of the chords from a row on, all on one patch, are proven; none of them goes into other surfaces
     at all.
     """
@@ -119,7 +119,7 @@ def _proven(tree, shape, rules, out, first, count, desk):
 
 
 @kernel(f"float64({TREE}, {_R}, {_R}, float64, float64)", counts=False)
-def _low(tree, row, shape, x, y):
+def _low(tree, row, shape, x, y):  # type: ignore[no-untyped-def]
     """Return how low the tip comes at (x, y) over the place that a row touches; -inf where that place is not known."""
     if row[FACET] < 0.0 or row[U] != row[U]:
         return -math.inf
@@ -127,7 +127,7 @@ def _low(tree, row, shape, x, y):
 
 
 @kernel(f"void({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, {_MANY}, {DESK})", counts=False)
-def _stay(tree, shape, line, rules, left, right, rows, desk):
+def _stay(tree, shape, line, rules, left, right, rows, desk):  # type: ignore[no-untyped-def]
     """Where surfaces coincide, stay on the one that the path came on."""
     if left[FACET] < 0.0 or right[FACET] < 0.0 or right[NEW] != 0.0:
         return
@@ -139,7 +139,7 @@ def _stay(tree, shape, line, rules, left, right, rows, desk):
 
 
 @kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {DESK})", counts=False)
-def _missed(tree, shape, rules, row, desk):
+def _missed(tree, shape, rules, row, desk):  # type: ignore[no-untyped-def]
     """Set a row to what is touched higher there, if something was missed."""
     tip, touched = drop_one(tree, shape, row[X], row[Y], ANY, rules[FINE], desk)
     if not tip > row[Z] + rules[FINE]:
@@ -153,7 +153,7 @@ def _missed(tree, shape, rules, row, desk):
 
 
 @kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, {DESK})", counts=False)
-def _clear(tree, shape, rules, left, right, desk):
+def _clear(tree, shape, rules, left, right, desk):  # type: ignore[no-untyped-def]
     """Return whether the chord between two places is proven."""
     for c in range(3):
         desk[PLACES][0, c], desk[PLACES][1, c] = left[X + c], right[X + c]
@@ -161,7 +161,7 @@ def _clear(tree, shape, rules, left, right, desk):
 
 
 @kernel(f"float64({TREE}, {_R}, {_R}, float64, float64, {_R}, {_MANY}, {DESK})", counts=False)
-def _lowest_amid(tree, shape, rules, x, y, middle, rows, desk):
+def _lowest_amid(tree, shape, rules, x, y, middle, rows, desk):  # type: ignore[no-untyped-def]
     """Return how low the tip comes in a chord's middle (x, y); `middle` is that place as it would be written.
 
     On a steep way half a step of the grid aside is a height of many tolerances: by that height every chord would be
@@ -175,7 +175,7 @@ def _lowest_amid(tree, shape, rules, x, y, middle, rows, desk):
 
 
 @kernel(f"int64({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, {_R}, {_MANY}, {DESK})", counts=False)
-def _judge(tree, shape, line, rules, left, right, middle, rows, desk):
+def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: ignore[no-untyped-def]
     """Return what becomes of the chord between two places; `middle` is the place at which it is split."""
     span, least = right[S] - left[S], rules[LEAST]
     here, there = left[Z] > -math.inf, right[Z] > -math.inf
@@ -223,7 +223,7 @@ def _judge(tree, shape, line, rules, left, right, middle, rows, desk):
 
 
 @kernel(f"int64({_R}, {_R}, boolean, {_MANY}, int64)", counts=False)
-def _emit(left, right, corner, out, count):
+def _emit(left, right, corner, out, count):  # type: ignore[no-untyped-def]
     """Write a chord's end, and the corner of a jump before it; return how many points there are then."""
     if corner:  # up before it goes on, or on before it goes down
         copy_point(left if right[Z] > left[Z] else right, out[count])
@@ -238,7 +238,7 @@ def _emit(left, right, corner, out, count):
 
 
 @kernel(f"UniTuple(int64, 2)({_R}, {_MANY}, int64, {_MANY}, int64)", counts=False)
-def _back(left, waiting, depth, out, count):
+def _back(left, waiting, depth, out, count):  # type: ignore[no-untyped-def]
     """Where `left` has been raised, have the chord to it looked at again; return how many points there are then, and
     how many wait.
     """
@@ -259,7 +259,7 @@ def _back(left, waiting, depth, out, count):
 @kernel(
     f"Tuple((int64, float64, boolean))({TREE}, {_R}, {_R}, {_R}, float64, {_MANY}, int64, {_R}, {DESK})", counts=False
 )
-def _quickly(tree, shape, line, rules, ds, out, count, row, desk):
+def _quickly(tree, shape, line, rules, ds, out, count, row, desk):  # type: ignore[no-untyped-def]
     """Go on from the last point on its patch, by Newton's method, as far as that goes and chords are proven.
 
     Return how many points there are then, how long the next chord should be, and whether all that was proven was good.
@@ -291,7 +291,7 @@ def _quickly(tree, shape, line, rules, ds, out, count, row, desk):
     f"({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {_MANY}, int64, {_MANY}, {_MANY}, {DESK})",
     counts=False,
 )
-def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, rows, desk):
+def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, rows, desk):  # type: ignore[no-untyped-def]
     """Go on by so many chords at most from `left`, which goes along; return how many points there are then, or why it
     ends, and `ds`.
 
@@ -339,7 +339,7 @@ def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, r
 
 
 @kernel(f"int64({TREE}, {_R}, {_R}, {_R}, {_MANY})")
-def follow(tree, shape, line, rules, out):
+def follow(tree, shape, line, rules, out):  # type: ignore[no-untyped-def]
     """Follow surfaces along a line; return how many points there are, NO_ROOM in `out` for them, or NO_PROOF of a
     chord.
 

@@ -37,7 +37,7 @@ FOUND, PAIR, OTHER = 0, 1, 3
 
 
 @kernel(f"float64({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {DESK})", counts=False)
-def _tip(tree, shape, line, rules, s, whose, found, desk):
+def _tip(tree, shape, line, rules, s, whose, found, desk):  # type: ignore[no-untyped-def]
     """Return the tip's height over one surface, at a place that is not rounded."""
     found[0], found[1] = line[0] + s * line[2], line[1] + s * line[3]
     quick_one(tree, shape, whose, rules[SLACK], _FINEST, found, desk)
@@ -45,7 +45,7 @@ def _tip(tree, shape, line, rules, s, whose, found, desk):
 
 
 @kernel(f"UniTuple(float64, 3)({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, float64, {_MANY}, {DESK})", counts=False)
-def _balance(tree, shape, line, rules, left, right, beyond, pair, desk):
+def _balance(tree, shape, line, rules, left, right, beyond, pair, desk):  # type: ignore[no-untyped-def]
     """Return where the tip is as high over the surface on the left as over that on the right, and both heights; NaN if
     nowhere.
 
@@ -86,7 +86,7 @@ def _balance(tree, shape, line, rules, left, right, beyond, pair, desk):
 
 
 @kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, float64, {_R}, {_MANY}, {DESK})", counts=False)
-def meet(tree, shape, line, rules, left, right, beyond, middle, rows, desk):
+def meet(tree, shape, line, rules, left, right, beyond, middle, rows, desk):  # type: ignore[no-untyped-def]
     """Set `middle` to the boundary point between two places, or so far beyond them; False if there is none."""
     pair = rows[PAIR : PAIR + 2, :6]
     s, a, b = _balance(tree, shape, line, rules, left, right, beyond, rows[PAIR : PAIR + 2], desk)
@@ -104,7 +104,7 @@ def meet(tree, shape, line, rules, left, right, beyond, middle, rows, desk):
 
 
 @kernel(f"void({_R}, {_R})", counts=False)
-def mark(middle, right):
+def mark(middle, right):  # type: ignore[no-untyped-def]
     """Make `right` a boundary point so near to it that no other point is made for it; it is written where it was."""
     for c in range(FACET, COLUMNS):
         right[c] = middle[c]

@@ -28,7 +28,7 @@ COLUMNS = 5
 
 
 @kernel(f"float64({_MANY}, int64, int64, float64, float64, float64)", counts=False)
-def _near_path(rows, n, step, most, found, enough):
+def _near_path(rows, n, step, most, found, enough):  # type: ignore[no-untyped-def]
     """Return how much higher than point n a place straight above it may be for the path to be within `most`, as far as
     one side of the path tells.
 
@@ -54,7 +54,7 @@ def _near_path(rows, n, step, most, found, enough):
 
 
 @kernel(f"void({_MANY}, float64)")
-def give_room(rows, most):
+def give_room(rows, most):  # type: ignore[no-untyped-def]
     """Set how much higher each point may be, straight up, for `most` square to both chords that meet there; 0 of fixed
     ones.
 
@@ -73,7 +73,7 @@ def give_room(rows, most):
 
 
 @kernel(f"int64({_MANY}, int64, int64, float64, {_R})", counts=False)
-def _chord(rows, first, last, z, found):
+def _chord(rows, first, last, z, found):  # type: ignore[no-untyped-def]
     """Return the farthest point that a chord from height z over a point reaches, `last` at most; `found`: its height
     there.
     """
@@ -92,7 +92,7 @@ def _chord(rows, first, last, z, found):
 
 
 @kernel(f"int64({_MANY}, float64, {_INTS}, {_R})")
-def thin(rows, grid, kept, heights):
+def thin(rows, grid, kept, heights):  # type: ignore[no-untyped-def]
     """Set which points are kept and how high they are then; return how many.
 
     Args:

@@ -36,7 +36,7 @@ _ROOTS = 80
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, {_MANY}, int64, {_R}, float64)", counts=False)
-def over(control, patch, pieces, k, plane, s):
+def over(control, patch, pieces, k, plane, s):  # type: ignore[no-untyped-def]
     """Return height and parameters of a piece of a section curve at a place along the plane (its place and direction,
     4).
     """
@@ -72,7 +72,7 @@ def over(control, patch, pieces, k, plane, s):
 
 
 @kernel(f"int64({_R}, {_INTS}, int64, {_INTS}, int64)", counts=False)
-def _highest(heights, chosen, count, owner, current):
+def _highest(heights, chosen, count, owner, current):  # type: ignore[no-untyped-def]
     """Return which of some pieces is topmost: of equally high ones that of the current surface, else of the first
     one.
     """
@@ -90,7 +90,7 @@ def _highest(heights, chosen, count, owner, current):
 
 
 @kernel(f"UniTuple(float64, 3)({_MANY}, int64, float64, float64)", counts=False)
-def _chord(pieces, k, a, b):
+def _chord(pieces, k, a, b):  # type: ignore[no-untyped-def]
     """Return the heights of a piece's chord at two places, and how far off it the piece may be there."""
     slope = (pieces[k, Z1] - pieces[k, Z0]) / (pieces[k, S1] - pieces[k, S0])
     off = 2.0 * pieces[k, ERROR] * math.sqrt(1.0 + slope * slope)
@@ -98,7 +98,7 @@ def _chord(pieces, k, a, b):
 
 
 @kernel(f"UniTuple(int64, 2)({_MANY}, float64, float64, {_INTS}, int64, {_INTS})", counts=False)
-def _candidates(pieces, a, b, active, actives, chosen):
+def _candidates(pieces, a, b, active, actives, chosen):  # type: ignore[no-untyped-def]
     """Forget pieces that end before a; choose those that could be topmost from a to b; return how many are active, and
     chosen.
     """
@@ -120,14 +120,14 @@ def _candidates(pieces, a, b, active, actives, chosen):
 
 
 @kernel(f"void({_NETS}, {_MANY}, {_INTS}, {_R}, {_INTS}, int64, float64, {_R})", counts=False)
-def _rise(control, pieces, patch, plane, chosen, count, s, heights):
+def _rise(control, pieces, patch, plane, chosen, count, s, heights):  # type: ignore[no-untyped-def]
     """Set the heights of the chosen pieces at a place."""
     for n in range(count):
         heights[n] = over(control, patch[chosen[n]], pieces, chosen[n], plane, s)[0]
 
 
 @kernel(f"float64({_MANY}, {_INTS}, int64, {_INTS}, int64, int64, float64, float64)", counts=False)
-def _hidden(heights, chosen, count, owner, first, stop, a, b):
+def _hidden(heights, chosen, count, owner, first, stop, a, b):  # type: ignore[no-untyped-def]
     """Return where another surface could come up between a and b and go down again, by parabolas; NaN if nowhere."""
     split, mine = math.nan, owner[chosen[first]]
     middle = 0
@@ -145,7 +145,7 @@ def _hidden(heights, chosen, count, owner, first, stop, a, b):
 
 
 @kernel(f"float64({_NETS}, {_MANY}, {_INTS}, {_R}, int64, int64, float64, float64, float64, float64)", counts=False)
-def _equal(control, pieces, patch, plane, i, j, low, high, at_low, at_high):
+def _equal(control, pieces, patch, plane, i, j, low, high, at_low, at_high):  # type: ignore[no-untyped-def]
     """Return where two pieces are equally high; at_low, at_high: how far i is above j at both ends."""
     at = low if at_low <= 0.0 else high
     if at_low <= 0.0 or at_high >= 0.0:
@@ -163,7 +163,7 @@ def _equal(control, pieces, patch, plane, i, j, low, high, at_low, at_high):
 
 
 @kernel(f"boolean({_NETS}, {_MANY}, {_INTS}, {_R}, {_INTS}, int64, int64, int64, float64)", counts=False)
-def _covered(control, pieces, patch, plane, chosen, count, i, j, s):
+def _covered(control, pieces, patch, plane, chosen, count, i, j, s):  # type: ignore[no-untyped-def]
     """Return whether a third piece is above both where two meet."""
     both = max(over(control, patch[i], pieces, i, plane, s)[0], over(control, patch[j], pieces, j, plane, s)[0])
     highest = both
@@ -173,7 +173,7 @@ def _covered(control, pieces, patch, plane, chosen, count, i, j, s):
 
 
 @kernel(f"boolean({_MANY}, {_INTS}, int64, float64, float64)", counts=False)
-def _ends(pieces, owner, number, s, z):
+def _ends(pieces, owner, number, s, z):  # type: ignore[no-untyped-def]
     """Return whether the section of a surface ends at a place: one of its pieces does, and no other goes on or back
     from there.
     """
@@ -189,7 +189,7 @@ def _ends(pieces, owner, number, s, z):
     f"void({_NETS}, {_MANY}, {_INTS}, {_INTS}, {_R}, int64, int64, float64, float64, int64, {_MANY}, {_R})",
     counts=False,
 )
-def _mark(control, pieces, patch, owner, plane, i, j, start, stop, kind, marks, state):
+def _mark(control, pieces, patch, owner, plane, i, j, start, stop, kind, marks, state):  # type: ignore[no-untyped-def]
     """Write a mark between pieces: i until `start`, j from `stop`."""
     mark = marks[int(state[MARKED])]
     before, after = over(control, patch[i], pieces, i, plane, stop), over(control, patch[j], pieces, j, plane, stop)
@@ -206,7 +206,7 @@ def _mark(control, pieces, patch, owner, plane, i, j, start, stop, kind, marks, 
 
 
 @kernel(f"void({_NETS}, {_MANY}, {_INTS}, {_INTS}, {_R}, int64, float64, {_MANY}, {_MANY}, {_R})", counts=False)
-def _change(control, pieces, patch, owner, plane, i, a, spans, marks, state):
+def _change(control, pieces, patch, owner, plane, i, a, spans, marks, state):  # type: ignore[no-untyped-def]
     """Where piece i begins to be topmost, and the one before it, of another surface, came as far as that: mark it."""
     count = int(state[COUNT])
     if state[CURRENT] < 0.0 or count == 0 or state[CURRENT] == owner[i] or spans[count - 1, TO] < a - _SHORT:
@@ -225,7 +225,7 @@ def _change(control, pieces, patch, owner, plane, i, a, spans, marks, state):
 
 
 @kernel(f"void({_MANY}, {_INTS}, int64, {_INTS}, int64, float64, float64, {_R})", counts=False)
-def _tie(heights, chosen, count, owner, first, a, at, state):
+def _tie(heights, chosen, count, owner, first, a, at, state):  # type: ignore[no-untyped-def]
     """Remember how far another surface has been lying on the topmost one."""
     tie = -1
     for n in range(count):
@@ -238,7 +238,7 @@ def _tie(heights, chosen, count, owner, first, a, at, state):
 
 
 @kernel(f"void({_MANY}, int64, float64, float64, {_R})", counts=False)
-def _span(spans, i, a, b, state):
+def _span(spans, i, a, b, state):  # type: ignore[no-untyped-def]
     """Write that piece i is topmost from a to b."""
     if b - a <= _SHORT:
         return
@@ -255,7 +255,9 @@ def _span(spans, i, a, b, state):
     f"{_MANY}, {_R})",
     counts=False,
 )
-def _stretch(control, pieces, patch, owner, plane, chosen, count, a, b, splits, heights, spans, marks, state):
+def _stretch(  # type: ignore[no-untyped-def]
+    control, pieces, patch, owner, plane, chosen, count, a, b, splits, heights, spans, marks, state
+):
     """Write what is topmost from a to b; or return where that stretch must be split to know, if it may be; else NaN."""
     one = True
     for n in range(1, count):
@@ -309,7 +311,7 @@ def _stretch(control, pieces, patch, owner, plane, chosen, count, a, b, splits, 
 
 
 @kernel(f"UniTuple(int64, 2)({_MANY}, {_INTS}, {_INTS}, {_NETS}, {_R}, {_MANY}, {_MANY})")
-def envelope(pieces, patch, owner, control, plane, spans, marks):
+def envelope(pieces, patch, owner, control, plane, spans, marks):  # type: ignore[no-untyped-def]
     """Set the spans of the topmost along a plane and the marks where surfaces change; return how many of both, -1 for
     no room.
 

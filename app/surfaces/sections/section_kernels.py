@@ -19,13 +19,13 @@ _TIMES = 60
 
 
 @kernel(f"float64({_R}, float64, float64)", counts=False)
-def _off(plane, x, y):
+def _off(plane, x, y):  # type: ignore[no-untyped-def]
     """Return how far a place is to the left of a plane, given by a place of it (2) and its direction (2)."""
     return (y - plane[1]) * plane[2] - (x - plane[0]) * plane[3]
 
 
 @kernel(f"UniTuple(float64, 4)({_NETS}, int64, {_R}, {_MANY}, int64, int64, int64, float64, float64)", counts=False)
-def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):
+def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):  # type: ignore[no-untyped-def]
     """Return where a plane crosses what edge a b of a facet stands for: along the plane, height, parameters."""
     if off_a == 0.0:
         b, off_b = a, 1.0
@@ -61,7 +61,7 @@ def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):
 
 
 @kernel(f"boolean({_NETS}, int64, {_R}, {_MANY}, int64, {_R}, {_R})", counts=False)
-def _piece(control, patch, plane, work, row, off, piece):
+def _piece(control, patch, plane, work, row, off, piece):  # type: ignore[no-untyped-def]
     """Set the piece at which a plane cuts a facet; False where all of it lies in the plane, or it is met at a corner.
 
     Args:
@@ -88,7 +88,9 @@ def _piece(control, patch, plane, work, row, off, piece):
     f"int64({_MANY}, {_MANY}, {_INTS}, {_R}, {_NETS}, {_INTS}, {_MANY}, {_INTS}, float64, int64, int64, {_MANY}, "
     f"{_INTS})"
 )
-def pieces(triangles, corners, patch, error, control, facet, planes, plane, near, first, stop, out, source):
+def pieces(  # type: ignore[no-untyped-def]
+    triangles, corners, patch, error, control, facet, planes, plane, near, first, stop, out, source
+):
     """Cut pairs first to stop - 1 of facets and planes; return how many pieces that makes, more than there is room for
     if so.
 
@@ -138,7 +140,7 @@ def pieces(triangles, corners, patch, error, control, facet, planes, plane, near
 
 
 @kernel(f"int64({_R}, {_R}, {_INTS}, float64, {_INTS}, {_INTS})", counts=False)
-def _nodes(along, up, order, same, node, following):
+def _nodes(along, up, order, same, node, following):  # type: ignore[no-untyped-def]
     """Set the node of each of m ends, and the end after it at the same node; return how many nodes there are.
 
     Args:
@@ -159,7 +161,7 @@ def _nodes(along, up, order, same, node, following):
 
 
 @kernel(f"int64({_R}, {_R}, {_INTS}, float64, {_INTS}, {_INTS})")
-def chains(along, up, order, same, out, starts):
+def chains(along, up, order, same, out, starts):  # type: ignore[no-untyped-def]
     """Join m pieces whose ends meet; return how many chains that makes.
 
     Args:

@@ -23,7 +23,7 @@ _DARKEST = 0.62
 
 
 @kernel(f"UniTuple(float64, 3)(float64, float64, float64, {_R})")
-def seen(x, y, z, frame):
+def seen(x, y, z, frame):  # type: ignore[no-untyped-def]
     """Return px from the left, px from the top, mm towards the eye."""
     x, y, z = x - frame[TARGET], y - frame[TARGET + 1], z - frame[TARGET + 2]
     across = frame[0] * x + frame[1] * y + frame[2] * z
@@ -33,7 +33,7 @@ def seen(x, y, z, frame):
 
 
 @kernel(f"float64({_TRIANGLES}, int64, {_R})")
-def _shade(triangles, n, frame):
+def _shade(triangles, n, frame):  # type: ignore[no-untyped-def]
     """Return how light a triangle is, from a light over the viewer's shoulder; both sides alike."""
     t = triangles[n]
     ux, uy, uz = t[1, 0] - t[0, 0], t[1, 1] - t[0, 1], t[1, 2] - t[0, 2]
@@ -50,7 +50,7 @@ def _shade(triangles, n, frame):
 
 
 @kernel(f"void({_TRIANGLES}, int64[::1], boolean[::1], {_R}, {_DEPTHS}, {_OWNERS}, {_LIGHTS})")
-def fill(triangles, owner, shown, frame, depths, owners, lights):
+def fill(triangles, owner, shown, frame, depths, owners, lights):  # type: ignore[no-untyped-def]
     """Draw triangles (n, 3, 3), each pixel that of the nearest.
 
     Args:
@@ -86,7 +86,7 @@ def fill(triangles, owner, shown, frame, depths, owners, lights):
 
 
 @kernel(f"void({_DEPTHS}, {_OWNERS}, {_LIGHTS}, {_POINTS}, float64, {_DEPTHS}, {_OWNERS}, {_PIXELS})")
-def tint(fine_depths, fine_owners, lights, inks, strength, depths, owners, image):
+def tint(fine_depths, fine_owners, lights, inks, strength, depths, owners, image):  # type: ignore[no-untyped-def]
     """Lay the colours of owners over a picture, each pixel the mean of its samples, so that outlines have no stairs.
 
     The light darkens what the colour and the picture mix to: so a shaded place keeps its hue.
@@ -131,7 +131,7 @@ def tint(fine_depths, fine_owners, lights, inks, strength, depths, owners, image
 
 
 @kernel(f"void(float64, float64, float64, float64, float64, float64, float64, {_R}, {_DEPTHS}, {_PIXELS})")
-def _stroke(ax, ay, az, bx, by, bz, along, pen, depths, image):
+def _stroke(ax, ay, az, bx, by, bz, along, pen, depths, image):  # type: ignore[no-untyped-def]
     """Draw one straight piece with soft edges; `along`: px from the line's beginning to the piece's."""
     high, wide = depths.shape
     half = 0.5 * pen[WIDTH]
@@ -164,7 +164,7 @@ def _stroke(ax, ay, az, bx, by, bz, along, pen, depths, image):
 
 
 @kernel(f"int64({_POINTS}, boolean[::1], {_R}, {_R}, {_DEPTHS}, {_PIXELS})")
-def draw_lines(points, joined, frame, pen, depths, image):
+def draw_lines(points, joined, frame, pen, depths, image):  # type: ignore[no-untyped-def]
     """Draw lines over a picture; return how many straight pieces that took.
 
     Args:
