@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...core.wording import counted, place_mm, together
+from ...core.wording import place_mm, together
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
 from .strokes import BroadOutline
@@ -32,7 +32,7 @@ def paint_findings(content: SvgContent) -> Iterator[Finding]:
 def _unfollowed(content: SvgContent) -> Iterator[Finding]:
     count = content.unfollowed.total()
     if count:
-        what = counted(count, "element is", "elements are")
+        what = "1 element is" if count == 1 else f"{count} elements are"
         yield Finding(
             FindingKind.LEFT_OUT,
             f"{what} moved or formed by {together(sorted(content.unfollowed))}, which is not followed, so that the "
@@ -43,7 +43,7 @@ def _unfollowed(content: SvgContent) -> Iterator[Finding]:
 
 def _within(content: SvgContent) -> Iterator[Finding]:
     if content.within:
-        what = counted(content.within, "outline lies", "outlines lie")
+        what = "1 outline lies" if content.within == 1 else f"{content.within} outlines lie"
         yield remark(
             f"{what} within the area that the path paints (fill-rule: nonzero) and cannot be seen; left out.",
             float(content.within),
@@ -75,12 +75,13 @@ def _details(content: SvgContent) -> Iterator[Finding]:
     )
     for count, what in told:
         if count:
-            yield remark(f"{counted(count, 'shape has', 'shapes have')} {what}.", float(count))
+            who = "1 shape has" if count == 1 else f"{count} shapes have"
+            yield remark(f"{who} {what}.", float(count))
 
 
 def _faults(content: SvgContent) -> Iterator[Finding]:
     if content.faults:
-        what = counted(len(content.faults), "shape has", "shapes have")
+        what = "1 shape has" if len(content.faults) == 1 else f"{len(content.faults)} shapes have"
         first = next((fault for fault in content.faults if fault.what), content.faults[0])
         why = f" ({first.what})" if first.what else ""
         text = (
@@ -94,7 +95,7 @@ def _unread(content: SvgContent) -> Iterator[Finding]:
     """Name shapes that are missing since a length of theirs cannot be read."""
     if content.unread:
         first, count = content.unread[0], len(content.unread)
-        what = counted(count, "shape is", "shapes are")
+        what = "1 shape is" if count == 1 else f"{count} shapes are"
         where = "in" if count == 1 else "the first in"
         yield Finding(
             FindingKind.LEFT_OUT,
@@ -107,7 +108,7 @@ def _unread(content: SvgContent) -> Iterator[Finding]:
 def _of_fonts(content: SvgContent) -> Iterator[Finding]:
     """Say that lengths were read that depend on a font."""
     if content.of_font:
-        what = counted(content.of_font, "shape has", "shapes have")
+        what = "1 shape has" if content.of_font == 1 else f"{content.of_font} shapes have"
         yield remark(
             f"{what} lengths in ex or ch, which depend on a font; half of the height of the letters is taken. "
             "Measure one of them, or write them in mm.",
@@ -118,7 +119,7 @@ def _of_fonts(content: SvgContent) -> Iterator[Finding]:
 def _clipped(content: SvgContent) -> Iterator[Finding]:
     if content.clipped:
         yield remark(
-            f"{counted(content.clipped, 'curve is', 'curves are')} clipped or masked in the "
+            f"{content.clipped} {'curve is' if content.clipped == 1 else 'curves are'} clipped or masked in the "
             "drawing; all of it is read.",
             float(content.clipped),
         )
@@ -128,7 +129,7 @@ def _unread_rules(content: SvgContent) -> Iterator[Finding]:
     if content.unread_rules:
         count, first = len(content.unread_rules), content.unread_rules[0][:60]
         yield remark(
-            f"{counted(count, 'rule')} of the style sheet cannot be followed, the first for "
+            f"{count} {'rule' if count == 1 else 'rules'} of the style sheet cannot be followed, the first for "
             f"{first}; check that nothing hidden is read.",
             float(count),
         )
