@@ -52,11 +52,19 @@ class PartTarget:
         target: heights.
         reach: (rows, cols) where some tool that cuts gets down to the part; of a solid, of what is left.
         solid: the part, if it is one closed surface, and so can be asked how deep places lie in it.
+        standing: (rows, cols) how high metal stands over what some tool surely gets down to, mm, where no tool gets
+            down to the part; None: nothing is known of that.
     """
 
     target: TargetHeights
     reach: Mask
     solid: SolidPart | None = None
+    standing: Heights | None = None
+
+    def out_of_reach(self, left: Mask, tolerance: float) -> Mask:
+        """Return where what is left stands no higher than the tools leave it at best."""
+        beyond = left & ~self.reach
+        return beyond if self.standing is None else beyond & ~(self.standing > tolerance)
 
 
 def part_target(
@@ -73,23 +81,27 @@ def part_target(
         Cancelled: the job was asked to stop.
     """
     grid = cut.before.grid
-    solid = part if isinstance(part, SolidPart) and part.block is None else None
     if isinstance(part, FlatPart):
         flat = flat_target(part, grid)
-        target, reach = flat.target, flat.reach
-    else:
-        target = solid_target(part.solid, grid, part.leave, progress)
-        target = replace(target, high=target.high + _upright(target, part.allowance))
-        left = target.deviation(cut.heights) > part.tolerance
-        reach = ~left
-        if left.any() and cutters:
-            lowest = reach_of(part.solid, part.leave, stock.box, cutters, progress)
-            *heights, over_part = lowest.over(grid)
-            sure, possible = (height <= target.high + np.float32(part.tolerance) for height in heights)
-            reach |= reachable(
-                left, sure, possible, over_part <= part.tolerance, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch))
-            )
-    return PartTarget(replace(target, low=np.minimum(target.low, cut.before.heights)), reach, solid)
+        return PartTarget(_where_metal_was(flat.target, cut), flat.reach)
+    solid = part if part.block is None else None
+    exact = solid_target(part.solid, grid, part.leave, progress)
+    allowance = _upright(exact, part.allowance)
+    target = replace(exact, high=exact.high + allowance)
+    left = target.deviation(cut.heights) > part.tolerance
+    if not (left.any() and cutters):
+        return PartTarget(_where_metal_was(target, cut), ~left, solid)
+    lowest = reach_of(part.solid, part.leave, stock.box, cutters, progress)
+    *heights, over_part = lowest.over(grid)
+    sure, possible = (height <= target.high + np.float32(part.tolerance) for height in heights)
+    wide = max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch))
+    reach = ~left | reachable(left, sure, possible, over_part <= part.tolerance, wide)
+    return PartTarget(_where_metal_was(target, cut), reach, solid, cut.heights - heights[0] - allowance)
+
+
+def _where_metal_was(target: TargetHeights, cut: CutResult) -> TargetHeights:
+    """Return a target that is no higher than the metal was: what was not there is not gouged."""
+    return replace(target, low=np.minimum(target.low, cut.before.heights))
 
 
 def _upright(target: TargetHeights, allowance: float) -> NDArray[np.float32]:
@@ -148,7 +160,7 @@ def judge(judging: JudgementInput, certificate: Certificate | None, progress: Pr
     part, tolerance = judging.part, judging.part.tolerance
     deviation = judging.part_target.target.deviation(judging.cut.heights)
     left = deviation > tolerance
-    unreachable = left & ~judging.part_target.reach
+    unreachable = judging.part_target.out_of_reach(left, tolerance)
     gouges, gouged = _gouges(judging, deviation, progress)
     gouge = _worst(judging, gouges, gouged)
     masks = {SpotKind.LEFT: left & ~unreachable, SpotKind.UNREACHABLE: unreachable}
@@ -160,7 +172,9 @@ def judge(judging: JudgementInput, certificate: Certificate | None, progress: Pr
     else:
         cell = judging.grid.pitch**2
         reachable_mm2, unreachable_mm2 = (float(np.count_nonzero(mask)) * cell for mask in masks.values())
-        found = {kind: places_of(mask, deviation, judging.grid) for kind, mask in masks.items()}
+        found = {
+            kind: places_of(mask, height, judging.grid) for kind, mask, height in _standing(judging, masks, deviation)
+        }
         left_spots = [_left(judging, place, kind) for kind, (places, _) in found.items() for place in places]
         counts = {kind: count for kind, (_, count) in found.items()}
     discs = (spot.disc_mm for spot in left_spots if spot.kind is SpotKind.UNREACHABLE)
@@ -252,6 +266,18 @@ def _worst(judging: JudgementInput, spots: tuple[Spot, ...], gouged: int) -> Gou
     k = int(np.argmax(depths.depth))
     x, y, z = (depths.places[k] - np.array(part.origin)).tolist()
     return Gouge(float(depths.depth[k]), x, y, z, int(depths.move[k]), 0)
+
+
+def _standing(
+    judging: JudgementInput, masks: Mapping[SpotKind, Mask], deviation: NDArray[np.float32]
+) -> Iterator[tuple[SpotKind, Mask, NDArray[np.float32]]]:
+    """Yield each kind of what is left with how high it stands: over the part, and within reach where no tool gets down
+    to that over what tools leave at best.
+    """
+    target = judging.part_target
+    over = deviation if target.standing is None else np.where(target.reach, deviation, target.standing)
+    yield SpotKind.LEFT, masks[SpotKind.LEFT], over
+    yield SpotKind.UNREACHABLE, masks[SpotKind.UNREACHABLE], deviation
 
 
 def _left(judging: JudgementInput, place: CellPlace, kind: SpotKind) -> Spot:

@@ -38,7 +38,7 @@ shape = {shape}
 {place}
 [[passes]]
 tool = 1
-pitch = {pitch}
+{apart} = {pitch}
 {passes}
 """
 MESH = '{ kind = "mesh", file = "part.stl" }'
@@ -50,7 +50,7 @@ def told(folder: Path, triangles: np.ndarray | None = None, **given: object) -> 
     """Return the exit status and the report of `surface` on a scene."""
     if triangles is not None:
         (folder / "part.stl").write_bytes(stl(triangles))
-    words = {"stock": BLOCK, "shape": MESH, "place": "", "pitch": 4, "passes": "", "tool": ""} | given
+    words = {"stock": BLOCK, "shape": MESH, "place": "", "apart": "pitch", "pitch": 4, "passes": "", "tool": ""} | given
     (folder / "s.toml").write_text(SCENE.format(**words))
     status = main(
         ["surface", str(folder / "s.toml"), "-o", str(folder / "s.ngc"), "--report", str(folder / "r.json"), "--quiet"]

@@ -257,3 +257,53 @@ def test_what_cut_says_is_within_reach_agrees_with_an_independent_closing(tmp_pa
     least, most = (of.area(standing > height) for height in (0.045, 0.005))
     assert said["unreachable_mm2"] <= 1.1 * beyond + 4
     assert 0.9 * (least - beyond) - 4 <= said["reachable_mm2"] <= 1.1 * most + 4
+
+
+def valley(bottom: float) -> np.ndarray:
+    """Triangles of two planes of 60 degrees, wider than a stock of 20 mm, that meet at y = bottom, at height -20."""
+    across = np.array([-8.0, bottom, 28.0])
+    rise = lambda x, y: math.sqrt(3.0) * np.abs(y - bottom) - 20  # noqa: E731
+    return meshed(rise, np.array([-8.0, 28.0]), across)
+
+
+@pytest.mark.parametrize(("degrees", "missed"), [(3, 0.084), (90, 0.0)])
+def test_what_passes_nearly_along_a_valley_miss_of_its_bottom_is_left(
+    tmp_path: Path, degrees: int, missed: float
+) -> None:
+    """Ridges of 0.002 mm are asked for: on sides of 60 degrees passes lie 0.1095 mm apart.
+
+    The ball touches both sides at one place across, its centre 2 R over the bottom. A pass d beside it stands
+    d tan 60 higher, and leaves that much of the bottom. Passes at 3 degrees cross the bottom every 2.1 mm: between two
+    crossings they are d = 0.0547 mm off, where the ball on its way down the valley takes a little of the 0.095 mm.
+    Passes across miss nothing.
+    """
+    _, report = told(
+        tmp_path,
+        valley(10.03),
+        apart="scallop",
+        pitch=0.002,
+        stock="box = [0, 0, -22, 20, 20, -2]",
+        passes=f"angle_deg = {degrees}",
+    )
+    found = report["left"]
+    assert bool(left(report)) == bool(missed)
+    assert found["worst_mm"] == pytest.approx(missed, abs=0.025)
+    # all of the foot, 5.2 mm wide, but round the places where passes cross: 50 mm2 by the closed form
+    assert (20.0 if missed else 0.0) <= found["reachable_mm2"] <= 58.0 * bool(missed)
+
+
+def test_cut_tells_metal_in_a_valley_that_stands_over_what_the_tool_leaves_at_best(tmp_path: Path) -> None:
+    """Where the ball does not get down to the sides, within 2.6 mm of the bottom, it is still to cut as low as it can.
+
+    Passes 3 mm apart at 3 degrees cross the bottom every 57 mm, so here once; 1.2 mm beside it they leave
+    1.2 tan 60 = 2.1 mm of it.
+    """
+    passes, stock = "angle_deg = 3", "box = [0, 0, -22, 20, 20, -2]"
+    told(tmp_path, valley(10.03), pitch=3, stock=stock, passes=passes)
+    report = tmp_path / "cut.json"
+    given = [str(tmp_path / "s.ngc"), "--against", str(tmp_path / "s.toml"), "--report", str(report)]
+    main(["cut", *given, "--grid", "200", "--window", "0,9,20,11", "--quiet"])
+    found = json.loads(report.read_text())
+    assert found["left"]["reachable_mm2"] + found["left"]["unreachable_mm2"] == pytest.approx(40.0)
+    assert 30.0 < found["left"]["reachable_mm2"] < 38.0
+    assert found["worst"][0]["kind"] == "left" and found["worst"][0]["depth_mm"] == pytest.approx(2.1, abs=0.2)

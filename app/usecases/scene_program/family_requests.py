@@ -4,13 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 import shapely.affinity
+from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...simulation.cutter import cutter_of
 from ...simulation.field.workpiece import Workpiece
+from ...surfaces.cutter_contact.drop_cutter import drop
 from ..scene.compute import ComputedFamily, ComputedScene
+from .corner_reach import TipHeights
 from .left import FamilyRequest, SceneLeft, left_of
 from .reach import FamilyReach
+
+Floats = NDArray[np.float64]
+
+
+TIP_ERROR = 1e-3
+"""How near to the surfaces a tool is dropped to look at corners, mm: a hundredth of the smallest ridge that is told."""
 
 
 def left_in(computed: ComputedScene, workpiece: Workpiece, progress: Progress = NO_PROGRESS) -> SceneLeft:
@@ -36,7 +45,26 @@ def _asked(computed: ComputedScene, family: ComputedFamily) -> FamilyRequest:
     requested = FamilyReach(cutter_of(tool), passes.stock_to_leave, floor - z, area)
     spacing = _spacing(family)
     short = passes.overrun is not None and passes.overrun < tool.radius
-    return FamilyRequest(requested, family.planes.angle, spacing, passes.scallop, passes.chord_tolerance, short)
+    return FamilyRequest(
+        requested,
+        family.planes.angle,
+        spacing,
+        passes.scallop,
+        passes.chord_tolerance,
+        short,
+        _tips(computed, family),
+    )
+
+
+def _tips(computed: ComputedScene, family: ComputedFamily) -> TipHeights:
+    """Return how low a family's cutter comes over the surfaces, program coordinates."""
+    origin = np.array(computed.origin)
+
+    def heights(places: Floats) -> Floats:
+        dropped = drop(computed.facets.facets, family.tool, places + origin[:2], TIP_ERROR)
+        return np.asarray(dropped.height - origin[2])
+
+    return heights
 
 
 def closest_passes(computed: ComputedScene) -> float:

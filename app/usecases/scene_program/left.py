@@ -19,7 +19,8 @@ from ...model.finding import Finding, FindingKind
 from ...simulation.field.workpiece import Grid, Workpiece
 from ...verify.judgement import places_of
 from ...verify.parts import TOLERANCE
-from .reach import FamilyReach, Floats, Heights, SurfaceGrid, reached, slopes
+from .corner_reach import CornerReach, TipHeights, corner_reach
+from .reach import FamilyReach, Floats, Heights, SurfaceGrid, TipGrid, slopes, tip_heights
 from .ridges import MOST, ridges
 
 Mask = NDArray[np.bool_]
@@ -35,6 +36,12 @@ it.
 STEEPEST = 10.0
 """mm per mm; on steeper places the cells say no less."""
 
+SIDE = 2.0
+"""mm per mm: of the sides of corners that are looked at closely."""
+
+MOST_PLACES = 4_000
+"""Places in corners that are looked at closely, those first where cells see most metal; of others cells alone tell."""
+
 CELLS_WIDE = 2
 """Cells that a place is wide at least: how far a wall between cells may seem to be from where it is."""
 
@@ -49,6 +56,7 @@ class FamilyRequest:
         ridge: height that is asked for, mm; None: what the spacing leaves.
         chord: how far its path may lie above the surfaces, mm.
         overrun: whether it is kept from going on beside the surfaces as far as it touches them.
+        tips: its cutter over the surfaces, for a closer look at corners; None: cells alone tell.
     """
 
     requested: FamilyReach
@@ -57,6 +65,12 @@ class FamilyRequest:
     ridge: float | None
     chord: float
     overrun: bool = False
+    tips: TipHeights | None = None
+
+    @property
+    def most(self) -> float:
+        """How high ridges may stand at all, square to what is cut, mm."""
+        return max(MOST * self.requested.cutter.radius, BENT * _level(self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,12 +132,14 @@ def left_of(
     grid = workpiece.grid
     sheet = SurfaceGrid.of(triangles, grid)
     on = np.isfinite(sheet.heights)
-    allowed, low = _allowed(sheet, triangles, error, requested, progress)
+    tips = _tips(triangles, grid, requested, progress)
+    allowed, low = _allowed(sheet, error, requested, tips)
     over = np.where(on & np.isfinite(low), workpiece.heights - np.where(np.isfinite(low), low, 0.0), 0.0).astype(
         np.float32
     )
     with np.errstate(invalid="ignore"):
         mask = _wide(over > allowed)
+    over, mask = _closer(workpiece, sheet, (over, mask, low), error, list(zip(requested, tips, strict=True)))
     found, count = places_of(mask, over, grid)
     ridge = _ridge(sheet, over, mask, low, requested)
     within = min((_level(each) * BENT + each.chord for each in requested), default=0.0) + TOLERANCE + error
@@ -137,27 +153,93 @@ def left_of(
     return SceneLeft(area, count, found[0].worst, found[0].disc_mm, x, y, ridge, within, grid.pitch, rim, short)
 
 
-def _allowed(
-    area: SurfaceGrid, triangles: Floats, error: float, requested: Sequence[FamilyRequest], progress: Progress
-) -> tuple[Floats, Heights]:
-    """Return how much higher than within reach metal may stand, mm straight up, and how low is within reach."""
-    grid, found = area.grid, []
-    low = np.full(area.heights.shape, np.inf, np.float32)
+def _tips(
+    triangles: Floats, grid: Grid, requested: Sequence[FamilyRequest], progress: Progress
+) -> list[tuple[TipGrid, Heights]]:
+    """Return of each family how low its tool's tip comes, and how low it cuts from there."""
+    found = []
     for number, each in enumerate(requested):
         share = progress.part(number / len(requested), (number + 1) / len(requested))
         share.step(0.0, "Looking for what is left")
-        mine = reached(triangles, grid, each.requested, share)
-        found.append(mine)
-        low = np.minimum(low, mine)
+        tips = tip_heights(triangles, grid, each.requested, share)
+        found.append((tips, tips.reached(each.requested.cutter, grid, share)))
+    return found
+
+
+def _allowed(
+    area: SurfaceGrid, error: float, requested: Sequence[FamilyRequest], tips: Sequence[tuple[TipGrid, Heights]]
+) -> tuple[Floats, Heights]:
+    """Return how much higher than within reach metal may stand, mm straight up, and how low is within reach."""
+    grid, found = area.grid, [reached for _, reached in tips]
+    low = np.minimum.reduce(found, initial=np.float32(np.inf))
     allowed = np.full(low.shape, np.inf)
     own = slopes(area.heights, grid.pitch)
     for each, mine in zip(requested, found, strict=True):
-        most = max(MOST * each.requested.cutter.radius, BENT * _level(each))
-        highest = np.minimum(BENT * _ridges(each, _across(own, each), grid), most)
+        highest = np.minimum(BENT * _ridges(each, _across(own, each), grid), each.most)
         here = _upright(area, mine, each, highest + each.chord + TOLERANCE + error)
         allowed = np.minimum(allowed, np.where(mine <= low + TOLERANCE, here, np.inf))
         allowed = np.minimum(allowed, here)
     return allowed, low
+
+
+def _closer(
+    workpiece: Workpiece,
+    area: SurfaceGrid,
+    seen: tuple[Heights, Mask, Heights],
+    error: float,
+    requested: Sequence[tuple[FamilyRequest, tuple[TipGrid, Heights]]],
+) -> tuple[Heights, Mask]:
+    """Return how high metal stands over what is within reach, and where it is left, after a closer look at corners.
+
+    Args:
+        seen: both by cells alone, and how low is within reach by them.
+    """
+    over, mask, low = seen
+    looked = [(each, tips) for each, (tips, _) in requested if each.tips is not None and not each.requested.leave]
+    allowed = [_highest(each) + each.chord + TOLERANCE + error for each, _ in looked]
+    with np.errstate(invalid="ignore"):
+        corner = np.isfinite(area.heights) & (low > area.heights + TOLERANCE) & ~mask
+        # cells may tell what is within reach too high, too: as much as a side rises within one
+        cells = np.flatnonzero(corner & (over > min(allowed, default=np.inf) - area.grid.pitch))
+    if not len(cells):
+        return over, mask
+    worst = cells[np.argsort(-over.ravel()[cells], kind="stable")[:MOST_PLACES]]
+    own = np.unravel_index(worst, over.shape)
+    places = np.column_stack([area.grid.xs()[own[1]], area.grid.ys()[own[0]]])
+    metal, lowest, highest = workpiece.heights[own], np.full(len(places), np.inf), np.full(len(places), np.inf)
+    for (each, tips), square in zip(looked, allowed, strict=True):
+        assert each.tips is not None
+        limit = _Limit(metal, square)
+        reach = corner_reach(each.tips, tips, each.requested, places, limit.doubtful)
+        lowest, highest = np.minimum(lowest, reach.low), np.minimum(highest, limit.upright(reach))
+    over, mask = over.copy(), mask.copy()
+    over[own] = metal - lowest
+    mask[own] = over[own] > highest
+    return over, mask
+
+
+@dataclass(frozen=True, eq=False)
+class _Limit:
+    """How high metal (n,) stands in corners, mm, and how high it may over what is within reach, square to that."""
+
+    metal: Heights
+    square: float
+
+    def upright(self, reach: CornerReach) -> Floats:
+        """Return what it may straight up, mm."""
+        return self.square * np.hypot(1.0, np.minimum(reach.rise, STEEPEST))
+
+    def doubtful(self, reach: CornerReach, step: float) -> Mask:
+        """Return where metal is not yet known to stand too high, but within what steps may have missed: a step up a
+        side as steep as a corner's usually are.
+        """
+        over, most = self.metal - reach.low, self.upright(reach)
+        return np.asarray((over <= most) & (over + SIDE * step > most))
+
+
+def _highest(requested: FamilyRequest) -> float:
+    """Return how high ridges may stand in corners, square to what is cut, mm."""
+    return requested.most if requested.ridge is None else BENT * requested.ridge
 
 
 def _ridges(requested: FamilyRequest, across: Floats, grid: Grid) -> Floats:

@@ -93,8 +93,34 @@ def slopes(heights: Heights, pitch: float) -> tuple[Floats, Floats]:
     return found[0], found[1]
 
 
-def reached(triangles: Floats, grid: Grid, requested: FamilyReach, progress: Progress = NO_PROGRESS) -> Heights:
-    """Return (rows, cols) the lowest that a tool cuts without going into surfaces; infinite where it does not come.
+@dataclass(frozen=True, eq=False)
+class TipGrid:
+    """How low a tool's tip comes without going into surfaces, over a grid and the tool's radius round it.
+
+    Attributes:
+        heights: (rows, cols) mm; infinite where the tool may not be.
+    """
+
+    grid: Grid
+    heights: Heights
+
+    def reached(self, cutter: Cutter, grid: Grid, progress: Progress = NO_PROGRESS) -> Heights:
+        """Return (rows, cols) the lowest that the tool cuts from there, at the cells of a grid.
+
+        Raises:
+            Cancelled: the job was asked to stop.
+        """
+        wide, pitch = self.grid, self.grid.pitch
+        low = -dilated(-self.heights, cutter_profile(cutter, pitch), progress)
+        rows, cols = (
+            np.clip(((at - start) / pitch).astype(np.int64), 0, most - 1)
+            for at, start, most in ((grid.ys(), wide.y0, wide.rows), (grid.xs(), wide.x0, wide.cols))
+        )
+        return np.asarray(low[np.ix_(rows, cols)], np.float32)
+
+
+def tip_heights(triangles: Floats, grid: Grid, requested: FamilyReach, progress: Progress = NO_PROGRESS) -> TipGrid:
+    """Return how low a tool's tip comes without going into surfaces.
 
     Args:
         triangles: (n, 3, 3) of the surfaces, mm.
@@ -111,12 +137,7 @@ def reached(triangles: Floats, grid: Grid, requested: FamilyReach, progress: Pro
     if requested.area is not None:
         xs, ys = np.meshgrid(wide.xs(), wide.ys())
         tip[~shapely.contains_xy(requested.area, xs, ys)] = np.inf
-    low = -dilated(-tip, form, progress)
-    rows, cols = (
-        np.clip(((at - start) / pitch).astype(np.int64), 0, most - 1)
-        for at, start, most in ((grid.ys(), wide.y0, wide.rows), (grid.xs(), wide.x0, wide.cols))
-    )
-    return np.asarray(low[np.ix_(rows, cols)], np.float32)
+    return TipGrid(wide, tip)
 
 
 def _over(grid: Grid, pitch: float, reach: int) -> Grid:
