@@ -15,7 +15,7 @@ tell.
 
 
 @kernel("float64(float64, float64, float64, float64, float64, float64, float64, float64, float64)", counts=False)
-def _between(dx, dy, dz, ex, ey, ez, wx, wy, wz):  # type: ignore[no-untyped-def]
+def _between(dx, dy, dz, ex, ey, ez, wx, wy, wz):
     """Return the square of the distance between segments along d and e, whose starts are apart by w (Eberly, closest
     points).
     """
@@ -32,7 +32,7 @@ def _between(dx, dy, dz, ex, ey, ez, wx, wy, wz):  # type: ignore[no-untyped-def
 
 
 @kernel(f"float64({_R}, float64, float64, float64, float64, float64, float64)", counts=False)
-def square_from_triangle(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-def]
+def square_from_triangle(t, ax, ay, az, bx, by, bz):
     """Return the square of the distance of the segment from a to b from a triangle (9,); 0 where it goes through."""
     dx, dy, dz = bx - ax, by - ay, bz - az
     ux, uy, uz, vx, vy, vz = t[3] - t[0], t[4] - t[1], t[5] - t[2], t[6] - t[0], t[7] - t[1], t[8] - t[2]
@@ -65,7 +65,7 @@ def square_from_triangle(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-
 
 
 @kernel(f"float64({_R}, float64, float64, float64, float64, float64, float64)", counts=False)
-def square_from_curtain(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-def]
+def square_from_curtain(t, ax, ay, az, bx, by, bz):
     """Return the square of the distance of a triangle (9,) from all that is on or above the segment from a to b."""
     best = square_from_triangle(t, ax, ay, az, bx, by, bz)
     top = max(t[2], t[5], t[8])

@@ -41,8 +41,9 @@ ANY = -1
 
 
 @kernel(f"{DESK}()")
-def new_desk():  # type: ignore[no-untyped-def]
+def new_desk():
     """Return arrays to work on."""
+    # Made once for a whole line or a band of places: arrays made for each place would cost more than the search.
     return (
         np.empty((ROOM, COLUMNS)),
         np.empty((2, 5)),
@@ -56,7 +57,7 @@ def new_desk():  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({TREE}, int64, {_MANY})", counts=False)
-def lay(tree, n, work):  # type: ignore[no-untyped-def]
+def lay(tree, n, work):
     """Lay a facet on row 1 of `work`, with nothing known of its height."""
     for c in range(9):
         work[1, c] = tree[TRIANGLES][n, c]
@@ -66,7 +67,7 @@ def lay(tree, n, work):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"int64({_MANY}, int64, float64)", counts=False)
-def put_quarters(work, depth, known):  # type: ignore[no-untyped-def]
+def put_quarters(work, depth, known):
     """Put the quarters that could be above `known` on rows `depth` on, the highest last; return how far that goes."""
     for _ in range(4):
         low = QUARTERS
@@ -76,5 +77,6 @@ def put_quarters(work, depth, known):  # type: ignore[no-untyped-def]
         if known < work[low, HIGHEST] < math.inf:
             copy_row(work, low, depth)
             depth += 1
+        # Taken: the next round finds the lowest of the others.
         work[low, HIGHEST] = math.inf
     return depth

@@ -19,13 +19,13 @@ _TIMES = 60
 
 
 @kernel(f"float64({_R}, float64, float64)", counts=False)
-def _off(plane, x, y):  # type: ignore[no-untyped-def]
+def _off(plane, x, y):
     """Return how far a place is to the left of a plane, given by a place of it (2) and its direction (2)."""
     return (y - plane[1]) * plane[2] - (x - plane[0]) * plane[3]
 
 
 @kernel(f"UniTuple(float64, 4)({_NETS}, int64, {_R}, {_MANY}, int64, int64, int64, float64, float64)", counts=False)
-def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):  # type: ignore[no-untyped-def]
+def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):
     """Return where a plane crosses what edge a b of a facet stands for: along the plane, height, parameters."""
     if off_a == 0.0:
         b, off_b = a, 1.0
@@ -61,7 +61,7 @@ def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):  # type: ig
 
 
 @kernel(f"boolean({_NETS}, int64, {_R}, {_MANY}, int64, {_R}, {_R})", counts=False)
-def _piece(control, patch, plane, work, row, off, piece):  # type: ignore[no-untyped-def]
+def _piece(control, patch, plane, work, row, off, piece):
     """Set the piece at which a plane cuts a facet; False where all of it lies in the plane, or it is met at a corner.
 
     Args:
@@ -70,6 +70,7 @@ def _piece(control, patch, plane, work, row, off, piece):  # type: ignore[no-unt
     found = 0
     for a in range(3):
         b = (a + 1) % 3
+        # A corner on the plane is counted with the one edge that begins there, so that it is not found twice.
         if off[a] == 0.0 or off[a] * off[b] < 0.0:
             s, z, u, v = _crossing(control, patch, plane, work, row, a, b, off[a], off[b])
             if found < 2:
@@ -88,9 +89,7 @@ def _piece(control, patch, plane, work, row, off, piece):  # type: ignore[no-unt
     f"int64({_MANY}, {_MANY}, {_INTS}, {_R}, {_NETS}, {_INTS}, {_MANY}, {_INTS}, float64, int64, int64, {_MANY}, "
     f"{_INTS})"
 )
-def pieces(  # type: ignore[no-untyped-def]
-    triangles, corners, patch, error, control, facet, planes, plane, near, first, stop, out, source
-):
+def pieces(triangles, corners, patch, error, control, facet, planes, plane, near, first, stop, out, source):
     """Cut pairs first to stop - 1 of facets and planes; return how many pieces that makes, more than there is room for
     if so.
 
@@ -117,6 +116,7 @@ def pieces(  # type: ignore[no-untyped-def]
                 if abs(off[c]) <= _SAME:
                     off[c] = 0.0
             low, high = min(off[0], off[1], off[2]), max(off[0], off[1], off[2])
+            # The surface is no farther from its facet than `far`: here it is all on one side.
             if low > far or high < -far:
                 continue
             one_side = low > 0.0 or high < 0.0
@@ -140,7 +140,7 @@ def pieces(  # type: ignore[no-untyped-def]
 
 
 @kernel(f"int64({_R}, {_R}, {_INTS}, float64, {_INTS}, {_INTS})", counts=False)
-def _nodes(along, up, order, same, node, following):  # type: ignore[no-untyped-def]
+def _nodes(along, up, order, same, node, following):
     """Set the node of each of m ends, and the end after it at the same node; return how many nodes there are.
 
     Args:
@@ -161,7 +161,7 @@ def _nodes(along, up, order, same, node, following):  # type: ignore[no-untyped-
 
 
 @kernel(f"int64({_R}, {_R}, {_INTS}, float64, {_INTS}, {_INTS})")
-def chains(along, up, order, same, out, starts):  # type: ignore[no-untyped-def]
+def chains(along, up, order, same, out, starts):
     """Join m pieces whose ends meet; return how many chains that makes.
 
     Args:
