@@ -258,7 +258,7 @@ class MachiningAreas:
 
     @cached_property
     def _made_by_drills(self) -> frozenset[CircleHole | None]:
-        return frozenset(made_by_drills(self.job, self.drawn))
+        return frozenset(made_by_drills(self.job, self.drawn)) if self.job.makes_holes else frozenset()
 
     def _frame(self, contours: Sequence[Contour]) -> Contour | None:
         """Return a box with room for every tool round all contours, counter-clockwise; None where there is no

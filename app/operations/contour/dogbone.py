@@ -139,9 +139,8 @@ def inserted(rows: Rows, where: Floats, ways: Sequence[CornerRelief]) -> tuple[R
 
     Args:
         rows, where: as of `ContourPath.span`.
+        ways: into corners, at least one.
     """
-    if not ways:
-        return rows, where, np.zeros(len(rows))
     ends = {relief.corner: relief.end for relief in ways}
     made, along, marks = [], [], []
     for row, place in zip(rows, where.tolist(), strict=True):
