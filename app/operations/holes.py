@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..core.errors import ParameterError
 from ..core.progress import Progress
+from ..core.wording import counted, trimmed
 from ..model.curve_selectors import CirclesOf, CurveNumber
 from ..model.finding import Finding, FindingKind
 from ..model.hole_operations import HoleOperation
 from ..model.job import Job
 from ..model.moves import Purpose
+from ..model.operation import Operation
 from ..toolpath.build import Stroke, StrokeLabel
 from ..toolpath.drawn_contours import DrawnContours
 from ..toolpath.drill_holes import CircleHole, DrillHoles, holes_of
+from ..toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..toolpath.operation_context import OperationContext
 from ..toolpath.ordering.tour import in_short_order
 
@@ -141,6 +144,18 @@ def circle_findings(holes: DrillHoles, job: Job, operation: HoleOperation, verb:
             yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(len(kept)))
 
 
+def circles_missed(verb: HoleVerb) -> Callable[[MachiningAreas, Operation, MachiningArea | None], Iterator[Finding]]:
+    """Return what tells of operations with a verb which circles they do not work on: `missed` of an
+    `OperationMethod`.
+    """
+
+    def missed(areas: MachiningAreas, operation: Operation, _: MachiningArea | None) -> Iterator[Finding]:
+        assert isinstance(operation, HoleOperation)
+        return circle_findings(holes_of(areas.job, areas.drawn, operation), areas.job, operation, verb)
+
+    return missed
+
+
 @dataclass(frozen=True, slots=True)
 class MadeHole:
     """A hole that is there: how wide and how deep with all its width, mm; 0 = there is none."""
@@ -184,11 +199,11 @@ def _names_them(operation: HoleOperation) -> bool:
 
 
 def _counted(holes: Sequence[CircleHole]) -> str:
-    return "1 circle" if len(holes) == 1 else f"{len(holes)} circles"
+    return counted(len(holes), "circle")
 
 
 def diameters_in_words(holes: Sequence[CircleHole]) -> str:
     """Return diameters in words, and how many of each."""
-    counts = Counter(f"{hole.diameter:.3f}".rstrip("0").rstrip(".") for hole in holes)
+    counts = Counter(trimmed(hole.diameter, 3) for hole in holes)
     named = [f"{text} mm ({count})" for text, count in sorted(counts.items(), key=lambda item: float(item[0]))[:_NAMED]]
     return ", ".join(named) + (f" and {len(counts) - _NAMED} more" if len(counts) > _NAMED else "")
