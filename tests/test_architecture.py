@@ -88,6 +88,23 @@ def test_public_things_say_what_they_are() -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+DOCSTRING = re.compile(r'"""(.*?)"""', re.DOTALL)
+
+
+def test_what_docstrings_name_is_there() -> None:
+    """A name between back quotes is of the code, or of a module: what was renamed is renamed in docstrings, too."""
+    texts = {path: path.read_text("utf-8") for path in FILES}
+    known = {part for path in FILES for part in (*path.relative_to(ROOT).parts, path.stem)} | sys.stdlib_module_names
+    for text in texts.values():
+        known.update(re.findall(r"\w+", DOCSTRING.sub("", text)))
+
+    def unknown(path: Path) -> list[str]:
+        named = re.findall(r"`([A-Za-z_][\w.]*)`", " ".join(DOCSTRING.findall(texts[path])))
+        return [name for name in named if not known.issuperset(name.split("."))]
+
+    assert not offenders(FILES, unknown)
+
+
 def test_no_two_classes_have_one_name() -> None:
     places: dict[str, set[Path]] = {}
     for path in FILES:

@@ -21,6 +21,7 @@ from ..core.wording import trimmed
 HELP = '"#12", "layer:holes", "circles:6", "circles:5.9-6.1", "outer", "inner" or "open"'
 
 _MOST_NUMBER = 10**9
+"""Numbers of curves are below this, as nine digits can be read."""
 _QUOTED = 60
 """Letters of a text that is no selector which an error repeats."""
 

@@ -238,6 +238,7 @@ _TRIED = 8
 """Holes that are tried for one path."""
 
 _NEAR = 1e-6
+"""mm; holes and heights that differ by no more are alike."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -316,6 +317,7 @@ _AWAY = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0)
 """Distances from the beginning that are tried, in cutter's radii."""
 
 _DIRECTIONS = 8
+"""Directions round the beginning in which one is tried."""
 
 _AROUND = [
     (part, math.cos(angle), math.sin(angle))

@@ -45,6 +45,7 @@ SIDEWAYS = 0.005
 
 _PLUG, _BLOCK = "plug", "block"
 _CELLS = 768
+"""Across the longer side of the stock that pocket and plug are cut out of to be held against one another."""
 _MIRROR = Similarity(-1 + 0j, 0j, mirrored=True)
 """x to -x."""
 

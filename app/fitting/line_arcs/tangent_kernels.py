@@ -21,6 +21,7 @@ _EACH = 8
 _BAND = 8
 """Variables that meet in one bend are so near one another."""
 _STEPS = 80
+"""Newton's steps at most; `off` tells what is not within the limit by then."""
 _FIRM, _FIRST, _LIGHT = 1.0, 0.1, 1e-6
 """What the walls weigh beside the bends: while the path is beyond the limit, from then on, and in the end."""
 _HARD = math.radians(2.0)

@@ -9,9 +9,11 @@ import numpy as np
 from ...core.jit import kernel
 
 _ROUNDS = 60
+"""Steps at most, helpful or not."""
 _STILL = 1e-13
 """Facets: a step so small is none."""
 _FLAT = 1e-300
+"""Below all that is meant: it keeps a root and a division defined where a number is 0."""
 
 
 @kernel("void(float64[:, ::1], int64, float64[::1], float64[::1], float64[:, ::1])", counts=False)

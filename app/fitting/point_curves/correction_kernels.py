@@ -11,6 +11,7 @@ from ...core.jit import kernel
 _TRIES = 12
 """Places of a stretch looked at for the nearest."""
 _HALVINGS = 50
+"""Of a stretch, until it is as short as a number can tell."""
 
 
 @kernel("void(float64[::1], float64[:, ::1], float64[:, ::1])")

@@ -13,6 +13,12 @@ import numpy as np
 
 from ...core.jit import kernel
 
+_HALF, _REACH = 3, 4
+"""Numbers of a cone behind its axis: half its angle, radians, more than pi while any direction will do; the distance of
+the farthest point that it was made by, mm.
+"""
+_ANY = 4.0
+"""Radians; a half angle of which any direction is within."""
 _GUARD = 1e-11
 """So much inside the cone a direction must be, rad: what rounding may add up to."""
 _STRAIGHTER = 0.22
@@ -60,21 +66,21 @@ def _size(points, i, k):
 def _narrow(points, i, k, epsilon, cone):
     """Keep of a cone (axis, half angle, reach) a cone of directions from point i that also pass point k."""
     size = _size(points, i, k)
-    cone[4] = max(cone[4], size)
+    cone[_REACH] = max(cone[_REACH], size)
     # Every direction passes a ball that the first point lies in.
-    if size <= epsilon or cone[3] < 0.0:
+    if size <= epsilon or cone[_HALF] < 0.0:
         return
     half = math.asin(epsilon / size)
     turn = _angle(points, i, k, cone)
-    if cone[3] > math.pi or turn + half <= cone[3]:  # any direction yet, or the new cone is within the old
+    if cone[_HALF] > math.pi or turn + half <= cone[_HALF]:  # any direction yet, or the new cone is within the old
         for axis in range(3):
             cone[axis] = (points[k, axis] - points[i, axis]) / size
-        cone[3] = half
-    elif turn + cone[3] > half:
+        cone[_HALF] = half
+    elif turn + cone[_HALF] > half:
         # What two cones share is a lens; the widest cone within it has its axis between theirs (spherical
         # interpolation).
-        lean = (turn - half + cone[3]) / 2
-        cone[3] = (half + cone[3] - turn) / 2
+        lean = (turn - half + cone[_HALF]) / 2
+        cone[_HALF] = (half + cone[_HALF] - turn) / 2
         one, two = math.sin(turn - lean) / math.sin(turn), math.sin(lean) / math.sin(turn) / size
         for axis in range(3):
             cone[axis] = one * cone[axis] + two * (points[k, axis] - points[i, axis])
@@ -91,11 +97,11 @@ def _all_within(points, i, k, epsilon, cone):
         for axis in range(3):
             cone[axis] = (points[k, axis] - points[i, axis]) / length
         # More than any angle: the narrowest of what the points between leave round the new axis is kept.
-        cone[3] = 4.0
+        cone[_HALF] = _ANY
         for j in range(i + 1, k):
             size = _size(points, i, j)
             if size > epsilon:
-                cone[3] = min(cone[3], math.asin(epsilon / size) - _angle(points, i, j, cone))
+                cone[_HALF] = min(cone[_HALF], math.asin(epsilon / size) - _angle(points, i, j, cone))
     return True
 
 
@@ -103,13 +109,15 @@ def _all_within(points, i, k, epsilon, cone):
 def _reach(points, i, epsilon, stop, cone):
     """Return the last point of the range that begins at point i (S113-S116)."""
     cone[:] = 0.0
-    cone[3] = 4.0
+    cone[_HALF] = _ANY
     k = i + 1
     while k < len(points) - 1 and not stop[k]:
         _narrow(points, i, k, epsilon, cone)
-        free = cone[3] > math.pi  # all are about the first point
-        clear = cone[3] > 0.0 and _angle(points, i, k + 1, cone) <= cone[3] * (1 - 1e-6) - _GUARD
-        if not (free or (clear and _size(points, i, k + 1) >= cone[4]) or _all_within(points, i, k + 1, epsilon, cone)):
+        free = cone[_HALF] > math.pi  # all are about the first point
+        clear = cone[_HALF] > 0.0 and _angle(points, i, k + 1, cone) <= cone[_HALF] * (1 - 1e-6) - _GUARD
+        if not (
+            free or (clear and _size(points, i, k + 1) >= cone[_REACH]) or _all_within(points, i, k + 1, epsilon, cone)
+        ):
             break
         k += 1
     return k

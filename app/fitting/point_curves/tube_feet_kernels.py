@@ -25,6 +25,7 @@ MOST = 4
 there.
 """
 _GOLDEN = 0.3819660112501051
+"""(3 - sqrt 5) / 2 of a stretch: where golden sections ask, from either end."""
 
 
 @kernel("float64(float64[:, :, ::1], float64, float64, float64[::1], float64[::1])", counts=False)

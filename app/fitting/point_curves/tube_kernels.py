@@ -11,9 +11,11 @@ from ...core.jit import kernel
 P = 5
 """Degree of the pieces."""
 INSIDE, OUTSIDE, UNDECIDED = 0, 1, 2
+"""What is known of a curve: it lies within the regions, it leaves them, or signs have not decided."""
 _FINEST = 1e-11
 """A stretch of so little parameter is not halved again; so near the edge of its region, nobody can decide."""
 _ROUNDING = 1e-14
+"""Of the numbers that a coefficient is a sum of: by so much rounding may have made it larger."""
 
 _WEIGHTS = np.array(
     [[math.comb(P, i) * math.comb(P, j) / math.comb(2 * P, i + j) for j in range(P + 1)] for i in range(P + 1)]

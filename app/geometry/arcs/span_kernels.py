@@ -20,6 +20,8 @@ _CONTROL, _PIECE, _FOUND = "float64[:, :, ::1]", "float64[:, ::1]", "float64[::1
 FIRST, LAST, X0, Y0, X1, Y1, X2, Y2, CX, CY, TURN, DX, DY, DTURN, PARTS = range(15)
 """Columns of a row; D stands for the second part."""
 COLUMNS = 15
+_PART_START, _PART_END, _PART_CENTRE, _PART_TURN = 0, 2, 4, 6
+"""Numbers of one part of a row: two each of its start, its end and its centre, and its turn."""
 _SMALLEST = 1e-9
 """A stretch of parameter below which a corner that no arc can follow becomes a line."""
 _TURNS_BACK = 0.6
@@ -27,6 +29,9 @@ _TURNS_BACK = 0.6
 _SAMPLES, _EACH = 16, 8
 """Parts that a span is cut in to be measured, and that a piece is, whichever are more."""
 _TRIALS, _BISECTIONS, _PARTS = 60, 48, 6
+"""Spans that are tried for one; halvings of a span for the place where its parts meet; parts of it that are bounded
+one by one, as short ones are bounded more tightly.
+"""
 
 
 @kernel("float64(float64, float64, float64, float64, float64, float64, float64, float64, float64)", counts=False)
@@ -187,10 +192,11 @@ def _bound(control, first, last, part, products, work, piece):
         until = min(even, math.floor(at) + 1.0, last)
         n += until >= even
         cut(control, at, until, work, piece)
-        if part[6] == 0.0:
-            worst = max(worst, off_line(piece, part[0], part[1], part[2], part[3]))
+        x, y = part[_PART_START], part[_PART_START + 1]
+        if part[_PART_TURN] == 0.0:
+            worst = max(worst, off_line(piece, x, y, part[_PART_END], part[_PART_END + 1]))
         else:
-            worst = max(worst, off_circle(piece, part[0], part[1], part[4], part[5], products))
+            worst = max(worst, off_circle(piece, x, y, part[_PART_CENTRE], part[_PART_CENTRE + 1], products))
         at = until
     return worst
 
@@ -201,9 +207,9 @@ def _take(row, start, end, centre, part):
     cy, turn. Number by number, see `geometry.kernels.enlarged`.
     """
     for k in range(2):
-        part[k], part[2 + k] = row[start + k], row[end + k]
-    for k in range(3):
-        part[4 + k] = row[centre + k]
+        part[_PART_START + k], part[_PART_END + k] = row[start + k], row[end + k]
+    for k in range(3):  # the turn stands behind the centre
+        part[_PART_CENTRE + k] = row[centre + k]
 
 
 @kernel(f"void({_CONTROL}, {_PIECE}, {_CONTROL}, {_FOUND})")
@@ -218,7 +224,7 @@ def bounds(control, rows, products, found):
         row = rows[k]
         _take(row, X0, X2, CX, part)
         if row[PARTS] == 1.0:
-            part[6] = 0.0
+            part[_PART_TURN] = 0.0
             found[k] = _bound(control, row[FIRST], row[LAST], part, products, work, piece)
             continue
         shared = _share(control, row, work, here)

@@ -89,7 +89,7 @@ def _farthest(rows: Rows, place: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class _Walls:
-    """Everything that bounds a sheet, with the rows before and behind each row."""
+    """Everything that bounds an area, with the rows before and behind each row."""
 
     area: MachiningArea
     around: Floats

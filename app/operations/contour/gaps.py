@@ -68,7 +68,7 @@ class WallGap:
 
     Attributes:
         rows: (m, 8) the wall, cut to the gap.
-        walls: indices of these rows among the sheet's.
+        walls: indices of these rows among the area's.
         region: number of its region.
         bare: True when it begins or ends at a clamp or the frame.
         left: (k,) by how much the wall turns left at each of its joints and in each of its arcs, radians; right turns

@@ -32,6 +32,7 @@ _TOLD = 20
 """Places that are told one by one."""
 
 _SAME = 1e-9
+"""mm; lengths that differ by no more are equal."""
 
 _CLEARED = 1e-3
 """mm; stock to leave that is so near to how wide the cone is clears the floor that it leaves."""

@@ -18,6 +18,7 @@ DISC, CORNER, CONE, RADIUS, BEND = 0, 1, 2, 3, 4
 corner ends.
 """
 _STEPS, _NEAR = 80, 1e-14
+"""Steps at most, and of the radius: a step so small is none."""
 _SLIVER = 1e-22
 """mm2: the square of how high a triangle is, seen from above, that has a slope."""
 

@@ -8,6 +8,7 @@ from ...core.jit import kernel
 
 _R = "float64[::1]"
 _FLAT = 1e-300
+"""mm2; a side whose square is less is a point."""
 _SLIVER = 1e-22
 """mm2; a triangle whose height is less than the root of this is its edges: of what it faces only rounding would
 tell.

@@ -43,6 +43,7 @@ _R, _MANY, _INTS = "float64[::1]", "float64[:, ::1]", "int64[::1]"
 _MOST = 400
 """So often is one facet quartered for one place; where a cutter lies on a surface all along, there is no end to it."""
 _RIM = 1.0 - 1e-9
+"""Of the radius: farther out a profile may be too steep to be told by its slope."""
 
 
 @kernel(f"float64({_MANY}, int64, float64, float64, {_R}, float64)", counts=False)

@@ -12,7 +12,7 @@ from ..patches.patch_kernels import copy_row
 _R, _MANY, _NETS, _INTS = "float64[::1]", "float64[:, ::1]", "float64[:, :, :, ::1]", "int64[::1]"
 TREE = f"Tuple(({_MANY}, {_MANY}, {_MANY}, {_INTS}, {_R}, {_INTS}, {_NETS}, int64, {_MANY}))"
 BOXES, TRIANGLES, CORNERS, PATCH, ERROR, OWNER, CONTROL, LEAF, BULGE = range(9)
-"""Of what `Tree.held` gives: its arrays, and how many facets a leaf has. PATCH is NONE of facets that stand for
+"""Of what `FacetTree.held` gives: its arrays, and how many facets a leaf has. PATCH is NONE of facets that stand for
 themselves.
 """
 DESK = f"Tuple(({_MANY}, {_MANY}, {_INTS}, {_R}, {_INTS}, {_R}, {_MANY}, {_MANY}))"
@@ -21,10 +21,12 @@ WORK, SHAPES, NODES, BOUNDS, WHICH, HEIGHTS, PLACES, GROUPS = range(8)
 that may be touched and their heights; the tip's places along a way, and its chords in groups (see `way_kernels`).
 """
 DEEPEST = 64
+"""Nodes that wait, at most: one a level of the tree, and no tree is so deep."""
 ROOM = 96
 """Rows of WORK: facets that wait, four for the quarters that are being sorted, one for what is quartered."""
 QUARTERS, LAST = ROOM - 4, ROOM - 5
 LIKELY = 64
+"""Facets that may be touched at one place and are remembered, the highest of them."""
 OFF, HIGHEST, GROUP = 15, 16, 16
 """Columns of WORK behind corners (9) and parameters (6): how far the facet is off at most, and what the tip comes down
 to, or the group of chords that it is held against.
@@ -36,6 +38,7 @@ are.
 CHORDS = 32
 """Most chords of a way that are proven together."""
 NONE = -1
+"""No facet, no surface."""
 ANY = -1
 """Owner that stands for all."""
 

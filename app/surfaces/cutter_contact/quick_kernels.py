@@ -46,6 +46,7 @@ _R = "float64[::1]"
 _TIMES, _MANY_FACETS = 40, 8
 """So often is a facet quartered, and so many facets are, for one place."""
 _LEAN = 50.0
+"""Steeper triangles count as of so much: what an upright one stands for is off upwards by any length."""
 _AROUND = 2.5
 """Facets within so many of their sizes of a touched place have nothing else to say."""
 

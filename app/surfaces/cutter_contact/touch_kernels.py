@@ -18,8 +18,11 @@ _R, _NETS = "float64[::1]", "float64[:, :, :, ::1]"
 _SLOPE_STEP, _TURN_STEP = 1e-6, 1e-4
 """Steps of the parameters by which slopes, and how they change, are told."""
 _TIMES, _SIDE_TIMES = 8, 24
+"""Newton's steps at most, and those of a climb along a side."""
 _SAME = 1e-11
+"""Of a patch's parameters, both from 0 to 1: a place is found where steps are below a hundred of these."""
 _OUTSIDE = 1e-9
+"""Of a patch's parameters: what lies beyond a side by no more lies on it."""
 _INSIDE = 1.0 - 1e-9
 """Touched so much nearer to the axis than it would be: rounding puts no place of a cutter's rim out of its reach."""
 

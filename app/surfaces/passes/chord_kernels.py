@@ -17,6 +17,7 @@ from ..cutter_contact.facet_tree_kernels import DESK, SHAPES
 
 _R = "float64[::1]"
 APART, _TOGETHER, _OPEN = 0, 1, 2
+"""What a triangle's middle tells of it and a cutter's way: too far apart to meet, surely in one another, or neither."""
 _SHORT = 0.02
 """Of what is allowed: a stretch of a chord that is looked at in one."""
 

@@ -53,7 +53,9 @@ from .way_kernels import way_clear
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _STACK = 256
+"""Places ahead that wait, at most: a chord that is halved so often has no length left."""
 _TIE = 1e-9
+"""mm; surfaces that lie no farther above one another coincide."""
 _SAG, _RISE, _MORE, _SHORTER = 0.85, 0.9, 1.5, 0.7
 """Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's
 length at most, or, if a line's last chord (4 LEAST or more) was too long, times it: so that the next one does not end
@@ -70,6 +72,7 @@ a small angle, their heights are written as the same beside it.
 _TAKEN, _JUMPS, _SPLIT, _AGAIN = 0, 1, 2, 3
 """What becomes of a chord: it is taken, by way of a corner, or it is split, or looked at again."""
 NO_PROOF, NO_ROOM = -2, -1
+"""What `follow` returns where it cannot return a number of points."""
 
 
 @kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, float64, {_R})", counts=False)

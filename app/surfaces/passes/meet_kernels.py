@@ -31,7 +31,11 @@ from .point_kernels import (
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _ROOTS = 80
+"""Places at most that are asked for one root."""
 _MET, _EQUAL, _FINEST = 1e-7, 1e-11, 1e-10
+"""mm; heights over both surfaces are equal for a boundary point, and so near that none is looked for any more; how
+near facets stand for surfaces meanwhile.
+"""
 FOUND, PAIR, OTHER = 0, 1, 3
 """Rows to work on: what was touched last; what is touched on both surfaces; what is touched elsewhere."""
 

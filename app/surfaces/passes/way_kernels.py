@@ -49,7 +49,9 @@ _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _OFF, _FIRST, _STOP = 6, 7, 8
 """Columns of groups behind the ends of their line (6): how far places are off it, and the chords first to stop - 1."""
 _NARROW = 0.5
+"""Of the radius of its inner circle: what would widen a triangle by more makes another one of it."""
 _NOTHING = 1e-300
+"""Keeps a share of it defined where a facet is exact."""
 _PART = 0.25
 """Of the cutter's radius: longer chords are proven in parts."""
 _OFTEN, _SELDOM = 64, 4

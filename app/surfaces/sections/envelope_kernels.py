@@ -18,6 +18,7 @@ from .section_kernels import ERROR, S0, S1, U0, U1, V0, V1, Z0, Z1
 
 _R, _MANY, _NETS, _INTS = "float64[::1]", "float64[:, ::1]", "float64[:, :, :, ::1]", "int64[::1]"
 SPANS, MARKS = 5, 11
+"""How many columns both have."""
 FROM, TO, PIECE, Z_FROM, Z_TO = range(5)
 """Columns of spans: where one begins and ends along the plane, its piece, and the heights there."""
 AT, HERE, UNTIL, THERE, BEFORE, AFTER, BU, BV, AU, AV, KIND = range(11)
@@ -28,11 +29,17 @@ COUNT, MARKED, CURRENT, TIED, TIED_FROM, TIED_UNTIL = range(6)
 where to where.
 """
 _TIE = 1e-9
+"""mm; pieces are equally high."""
 _SHORT = 1e-11
+"""mm; a shorter stretch of the plane is none."""
 _SAME = 1e-8
+"""mm; ends are one place."""
 _MOST, _DEEP = 64, 48
+"""Pieces that may be topmost in one stretch, and stretches that wait while one is halved, at most."""
 _STEP = 1e-6
+"""Of a patch's parameters, by which slopes are told."""
 _ROOTS = 80
+"""Places at most that are asked for one root."""
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, {_MANY}, int64, {_R}, float64)", counts=False)

@@ -21,7 +21,9 @@ Ints = NDArray[np.int64]
 _PAIRS = 4_000
 """Facets on planes that one thread cuts before it asks whether to go on."""
 _GAP = 1e-9
+"""mm along a plane: ends that are farther apart are two."""
 _JUMP = 1e-8
+"""mm; a higher step from span to span is an edge."""
 
 
 _PIECE_BYTES = 300

@@ -442,6 +442,7 @@ _FEW_POINTS = 1000
 """Of a ring; one of more points is cut in halves before boxes are cut out of it, until few boxes are left."""
 
 _FEW_BOXES = 4
+"""Boxes that are cut out of a ring as it is, however many points it has."""
 
 
 def cut_out(shapes: Shapes, boxes: Shapes) -> tuple[Indices, Shapes]:

@@ -32,6 +32,7 @@ _FINE = 16
 """Places to the least distance between tabs, among which the nearest to the even one is taken."""
 
 _ROUNDING = 1e-9
+"""mm along a path: places that differ by no more are one."""
 
 _TURNS = 32
 """Directions in which is looked for where a cutter's rim is farthest from the walls."""
