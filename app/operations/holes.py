@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.errors import ParameterError
 from ..core.progress import Progress
-from ..core.wording import counted, trimmed
+from ..core.wording import trimmed
 from ..model.curve_selectors import CirclesOf, CurveNumber
 from ..model.finding import Finding, FindingKind
 from ..model.hole_operations import HoleOperation
@@ -109,6 +109,24 @@ def circle_findings(holes: DrillHoles, job: Job, operation: HoleOperation, verb:
     """Yield which circles an operation does not work on, and why."""
     tool = job.tool(operation.cut.tool)
     who = f"T{tool.number} {tool.label}"
+    yield from _about_others(holes, operation, verb, who)
+    for kept, why in ((holes.narrow, verb.narrow), (holes.held, "under a clamp or too near to one")):
+        if kept:
+            first = f"({kept[0].x:.3f}, {kept[0].y:.3f})"
+            where = f"the circle at {first} is" if len(kept) == 1 else f"{len(kept)} circles, the first at {first}, are"
+            text, x, y = f"{who}: {where} {why} and not {verb.done}.", kept[0].x, kept[0].y
+            yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(len(kept)))
+    outline = f"not {verb.done}, as other contours lie inside; to have that done, name it in curves, or its diameter"
+    for kept, why in ((holes.outlines, outline), (holes.emptied, f"{verb.done} with the contours that lie inside")):
+        if kept:
+            one = f"{_counted(kept)}, {'' if len(kept) == 1 else 'the first '}at ({kept[0].x:.3f}, {kept[0].y:.3f}),"
+            text = f"{who}: {one} {'is' if len(kept) == 1 else 'are'} {why}."
+            x, y = kept[0].x, kept[0].y
+            yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(len(kept)))
+
+
+def _about_others(holes: DrillHoles, operation: HoleOperation, verb: HoleVerb, who: str) -> Iterator[Finding]:
+    """Yield that there is no circle for a tool, or that those of other diameters are left out."""
     if not holes.drilled:
         others = f" Circles there are of {diameters_in_words(holes.others)}." if holes.others else ""
         yield Finding(
@@ -124,24 +142,6 @@ def circle_findings(holes: DrillHoles, job: Job, operation: HoleOperation, verb:
             counts=_names_them(operation),
             amount=float(len(holes.others)),
         )
-    for kept, why in ((holes.narrow, verb.narrow), (holes.held, "under a clamp or too near to one")):
-        if kept:
-            first = f"({kept[0].x:.3f}, {kept[0].y:.3f})"
-            where = f"the circle at {first} is" if len(kept) == 1 else f"{len(kept)} circles, the first at {first}, are"
-            yield Finding(
-                FindingKind.LEFT_OUT,
-                f"{who}: {where} {why} and not {verb.done}.",
-                kept[0].x,
-                kept[0].y,
-                amount=float(len(kept)),
-            )
-    outline = f"not {verb.done}, as other contours lie inside; to have that done, name it in curves, or its diameter"
-    for kept, why in ((holes.outlines, outline), (holes.emptied, f"{verb.done} with the contours that lie inside")):
-        if kept:
-            one = f"{_counted(kept)}, {'' if len(kept) == 1 else 'the first '}at ({kept[0].x:.3f}, {kept[0].y:.3f}),"
-            text = f"{who}: {one} {'is' if len(kept) == 1 else 'are'} {why}."
-            x, y = kept[0].x, kept[0].y
-            yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(len(kept)))
 
 
 def circles_missed(verb: HoleVerb) -> Callable[[MachiningAreas, Operation, MachiningArea | None], Iterator[Finding]]:
@@ -199,7 +199,7 @@ def _names_them(operation: HoleOperation) -> bool:
 
 
 def _counted(holes: Sequence[CircleHole]) -> str:
-    return counted(len(holes), "circle")
+    return "1 circle" if len(holes) == 1 else f"{len(holes)} circles"
 
 
 def diameters_in_words(holes: Sequence[CircleHole]) -> str:

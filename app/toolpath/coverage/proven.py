@@ -122,15 +122,13 @@ def _undecided(target: Shape, swaths: Sequence[_Swath], progress: Progress) -> N
         if half > most_reach:
             states = _wide_states(area, centres, half, within)
         else:
-            squares = _Squares.of(centres, half, within, area)
             near = [
                 _NearestRows(each, near[doubtful], far[doubtful])
                 for (far, near), each in zip(beside, swaths, strict=True)
             ]
-            states = _states(area, near, squares)
-        centres, within, uncut, states = (
-            each[(states != OUTSIDE) & (states != COVERED)] for each in (centres, within, uncut, states)
-        )
+            states = _states(area, near, _Squares.of(centres, half, within, area))
+        open_still = (states != OUTSIDE) & (states != COVERED)
+        centres, within, uncut, states = (each[open_still] for each in (centres, within, uncut, states))
         left = (uncut >= q) | (half <= least / _SMALLEST)
         if half <= least / _FINEST:
             left |= states != OPEN
