@@ -17,6 +17,7 @@ from ..model.hole_operations import HoleOperation
 from ..model.job import Job
 from ..model.moves import Purpose
 from ..model.operation import Operation
+from ..model.tool import Tool
 from ..toolpath.build import Stroke, StrokeLabel
 from ..toolpath.drawn_contours import DrawnContours
 from ..toolpath.drill_holes import CircleHole, DrillHoles, holes_of
@@ -109,7 +110,7 @@ def circle_findings(holes: DrillHoles, job: Job, operation: HoleOperation, verb:
     """Yield which circles an operation does not work on, and why."""
     tool = job.tool(operation.cut.tool)
     who = f"T{tool.number} {tool.label}"
-    yield from _about_others(holes, operation, verb, who)
+    yield from _about_others(holes, tool, operation, verb)
     for kept, why in ((holes.narrow, verb.narrow), (holes.held, "under a clamp or too near to one")):
         if kept:
             first = f"({kept[0].x:.3f}, {kept[0].y:.3f})"
@@ -125,8 +126,9 @@ def circle_findings(holes: DrillHoles, job: Job, operation: HoleOperation, verb:
             yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(len(kept)))
 
 
-def _about_others(holes: DrillHoles, operation: HoleOperation, verb: HoleVerb, who: str) -> Iterator[Finding]:
+def _about_others(holes: DrillHoles, tool: Tool, operation: HoleOperation, verb: HoleVerb) -> Iterator[Finding]:
     """Yield that there is no circle for a tool, or that those of other diameters are left out."""
+    who = f"T{tool.number} {tool.label}"
     if not holes.drilled:
         others = f" Circles there are of {diameters_in_words(holes.others)}." if holes.others else ""
         yield Finding(

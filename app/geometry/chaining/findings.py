@@ -108,44 +108,26 @@ def overlap_findings(
     for each in shared:
         a, b, overlap = each.first, each.second, each.overlap
         middle = ((overlap.start[0] + overlap.end[0]) / 2, (overlap.start[1] + overlap.end[1]) / 2)
-        done = _done_with(each, place.get(a.entity), place.get(b.entity), contours, join_tolerance)
-        if done is not None:
-            what, length = done.text, overlap.length
-            text = f"{_names(a, b)} overlap by {length:.3f} mm from {at(overlap.start)} to {at(overlap.end)}{what}"
-            entities = (a.entity, b.entity)
-            found.append(Finding(FindingKind.OVERLAP, text, *middle, done.counts, entities, length))
+        one, other = place.get(a.entity), place.get(b.entity)
+        counts = False
+        if overlap.removed:
+            what = f"; {_noun(b.primitives[0])} {b.entity} adds nothing and is left out."
+        elif overlap.trimmed:
+            what = "; one was cut to where the other ends."
+        elif one is None or other is None:
+            continue
+        elif one != other and contours[one].closed and contours[other].closed:
+            what = f"; {_lower(named(contours[one]))} and {_lower(named(contours[other]))} share this stretch."
+        elif overlap.length <= join_tolerance + tolerances.WELD:
+            what = "; their ends were joined."
+        else:
+            length = rounded_up(overlap.length)
+            joined = f", or join with a tolerance of {length} mm if that is small enough for the part"
+            what = f"; trim one{joined * (float(length) <= LARGEST_JOIN)}."
+            counts = True
+        text = f"{_names(a, b)} overlap by {overlap.length:.3f} mm from {at(overlap.start)} to {at(overlap.end)}{what}"
+        found.append(Finding(FindingKind.OVERLAP, text, *middle, counts, (a.entity, b.entity), overlap.length))
     return limited(found, "overlapping curves")
-
-
-class _Done(NamedTuple):
-    """What was done with an overlap, in words, and whether there is something left to do."""
-
-    text: str
-    counts: bool = False
-
-
-def _done_with(
-    shared: SharedPiece, one: int | None, other: int | None, contours: Sequence[Contour], join_tolerance: float
-) -> _Done | None:
-    """Return what was done with an overlap; None where one of its curves is in no contour.
-
-    Args:
-        one, other: indices of the contours that both curves are in.
-    """
-    overlap, second = shared.overlap, shared.second
-    if overlap.removed:
-        return _Done(f"; {_noun(second.primitives[0])} {second.entity} adds nothing and is left out.")
-    if overlap.trimmed:
-        return _Done("; one was cut to where the other ends.")
-    if one is None or other is None:
-        return None
-    if one != other and contours[one].closed and contours[other].closed:
-        return _Done(f"; {_lower(named(contours[one]))} and {_lower(named(contours[other]))} share this stretch.")
-    if overlap.length <= join_tolerance + tolerances.WELD:
-        return _Done("; their ends were joined.")
-    length = rounded_up(overlap.length)
-    joined = f", or join with a tolerance of {length} mm if that is small enough for the part"
-    return _Done(f"; trim one{joined * (float(length) <= LARGEST_JOIN)}.", counts=True)
 
 
 def repeat_findings(doubles: Sequence[tuple[Contour, Contour]]) -> list[Finding]:
