@@ -62,14 +62,21 @@ def test_only_kernel_files_make_kernels() -> None:
     assert not offenders(others, lambda path: "core.jit import" in path.read_text("utf-8"))
 
 
+MARK = re.compile(r"# *(type|noqa|fmt):?")
+
+
 def comments_share(text: str) -> float:
-    """Comments of a text, by its lines."""
+    """Comments of a text that a reader has something of, by its lines: marks for the type checker and the linter say no
+    why.
+    """
     tokens = tokenize.generate_tokens(io.StringIO(text).readline)
-    return sum(token.type == tokenize.COMMENT for token in tokens) / text.count("\n")
+    comments = [token.string for token in tokens if token.type == tokenize.COMMENT]
+    return sum(not MARK.match(comment) for comment in comments) / text.count("\n")
 
 
 def test_kernels_say_why_they_compute_what_they_compute() -> None:
     assert comments_share("x = 1  # why\ny = 2\n") == 0.5
+    assert comments_share("def f(x):  # type: ignore[no-untyped-def]\n    return x  # noqa: E501\n") == 0.0
     kernels = [path for path in FILES if "kernels" in path.stem]
     assert kernels and not offenders(kernels, lambda path: comments_share(path.read_text("utf-8")) < 0.02)
 
@@ -79,6 +86,23 @@ def test_public_things_say_what_they_are() -> None:
     judge = ["ruff", "check", "--ignore-noqa", "--select=D1", "--ignore=D105,D107", "--output-format=concise", "app"]
     done = subprocess.run([sys.executable, "-m", *judge], cwd=ROOT, capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+DOCSTRING = re.compile(r'"""(.*?)"""', re.DOTALL)
+
+
+def test_what_docstrings_name_is_there() -> None:
+    """A name between back quotes is of the code, or of a module: what was renamed is renamed in docstrings, too."""
+    texts = {path: path.read_text("utf-8") for path in FILES}
+    known = {part for path in FILES for part in (*path.relative_to(ROOT).parts, path.stem)} | sys.stdlib_module_names
+    for text in texts.values():
+        known.update(re.findall(r"\w+", DOCSTRING.sub("", text)))
+
+    def unknown(path: Path) -> list[str]:
+        named = re.findall(r"`([A-Za-z_][\w.]*)`", " ".join(DOCSTRING.findall(texts[path])))
+        return [name for name in named if not known.issuperset(name.split("."))]
+
+    assert not offenders(FILES, unknown)
 
 
 def test_no_two_classes_have_one_name() -> None:

@@ -86,6 +86,7 @@ def _sweep_one(entry: os.DirEntry[str], owner: str | None) -> None:
 
 _LEFT = re.compile(r"\..+?(?:\.(?P<owner>[0-9]+-[0-9a-f]{6}))?\.[a-z0-9_]{8}\.part(?:\.old)?")
 _ABANDONED_S = 86_400.0
+"""A part of a file that nobody has written to for a day was left by a process that died."""
 
 
 def _is_abandoned(owner: str | None, changed: float) -> bool:

@@ -38,6 +38,12 @@ def place_mm(value: float) -> str:
     return f"{value:.3f}" if abs(value) < 1e12 else f"{value:.6g}"
 
 
+def trimmed(value: float, digits: int) -> str:
+    """Return a number with so many decimals at most: no zeros at its end, never with an exponent, never -0."""
+    text = f"{value:.{digits}f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
 # How durations are written in reports and on the command line.
 
 

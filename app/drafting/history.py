@@ -20,6 +20,9 @@ MOST_BYTES = 256 * 2**20
 """What steps may hold together; beyond that the oldest go."""
 
 _STEP_BYTES, _ENTITY_BYTES, _POINT_BYTES, _POINTER_BYTES = 2000, 400, 160, 8
+"""What a step takes by itself, and for each entity of its own, each of its points, and each entity that is shared with
+others.
+"""
 
 
 Kind = TypeVar("Kind")

@@ -224,14 +224,12 @@ def png(stage: StepState) -> bytes:
     """Return the stage as a PNG picture, pixels as squares."""
     import cv2
 
-    colours = np.array([_bgr(PALETTE[code]) for code in PixelCode], np.uint8)
+    from ..formats.plot.pixels import bgr
+
+    colours = np.array([bgr(PALETTE[code]) for code in PixelCode], np.uint8)
     image = colours[stage.plane]
     if stage.wrong is not None:
-        image[stage.wrong] = _bgr(WRONG)
+        image[stage.wrong] = bgr(WRONG)
     factor = max(1, SHOWN_PX // max(stage.plane.shape))
     image = np.repeat(np.repeat(image, factor, axis=0), factor, axis=1)
     return bytes(cv2.imencode(".png", image)[1].tobytes())
-
-
-def _bgr(colour: str) -> tuple[int, int, int]:
-    return int(colour[5:7], 16), int(colour[3:5], 16), int(colour[1:3], 16)

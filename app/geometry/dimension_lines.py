@@ -6,6 +6,7 @@ import cmath
 import math
 from dataclasses import dataclass
 
+from ..core.wording import trimmed
 from ..model.curves import Arc, Line, Point
 from ..model.notes import Dimension, DimensionKind
 
@@ -51,7 +52,7 @@ def measured(dimension: Dimension) -> float:
 def figure(dimension: Dimension, mm_per_unit: float = 1.0) -> str:
     """Return what is written: at most 3 decimals for lengths and 2 for degrees, no zeros at the end."""
     angle = dimension.measure is DimensionKind.ANGLE
-    value = f"{measured(dimension) / (1.0 if angle else mm_per_unit):.{2 if angle else 3}f}".rstrip("0").rstrip(".")
+    value = trimmed(measured(dimension) / (1.0 if angle else mm_per_unit), 2 if angle else 3)
     sign = {DimensionKind.RADIUS: "R ", DimensionKind.DIAMETER: "\u2300 "}.get(dimension.measure, "")
     return f"{sign}{value}{'°' if angle else ''}"
 

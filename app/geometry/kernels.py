@@ -14,6 +14,7 @@ from ..core.jit import kernel
 from .sort_kernels import order_of, sort_numbers
 
 LEAF = 4
+"""Rows a leaf of the tree of boxes: fewer make the tree larger, more are looked at in vain."""
 INF = math.inf
 DEPTH = 64
 """Nodes that wait at most while a tree is walked."""

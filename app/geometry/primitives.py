@@ -24,6 +24,7 @@ Rows = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _MAX_SWEEP = 0.75 * math.pi
+"""Radians; an arc that sweeps more becomes several rows: kernels rely on arcs below half a turn."""
 
 _MANY = 256
 """Rows from which compiled code is worth being loaded."""

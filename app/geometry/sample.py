@@ -16,6 +16,7 @@ Box = tuple[float, float, float, float]
 
 _STEP = math.radians(2)
 _SPAN_POINTS = 12
+"""Points a span of a spline: enough for an extent and for picking."""
 _KNOWN = 4096
 """Boxes of ellipses and splines that are kept: picking by windows asks for the same ones again and again."""
 

@@ -26,6 +26,7 @@ from .stroke_font import Glyph, StrokeFont, reach_below
 logging.getLogger("fontTools").addHandler(logging.NullHandler())  # what is wrong with a font is in our own sentence
 _KINDS = (".ttf", ".otf", ".ttc")
 _SHORT = 1e-9
+"""Units of the font; a shorter line is left out."""
 _MOST_PARTS = 1000
 """Of one letter; in fonts that people made it has fewer than ten, and parts of parts can double with each step."""
 

@@ -16,10 +16,12 @@ from dataclasses import dataclass
 from enum import Enum
 
 from ..core.errors import ParameterError
+from ..core.wording import trimmed
 
 HELP = '"#12", "layer:holes", "circles:6", "circles:5.9-6.1", "outer", "inner" or "open"'
 
 _MOST_NUMBER = 10**9
+"""Numbers of curves are below this, as nine digits can be read."""
 _QUOTED = 60
 """Letters of a text that is no selector which an error repeats."""
 
@@ -93,7 +95,7 @@ class CirclesOf:
     @property
     def text(self) -> str:
         """As it stands in a job file."""
-        ends = dict.fromkeys(f"{each:.12f}".rstrip("0").rstrip(".") for each in (self.least, self.most))
+        ends = dict.fromkeys(trimmed(each, 12) for each in (self.least, self.most))
         return f"circles:{'-'.join(ends)}"
 
     @property

@@ -25,6 +25,7 @@ LEFT_HAND = (
     Unit.FLAG,
 )
 _SAME = 1e-6
+"""mm of rounding, beside ALIKE."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -239,6 +239,11 @@ class Job:
             )
 
     @property
+    def makes_holes(self) -> bool:
+        """Whether some operation works on circles, each by itself; whether that is enabled or not."""
+        return any(operation.HOLES for operation in self.operations)
+
+    @property
     def travel_z(self) -> float:
         """Height at which the tool travels, mm above the top: clear of stock and keep-out areas."""
         return max(self.safe_z, self.keep_out_height + self.retract_z) if self.keep_out_layers else self.safe_z

@@ -9,6 +9,7 @@ from .motion_path import arc_paths, spline_points
 
 _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 _FULL = 2 * np.pi
+"""Radians of a turn."""
 _WHOLE = 1e-9
 """Turns; an arc that is so near to whole turns is taken as that."""
 

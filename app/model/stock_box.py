@@ -14,6 +14,7 @@ from .job import Job, OriginXY, OriginZ
 from .part import Contour, Region
 
 QUADRANTS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
+"""Directions in which a circle reaches farthest along an axis."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,9 @@ from enum import Enum
 
 _INCH = 25.4
 _TRIANGLE = math.sqrt(3) / 2
+"""Height of the triangle of 60 degrees that a thread is cut from, in pitches (ISO 68-1)."""
 _WHITWORTH = 0.960491
+"""Height of the triangle of 55 degrees, in pitches (ISO 228-1)."""
 
 
 class ThreadForm(Enum):

@@ -123,7 +123,7 @@ def drawing_findings(job: Job, parts: DrawnContours, lines: Sequence[Contour]) -
     followed = {number for line in lines for number in line.entity_ids} | _only_followed(job, parts)
     kept = [
         each
-        for each in across_holes(parts.findings, job, parts)
+        for each in (across_holes(parts.findings, job, parts) if job.makes_holes else parts.findings)
         if each.kind is not FindingKind.OPEN_CONTOUR or not (each.entity_ids and followed.issuperset(each.entity_ids))
     ]
     only_followed = not any(operation.cut.enabled and not operation.follows_lines for operation in job.operations)

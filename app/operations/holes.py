@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..core.errors import ParameterError
 from ..core.progress import Progress
+from ..core.wording import trimmed
 from ..model.curve_selectors import CirclesOf, CurveNumber
 from ..model.finding import Finding, FindingKind
 from ..model.hole_operations import HoleOperation
 from ..model.job import Job
 from ..model.moves import Purpose
+from ..model.operation import Operation
+from ..model.tool import Tool
 from ..toolpath.build import Stroke, StrokeLabel
 from ..toolpath.drawn_contours import DrawnContours
 from ..toolpath.drill_holes import CircleHole, DrillHoles, holes_of
+from ..toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..toolpath.operation_context import OperationContext
 from ..toolpath.ordering.tour import in_short_order
 
@@ -106,6 +110,25 @@ def circle_findings(holes: DrillHoles, job: Job, operation: HoleOperation, verb:
     """Yield which circles an operation does not work on, and why."""
     tool = job.tool(operation.cut.tool)
     who = f"T{tool.number} {tool.label}"
+    yield from _about_others(holes, tool, operation, verb)
+    for kept, why in ((holes.narrow, verb.narrow), (holes.held, "under a clamp or too near to one")):
+        if kept:
+            first = f"({kept[0].x:.3f}, {kept[0].y:.3f})"
+            where = f"the circle at {first} is" if len(kept) == 1 else f"{len(kept)} circles, the first at {first}, are"
+            text, x, y = f"{who}: {where} {why} and not {verb.done}.", kept[0].x, kept[0].y
+            yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(len(kept)))
+    outline = f"not {verb.done}, as other contours lie inside; to have that done, name it in curves, or its diameter"
+    for kept, why in ((holes.outlines, outline), (holes.emptied, f"{verb.done} with the contours that lie inside")):
+        if kept:
+            one = f"{_counted(kept)}, {'' if len(kept) == 1 else 'the first '}at ({kept[0].x:.3f}, {kept[0].y:.3f}),"
+            text = f"{who}: {one} {'is' if len(kept) == 1 else 'are'} {why}."
+            x, y = kept[0].x, kept[0].y
+            yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(len(kept)))
+
+
+def _about_others(holes: DrillHoles, tool: Tool, operation: HoleOperation, verb: HoleVerb) -> Iterator[Finding]:
+    """Yield that there is no circle for a tool, or that those of other diameters are left out."""
+    who = f"T{tool.number} {tool.label}"
     if not holes.drilled:
         others = f" Circles there are of {diameters_in_words(holes.others)}." if holes.others else ""
         yield Finding(
@@ -121,24 +144,18 @@ def circle_findings(holes: DrillHoles, job: Job, operation: HoleOperation, verb:
             counts=_names_them(operation),
             amount=float(len(holes.others)),
         )
-    for kept, why in ((holes.narrow, verb.narrow), (holes.held, "under a clamp or too near to one")):
-        if kept:
-            first = f"({kept[0].x:.3f}, {kept[0].y:.3f})"
-            where = f"the circle at {first} is" if len(kept) == 1 else f"{len(kept)} circles, the first at {first}, are"
-            yield Finding(
-                FindingKind.LEFT_OUT,
-                f"{who}: {where} {why} and not {verb.done}.",
-                kept[0].x,
-                kept[0].y,
-                amount=float(len(kept)),
-            )
-    outline = f"not {verb.done}, as other contours lie inside; to have that done, name it in curves, or its diameter"
-    for kept, why in ((holes.outlines, outline), (holes.emptied, f"{verb.done} with the contours that lie inside")):
-        if kept:
-            one = f"{_counted(kept)}, {'' if len(kept) == 1 else 'the first '}at ({kept[0].x:.3f}, {kept[0].y:.3f}),"
-            text = f"{who}: {one} {'is' if len(kept) == 1 else 'are'} {why}."
-            x, y = kept[0].x, kept[0].y
-            yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(len(kept)))
+
+
+def circles_missed(verb: HoleVerb) -> Callable[[MachiningAreas, Operation, MachiningArea | None], Iterator[Finding]]:
+    """Return what tells of operations with a verb which circles they do not work on: `missed` of an
+    `OperationMethod`.
+    """
+
+    def missed(areas: MachiningAreas, operation: Operation, _: MachiningArea | None) -> Iterator[Finding]:
+        assert isinstance(operation, HoleOperation)
+        return circle_findings(holes_of(areas.job, areas.drawn, operation), areas.job, operation, verb)
+
+    return missed
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,6 +206,6 @@ def _counted(holes: Sequence[CircleHole]) -> str:
 
 def diameters_in_words(holes: Sequence[CircleHole]) -> str:
     """Return diameters in words, and how many of each."""
-    counts = Counter(f"{hole.diameter:.3f}".rstrip("0").rstrip(".") for hole in holes)
+    counts = Counter(trimmed(hole.diameter, 3) for hole in holes)
     named = [f"{text} mm ({count})" for text, count in sorted(counts.items(), key=lambda item: float(item[0]))[:_NAMED]]
     return ", ".join(named) + (f" and {len(counts) - _NAMED} more" if len(counts) > _NAMED else "")

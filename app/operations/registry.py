@@ -27,9 +27,9 @@ class OperationMethod:
     """How a kind of operation is carried out.
 
     Attributes:
-        paths: makes the moves of the operation with an index in the job of a setting.
-        missed: what an operation asks for and no path of it will make, from the drawing alone; without a sheet for one
-            that makes none, which is asked of nobody else's area.
+        paths: makes the moves of the operation with an index in the job of a context.
+        missed: what an operation asks for and no path of it will make, from the drawing alone; without an area for one
+            on holes, which has none.
         effort: how long paths and their proof take, s, about, by what the contours come to.
         prepared: the strokes of an operation that asks nothing of what those before it have cut, so that they can be
             made beside these; None = where it has nothing to machine. No function: it asks.
@@ -46,16 +46,16 @@ class OperationMethod:
     proof: Callable[[ProofInput], OperationProof | None] | None = None
 
 
-_WAYS: dict[type[Operation], OperationMethod] = {}
+_METHODS: dict[type[Operation], OperationMethod] = {}
 
 
-def register(kind: type[Operation], way: OperationMethod) -> None:
+def register(kind: type[Operation], method: OperationMethod) -> None:
     """Make known how a kind of operation is carried out.
 
     Raises:
         ValueError: that is known already.
     """
-    if _WAYS.setdefault(kind, way) is not way:
+    if _METHODS.setdefault(kind, method) is not method:
         raise ValueError(f"operations of the kind {kind.WORD} are carried out in two ways")
 
 
@@ -67,9 +67,9 @@ def method_of(operation: Operation) -> OperationMethod:
         KeyError: nobody has registered that.
     """
     kind = type(operation)
-    if kind not in _WAYS and find_spec(f".{kind.WORD}", __package__):
+    if kind not in _METHODS and find_spec(f".{kind.WORD}", __package__):
         import_module(f".{kind.WORD}", __package__)
-    return _WAYS[kind]
+    return _METHODS[kind]
 
 
 # What the folder of an operation proves of it, on the written text as it was read back.

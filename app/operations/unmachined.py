@@ -32,11 +32,11 @@ def unmachined_findings(areas: MachiningAreas, regions: Sequence[Region]) -> tup
 
 
 def _missed(operation: Operation, areas: MachiningAreas) -> Iterable[Finding]:
-    way = method_of(operation)
+    method = method_of(operation)
     if operation.HOLES:
-        return way.missed(areas, operation, None)
+        return method.missed(areas, operation, None)
     area, tool = areas.of(operation), areas.job.tool(operation.cut.tool)
     # of a program that tells no operations, each tool may be one that mills
     if area is None or tool.kind.drills:
         return ()
-    return way.missed(areas, operation, area)
+    return method.missed(areas, operation, area)

@@ -9,6 +9,7 @@ from ..core.jit import kernel
 from .row_kernels import end_of_run
 
 LEFT = 4
+"""A step to the left, of eight numbered counter-clockwise from the right on."""
 RIGHT_DOWN = 7
 """A step this way has passed the empty pixel left of where it ends, which the next search leaves out."""
 

@@ -28,6 +28,7 @@ _LONGEST = 10.0
 
 _PNG, _JPEG, _BMP = b"\x89PNG\r\n\x1a\n", b"\xff\xd8", b"BM"
 _TURN, _ACROSS, _DOWN, _UNIT = 0x112, 282, 283, 296
+"""Tags of EXIF: how a picture is turned, how many pixels it has across and down a unit, and which unit."""
 _STDERR = Lock()
 
 

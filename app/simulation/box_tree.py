@@ -13,6 +13,7 @@ LEAF = 4
 """Things of a leaf."""
 
 _BITS = 16
+"""Of each coordinate, interleaved in the number that things are sorted by: three of 16 fit into 64."""
 
 
 def box_tree(low: Floats, high: Floats) -> tuple[NDArray[np.int64], Floats]:

@@ -65,6 +65,13 @@ class DepthLevels:
     clamps: DistanceField | None = None
     wide: float = 0.0
 
+    def over(self, x: float, y: float) -> tuple[float, ...]:
+        """Return the heights at which the tool comes over a place, one after the other: beside a clamp it does not come
+        down quickly.
+        """
+        near = self.clamps is not None and float(self.clamps.nearest(np.array([[x, y]]))[0][0]) <= self.wide
+        return (self.travel,) if near or self.retract >= self.travel else (self.travel, self.retract)
+
 
 @dataclass(eq=False)
 class DepthPasses:
@@ -179,9 +186,8 @@ class DepthPasses:
                 return
             self._lift()
         x, y = stroke.start
-        self.builder.straight((x, y, self.levels.travel), Purpose.RAPID, self.label)
-        if self.levels.retract < self.levels.travel and not self._beside_clamp(x, y):
-            self.builder.straight((x, y, self.levels.retract), Purpose.RAPID, self.label)
+        for height in self.levels.over(x, y):
+            self.builder.straight((x, y, height), Purpose.RAPID, self.label)
 
     def _ways_to(self, stroke: Stroke, last: Stroke, z: float) -> tuple[PassLink, ...]:
         """Return the ways one after the other: straight, or first back along what was cut last; none where the air is
@@ -218,10 +224,6 @@ class DepthPasses:
             self.builder.straight((x, y, self.levels.travel), Purpose.RAPID, self.label)
             self._last = None
 
-    def _beside_clamp(self, x: float, y: float) -> bool:
-        clamps, wide = self.levels.clamps, self.levels.wide
-        return clamps is not None and float(clamps.nearest(np.array([[x, y]]))[0][0]) <= wide
-
 
 # Entries through holes that were drilled before.
 
@@ -236,6 +238,7 @@ _TRIED = 8
 """Holes that are tried for one path."""
 
 _NEAR = 1e-6
+"""mm; holes and heights that differ by no more are alike."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -314,6 +317,7 @@ _AWAY = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0)
 """Distances from the beginning that are tried, in cutter's radii."""
 
 _DIRECTIONS = 8
+"""Directions round the beginning in which one is tried."""
 
 _AROUND = [
     (part, math.cos(angle), math.sin(angle))

@@ -25,6 +25,7 @@ from .drawn_contours import DrawnContours, selected
 Floats = NDArray[np.float64]
 
 _CHORD = 1e-3
+"""mm by which chords may leave the arcs of clamps; drills keep off by so much more."""
 
 
 @dataclass(frozen=True, slots=True)

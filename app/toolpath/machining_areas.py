@@ -120,7 +120,7 @@ class _AreaKey:
 
 @dataclass
 class MachiningAreas:
-    """The sheets of a job's operations; operations alike share one.
+    """The areas of a job's operations; operations alike share one.
 
     Attributes:
         findings: of those that were made so far, where their areas are not what was drawn.
@@ -132,7 +132,7 @@ class MachiningAreas:
     _made: dict[_AreaKey, MachiningArea | None] = field(default_factory=dict)
 
     def of(self, operation: Operation) -> MachiningArea | None:
-        """Return the sheet of an operation; None where it has nothing to machine."""
+        """Return the area of an operation; None where it has nothing to machine."""
         tool, side = self.job.tool(operation.cut.tool), operation.wall_side or Side.INSIDE
         width = operation.line_width(tool) or 0.0
         width = width if width > tool.diameter + _SAME else 0.0
@@ -258,7 +258,7 @@ class MachiningAreas:
 
     @cached_property
     def _made_by_drills(self) -> frozenset[CircleHole | None]:
-        return frozenset(made_by_drills(self.job, self.drawn))
+        return frozenset(made_by_drills(self.job, self.drawn)) if self.job.makes_holes else frozenset()
 
     def _frame(self, contours: Sequence[Contour]) -> Contour | None:
         """Return a box with room for every tool round all contours, counter-clockwise; None where there is no

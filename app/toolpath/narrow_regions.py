@@ -26,6 +26,7 @@ from .linking.bridge import BridgeForest, RingEdges, level_bridges
 from .narrow_kernels import widest_way
 
 _CHORD = 1e-3
+"""mm by which chords may leave arcs."""
 
 _WORTH_TWO_CORES = 32
 """Largest discs from which a second core is worth its start."""
@@ -40,6 +41,7 @@ _LOWER = 8
 """Levels below the tool's at which is looked for where parts come together."""
 
 _REFINED = 3
+"""How often the way is brought to the middle and made finer round its narrowest place."""
 
 Floats = NDArray[np.float64]
 

@@ -326,6 +326,7 @@ _LOOSE = 128
 """Rows that are looked at one by one before they get a tree."""
 
 _SAME_HEIGHT = 1e-9
+"""mm; ground that is no higher than this above the tip has been cleared to it."""
 
 Row = NDArray[np.float64]
 """(8,) a line or an arc, see `app.geometry.primitives`."""

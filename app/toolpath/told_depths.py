@@ -37,7 +37,9 @@ _NEARER = 0.5
 """Heights of letters by which the next shape must be farther than the one that a text is of."""
 
 _CHORD = 0.01
+"""mm by which chords may leave arcs where texts are assigned to shapes."""
 _ALIKE = 1e-6
+"""mm; depths that differ by no more are one."""
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,7 @@ from ..model.job import Copies, Job, OriginXY, OriginZ
 from ..model.operation import CutParameters, Operation, PocketOperation, Side
 from ..model.part import Contour, Entity, Part
 from ..model.stock_box import extent
+from ..model.tool import Tool
 from ..operations.vcarve.paths import RIDGE, flat_tool_of
 from ..toolpath.drawn_contours import drawn_contours, selected
 from .cutting.cut import CutOptions, CutProgram, cut
@@ -43,8 +44,14 @@ from .making.make import MakeResult, export, job_from_drawing
 SIDEWAYS = 0.005
 """mm beside a wall; by so much plug and pocket may overlap before it counts: wood gives way."""
 
+_LEAST_OUT = 0.01
+"""mm; what stands out by less cannot be sawn off."""
+
 _PLUG, _BLOCK = "plug", "block"
+"""Layers of the plug's drawing: its contours, and the block that it is made of."""
+
 _CELLS = 768
+"""Across the window in which pocket and plug are held against one another."""
 _MIRROR = Similarity(-1 + 0j, 0j, mirrored=True)
 """x to -x."""
 
@@ -191,45 +198,22 @@ def inlay_jobs(job: Job, sizes: InlayOptions) -> InlayJobs:
     tool, flat = job.cutter(operation), flat_tool_of(job, operation)
     assert flat is not None  # it was asked for
     rate, face = math.tan(tool.tip_angle / 2), operation.cut.depth - sizes.glue
-    if not 0 <= sizes.glue < operation.cut.depth:
-        raise ParameterError(
-            f"The glue is {sizes.glue:g} mm deep and the pocket {operation.cut.depth:g} mm; it must be 0 or more, and "
-            "less than the pocket."
-        )
-    if sizes.gap < tool.tip_diameter / 2:
-        raise ParameterError(
-            f"The gap is {sizes.gap:g} mm, and the tip of T{tool.number} {tool.label} is {tool.tip_diameter:g} mm "
-            f"wide, so that the plug would not go into narrow places; give it a gap of {tool.tip_diameter / 2:g} mm or "
-            "more, or take a pointed cutter."
-        )
-    below = sizes.saw - sizes.gap / rate
-    if below < 0.01:
-        raise ParameterError(
-            f"The plug is to stand out by {sizes.saw:g} mm, and with that gap it sinks in by {sizes.gap / rate:.3f} "
-            "mm; let it stand out more."
-        )
-    drawn = drawn_contours(job)
-    chosen = selected(drawn, operation.cut.curves).closed
+    _check_sizes(sizes, operation.cut.depth, tool, rate)
+    chosen = selected(drawn_contours(job), operation.cut.curves).closed
     box = extent(chosen)
     if box is None:
         raise ParameterError(f"{job.part.name}: there is no closed contour to inlay; draw one, or choose other curves.")
     depth = face + sizes.saw
-    room = tool.tip_diameter + 2 * depth * rate + 2 * flat.diameter
+    block = _block_round(box, tool.tip_diameter + 2 * depth * rate + 2 * flat.diameter)
     contours = [_mirrored(each) for each in chosen]
-    block = polygon_contour(
-        [
-            (-box[2] - room, box[1] - room),
-            (-box[0] + room, box[1] - room),
-            (-box[0] + room, box[3] + room),
-            (-box[2] - room, box[3] + room),
-        ]
-    )
-    stepdown = operation.cut.stepdown
     around = PocketOperation(
-        CutParameters(flat.number, depth, stepdown, stock_to_leave=sizes.saw * rate), open_edges=True
+        CutParameters(flat.number, depth, operation.cut.stepdown, stock_to_leave=sizes.saw * rate), open_edges=True
     )
     walls = ChamferOperation(
-        CutParameters(tool.number, curves=(OnLayer(_PLUG),)), Side.OUTSIDE, face * rate + sizes.gap, below
+        CutParameters(tool.number, curves=(OnLayer(_PLUG),)),
+        Side.OUTSIDE,
+        face * rate + sizes.gap,
+        sizes.saw - sizes.gap / rate,
     )
     pocket = replace(job, origin_xy=OriginXY.DRAWING, origin_z=OriginZ.TOP)
     plug = replace(
@@ -243,6 +227,39 @@ def inlay_jobs(job: Job, sizes: InlayOptions) -> InlayJobs:
         keep_out_height=0.0,
     )
     return InlayJobs(pocket, plug, face, rate)
+
+
+def _check_sizes(sizes: InlayOptions, depth: float, tool: Tool, rate: float) -> None:
+    """Refuse sizes that do not go with a pocket and its tool.
+
+    Args:
+        depth: of the pocket, mm. rate: mm of the cutter's radius a mm of its height.
+
+    Raises:
+        ParameterError: one does not.
+    """
+    if not 0 <= sizes.glue < depth:
+        raise ParameterError(
+            f"The glue is {sizes.glue:g} mm deep and the pocket {depth:g} mm; it must be 0 or more, and less than the "
+            "pocket."
+        )
+    if sizes.gap < tool.tip_diameter / 2:
+        raise ParameterError(
+            f"The gap is {sizes.gap:g} mm, and the tip of T{tool.number} {tool.label} is {tool.tip_diameter:g} mm "
+            f"wide, so that the plug would not go into narrow places; give it a gap of {tool.tip_diameter / 2:g} mm or "
+            "more, or take a pointed cutter."
+        )
+    if sizes.saw - sizes.gap / rate < _LEAST_OUT:
+        raise ParameterError(
+            f"The plug is to stand out by {sizes.saw:g} mm, and with that gap it sinks in by {sizes.gap / rate:.3f} "
+            "mm; let it stand out more."
+        )
+
+
+def _block_round(box: tuple[float, float, float, float], room: float) -> Contour:
+    """Return the block that a plug is made of, round the mirrored extent of the contours, mm."""
+    x0, y0, x1, y1 = -box[2] - room, box[1] - room, -box[0] + room, box[3] + room
+    return polygon_contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
 
 def _carving(job: Job) -> Operation:

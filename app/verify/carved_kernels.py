@@ -10,7 +10,9 @@ from ..core.jit import kernel
 from ..geometry.kernels import DEPTH, INF, LEAF, box_distance, in_sector, nearest_from
 
 _SHRINKS = 12
+"""How often a disc is made smaller by the wall that reaches into it, before it is bisected."""
 _HALVINGS = 44
+"""Of a radius: to the last digits of the largest one."""
 _TREE = "int64[::1], float64[:, ::1]"
 
 

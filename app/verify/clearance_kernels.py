@@ -158,8 +158,12 @@ def pair_distances(first, second, one, other, distances, places):
 
 
 _GENTLE = 1 - 1e-12
+"""Of what a move gains of width a mm of its way: at 1 no place is ahead of a foot far enough, and the root is not
+defined.
+"""
 
 _CANDIDATES = 12
+"""Places on a move at which it may be nearest to a wall: `_candidates` numbers them."""
 
 
 @kernel("float64(float64[:, ::1], int64, float64)", counts=False)

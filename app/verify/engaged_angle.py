@@ -30,6 +30,7 @@ WIDENING = 0.2
 """mm; the largest radius of the first turn at the foot of an entry that counts as part of it."""
 
 _LEVEL = 1e-6
+"""mm; what is no lower than this below the top is above the metal."""
 _STEEP = 5e-4
 """Slope of a way down, at least; what falls less is a cut."""
 

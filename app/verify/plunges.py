@@ -259,33 +259,13 @@ def fast_plunges(
     """
     course, top = stock.courses[-1], float(before.heights.max())
     known = _rates(stock, tools, rates, top)
-    limit = np.full(int(course.tool.max(initial=0)) + 1, math.inf)
-    for number, rate in known.items():
-        limit[number] = MORE * rate if rate is not None else 0.0
-    motions = course.motions
-    fast = (
-        _descends(motions.end - motions.start, motions.kind)
-        & (motions.feed > limit[course.tool])
-        & (motions.end[:, 2] < top - LEVEL)
-    )
-    fast[list(course.left_out)] = False
-    fast |= _between(fast, motions.end - motions.start)
+    fast = _fast_descents(course, known, top)
     spans = [
         span for span in alike_runs(fast.astype(np.int64), course.tool) if _may_be_deep(stock, tools, known, span, top)
     ]
     if not spans:
         return FastPlunges()
-    # metal under the axis that a cell would not show makes no plunge, so no closer look is taken
-    wide = NARROW * before.grid.pitch
-    radius = {number: max(tool.radius * PIN, min(wide, tool.radius)) for number, tool in tools.items()}
-    ways = [
-        CutterTravel(
-            first,
-            np.concatenate([motions.start[first : first + 1], motions.end[first : last + 1]]),
-            Cutter(radius[int(course.tool[first])], radius[int(course.tool[first])]),
-        )
-        for first, last in spans
-    ]
+    motions, ways = course.motions, _along_axes(course, spans, tools, before.grid.pitch)
     deepest: dict[int, list[FastPlunge]] = {}
     looked = hits_along(stock, before, ways, progress)
     for k, hits in looked.hits.items():
@@ -299,6 +279,39 @@ def fast_plunges(
         for found in deepest.values()
     )
     return FastPlunges(tuple(worst), looked.unseen)
+
+
+def _fast_descents(course: Course, rates: Mapping[int, float | None], top: float) -> NDArray[np.bool_]:
+    """Return which motions go down below the top faster than their tool may, with short steps between such.
+
+    Args:
+        rates: mm/min, by T number; None: no rate is known to be slow enough.
+    """
+    limit = np.full(int(course.tool.max(initial=0)) + 1, math.inf)
+    for number, rate in rates.items():
+        limit[number] = MORE * rate if rate is not None else 0.0
+    motions = course.motions
+    way = motions.end - motions.start
+    fast = _descends(way, motions.kind) & (motions.feed > limit[course.tool]) & (motions.end[:, 2] < top - LEVEL)
+    fast[list(course.left_out)] = False
+    return fast | _between(fast, way)
+
+
+def _along_axes(
+    course: Course, spans: Sequence[tuple[int, int]], tools: Mapping[int, Tool], pitch: float
+) -> list[CutterTravel]:
+    """Return the ways down (first and last row each) of pins along the tools' axes.
+
+    Metal under the axis that a cell would not show makes no plunge, so no closer look is taken.
+    """
+    wide, motions = NARROW * pitch, course.motions
+    radius = {number: max(tool.radius * PIN, min(wide, tool.radius)) for number, tool in tools.items()}
+    ways = []
+    for first, last in spans:
+        points = np.concatenate([motions.start[first : first + 1], motions.end[first : last + 1]])
+        pin = radius[int(course.tool[first])]
+        ways.append(CutterTravel(first, points, Cutter(pin, pin)))
+    return ways
 
 
 def _at_height(points: Floats, z: float) -> tuple[float, float]:

@@ -27,6 +27,7 @@ from .compiler_process import DONE
 from .store import FOLDER_VARIABLE, Store, store
 
 _LOOK_EVERY_S = 0.1
+"""How often compiling processes are looked after while somebody waits."""
 _ROOT = Path(__file__).resolve().parents[3]
 _MAIN = f"{__package__}.compiler_process"
 _PROGRAM = f"import sys; sys.path.insert(0, {str(_ROOT)!r}); from {_MAIN} import main; main()"

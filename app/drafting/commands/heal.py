@@ -32,7 +32,9 @@ from .properties import properties_of, with_property
 from .select import reachable
 
 _LARGEST = 10.0
+"""mm; a wider gap is drawn on purpose."""
 _ROUNDS = 4
+"""Rounds at most: what one has mended may touch what it could not mend."""
 _WORDS = {
     DefectKind.TINY: ("tiny curve removed", "tiny curves removed"),
     DefectKind.DUPLICATE: ("duplicate removed", "duplicates removed"),

@@ -22,7 +22,9 @@ from .defects import End, meetings, point_of
 from .properties import properties_of, with_property
 
 _LARGEST = 10.0
+"""mm; a wider gap is drawn on purpose."""
 _WHOLE = math.tau - 1e-9
+"""Radians; an arc that sweeps more is a whole circle."""
 
 
 def join(words: Arguments, session: DraftingSession) -> ReplaceCurves:

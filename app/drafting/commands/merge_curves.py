@@ -9,6 +9,7 @@ from ...model.curves import Arc, Circle, Line, Point
 from .defects import turn_of
 
 _WHOLE = math.tau - 1e-9
+"""Radians; an arc that sweeps more is a whole circle."""
 
 
 def merged(

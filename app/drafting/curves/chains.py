@@ -11,6 +11,7 @@ from ...core.tolerances import WELD
 from ...model.curves import Curve, Point, reversed_curve
 
 _CELL = 10 * WELD
+"""mm; ends are sorted into squares so wide: one that is near lies in the same or a neighbouring one."""
 
 
 @dataclass(frozen=True, slots=True)

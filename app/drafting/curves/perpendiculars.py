@@ -17,7 +17,9 @@ _SAMPLES = 24
 """So many places of each span are looked at; of two solutions closer than that neither may be found."""
 
 _HALVINGS = 60
+"""Of a stretch, until it is as short as a number can tell."""
 _VANISHES = 1e-9
+"""Of the lengths of both factors, and mm: what is less is 0."""
 
 Numbers = NDArray[np.float64]
 Ways = Callable[[Numbers], tuple[Points, Points]]

@@ -17,6 +17,7 @@ from .words import number_text
 
 _RANGE = re.compile(r"([0-9]{1,9})(?:-([0-9]{1,9}))?")
 _LARGEST_RANGE = 1_000_000
+"""Numbers of curves that one range may name."""
 
 
 class Arguments:

@@ -13,6 +13,7 @@ from .units import ALL_UNITS, ANGLE_UNITS, LENGTH_UNITS
 from .values import Curves, Length, Scope, Value, kind_of, wrong
 
 _LARGEST = 1e7
+"""Of a number of the language; coordinates and lengths beyond that lose their micrometres."""
 
 
 def number_of(expression: s.Expression, scope: Scope) -> float:

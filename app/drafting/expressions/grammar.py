@@ -76,9 +76,12 @@ _TRAILING: /[ \t\u00a0]+(?=\r?\n|;)/
 """
 
 _DEEPEST = 40
+"""Brackets, signs or blocks within one another: each is a call within a call."""
 _MOST_TERMS = 1000
+"""Of one expression."""
 _OPERATORS = frozenset({"PLUS", "MINUS", "TIMES", "OVER"})
 _LONGEST = 20_000_000
+"""Letters of a text."""
 _LOOSE = frozenset({"LET", "REPEAT", "IF", "DEFINE", "UNITS", "_ELSE"})
 _OPENING = frozenset({"REPEAT", "IF", "DEFINE", "UNITS"})
 _VALUE_ENDS = frozenset({"NUMBER", "UNIT", "NAME", "RPAR", "TEXT"})

@@ -12,6 +12,7 @@ import math
 from ...core.jit import kernel
 
 CROSSING, TANGENT, PINNED = 0, 1, 2
+"""How a carrier begins: where it crosses the one before, where the two touch, at the joint that the points have."""
 
 NEAR = 6
 """Steps from a joint within which a point is near it."""

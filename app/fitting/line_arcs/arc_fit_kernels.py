@@ -32,7 +32,7 @@ are.
 
 
 @kernel("boolean(float64[:, ::1], int64, int64, float64)", counts=False)
-def line_holds(points, i, j, limit):  # type: ignore[no-untyped-def]
+def line_holds(points, i, j, limit):
     """Tell whether points i to j keep within a limit of the chord from i to j, in order."""
     dx, dy, dz = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
     size = dx * dx + dy * dy + dz * dz
@@ -50,7 +50,7 @@ def line_holds(points, i, j, limit):  # type: ignore[no-untyped-def]
 
 
 @kernel("UniTuple(float64, 2)(float64, float64, float64)", counts=False)
-def _heights(x, y, off):  # type: ignore[no-untyped-def]
+def _heights(x, y, off):
     """Return between which heights an arc over the chord from (-1, 0) to (1, 0) passes a point within `off` of it.
 
     A circle of height t has the centre (0, (t - 1 / t) / 2) and the radius (t + 1 / t) / 2. The point is `off` above or
@@ -67,7 +67,7 @@ def _heights(x, y, off):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64[:, ::1], int64, float64, float64)", counts=False)
-def _nearest(points, k, cx, cy):  # type: ignore[no-untyped-def]
+def _nearest(points, k, cx, cy):
     """Return how near the chord behind point k comes to a centre."""
     dx, dy = points[k + 1, 0] - points[k, 0], points[k + 1, 1] - points[k, 1]
     px, py = cx - points[k, 0], cy - points[k, 1]
@@ -77,7 +77,7 @@ def _nearest(points, k, cx, cy):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(float64[:, ::1], int64, float64, float64, float64, float64, float64, float64)", counts=False)
-def _bulges(points, k, cx, cy, radius, limit, swell, lag):  # type: ignore[no-untyped-def]
+def _bulges(points, k, cx, cy, radius, limit, swell, lag):
     """Tell whether a circle leaves the region round the chord behind point k to its other side."""
     if swell == 0.0:
         bulge = max(radius - _nearest(points, k, cx, cy), 0.0)
@@ -93,7 +93,7 @@ def _bulges(points, k, cx, cy, radius, limit, swell, lag):  # type: ignore[no-un
 
 
 @kernel("boolean(float64[:, ::1], int64, int64, float64, float64, float64, float64, float64[::1])", counts=False)
-def _holds(points, i, j, limit, swell, largest, height, found):  # type: ignore[no-untyped-def]
+def _holds(points, i, j, limit, swell, largest, height, found):
     """Tell whether the arc of a height keeps within a limit of the path, both ways and in order, its normal in step."""
     dx, dy = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1]
     chord = math.sqrt(dx * dx + dy * dy)
@@ -133,7 +133,7 @@ def _holds(points, i, j, limit, swell, largest, height, found):  # type: ignore[
 
 
 @kernel("boolean(float64[:, ::1], int64, int64, float64, float64, float64, float64[::1])", counts=False)
-def arc_holds(points, i, j, limit, swell, largest, found):  # type: ignore[no-untyped-def]
+def arc_holds(points, i, j, limit, swell, largest, found):
     """Tell whether an arc from point i to point j keeps within a limit of the path between; write its height over the
     chord.
 
@@ -165,7 +165,7 @@ def arc_holds(points, i, j, limit, swell, largest, found):  # type: ignore[no-un
 
 
 @kernel("boolean(float64[:, ::1], int64, int64, int64, float64, float64, float64, float64[::1])", counts=False)
-def holds(points, i, j, kind, limit, swell, largest, found):  # type: ignore[no-untyped-def]
+def holds(points, i, j, kind, limit, swell, largest, found):
     """Tell whether a line, or an arc in the points' plane, stands for points i to j."""
     if kind == LINE:
         return line_holds(points, i, j, limit)
@@ -173,7 +173,7 @@ def holds(points, i, j, kind, limit, swell, largest, found):  # type: ignore[no-
 
 
 @kernel("int64(float64[:, ::1], int64, int64, int64, int64, float64, float64, float64, float64[::1])", counts=False)
-def _reach(points, i, stop, least, kind, limit, swell, largest, found):  # type: ignore[no-untyped-def]
+def _reach(points, i, stop, least, kind, limit, swell, largest, found):
     """Return the last point beyond `least` that one line or arc from point i can end at, or `least`; an arc's height to
     `found[1]`.
 
@@ -206,7 +206,7 @@ def _reach(points, i, stop, least, kind, limit, swell, largest, found):  # type:
 @kernel(
     "UniTuple(int64, 3)(float64[:, :, ::1], int64, int64, float64, float64, float64, int64, float64[::1])", counts=False
 )
-def farthest(planes, i, stop, limit, swell, largest, kinds, found):  # type: ignore[no-untyped-def]
+def farthest(planes, i, stop, limit, swell, largest, kinds, found):
     """Return the last point that one line (or, with kinds 1, arc) from point i can end at, its kind and plane; its
     height to `found[1]`.
     """
@@ -220,7 +220,7 @@ def farthest(planes, i, stop, limit, swell, largest, kinds, found):  # type: ign
 
 
 @kernel("int64(float64[:, :, ::1], int64, int64, float64, float64, float64, int64, int64[:, ::1], float64[::1])")
-def greedy(planes, first, stop, limit, swell, largest, kinds, rows, heights):  # type: ignore[no-untyped-def]
+def greedy(planes, first, stop, limit, swell, largest, kinds, rows, heights):
     """Cover points first to stop with the longest lines and arcs, one after the other; return how many.
 
     Args:

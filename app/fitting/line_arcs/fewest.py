@@ -27,6 +27,9 @@ arc.
 _SAGITTA = 0.16
 """Else between two samples an arc leaves the chord by no more than an eighth of this, in limits, on its inner side."""
 _MOST = 16
+"""Parts of a chord at most. Where the limit swells between points each chord has so many: its middle may hold what its
+ends do not.
+"""
 _DENSE = 16
 """Of more samples than twice so many from state to state only the outermost ones of so many stretches are looked at."""
 _SLIGHT = 0.1

@@ -57,7 +57,7 @@ there, the longest chord since the state before.
 
 
 @kernel("UniTuple(float64, 2)(float64, float64, float64, float64, float64)", counts=False)
-def narrowed(low, high, x, y, off):  # type: ignore[no-untyped-def]
+def narrowed(low, high, x, y, off):
     """Return which of the heights between two arcs over the chord from (-1, 0) to (1, 0) have that pass a point within
     `off` of it.
 
@@ -85,7 +85,7 @@ def narrowed(low, high, x, y, off):  # type: ignore[no-untyped-def]
     f"UniTuple(float64, 2)({_SAMPLES}, int64, int64, float64, float64, float64, float64, float64, int64[::1])",
     counts=False,
 )
-def _window(samples, first, last, ax, ay, bx, by, widened, hardest):  # type: ignore[no-untyped-def]
+def _window(samples, first, last, ax, ay, bx, by, widened, hardest):
     """Return between which heights arcs from a to b keep near samples first to last; the lower one above the other:
     none does.
 
@@ -100,6 +100,7 @@ def _window(samples, first, last, ax, ay, bx, by, widened, hardest):  # type: ig
     square = dx * dx + dy * dy
     if square == 0.0:
         return 1.0, -1.0
+    # Divided by half the chord, as complex numbers, the chord becomes that from (-1, 0) to (1, 0).
     mx, my, ux, uy, scale = 0.5 * (ax + bx), 0.5 * (ay + by), dx / square, dy / square, widened / math.sqrt(square)
     low, high, lowest, highest, widest = -_STEEPEST, _STEEPEST, 0.0, 0.0, 0.0
     step, k = max(1, (last - first) // _COARSE), hardest[0]
@@ -119,12 +120,14 @@ def _window(samples, first, last, ax, ay, bx, by, widened, hardest):  # type: ig
             fresh = False
         if step == 1:
             return max(low, lowest - widest), min(high, highest + widest)
+        # The coarse samples let some heights through: now each one is looked at.
         step, k = 1, first
 
 
 @kernel("UniTuple(float64, 2)(float64, float64, float64, boolean, float64)", counts=False)
-def _halves(low, high, size, bent, limit):  # type: ignore[no-untyped-def]
+def _halves(low, high, size, bent, limit):
     """Return the halves of the sweep, left positive, that heights are; of a line alone where there may be no arc."""
+    # An arc of height t over its chord, to the left, sweeps 4 atan t to the right.
     least, most = -2.0 * math.atan(high), -2.0 * math.atan(low)
     if not bent:
         return (0.0, 0.0) if least <= 0.0 <= most else (1.0, -1.0)
@@ -135,7 +138,7 @@ def _halves(low, high, size, bent, limit):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, int64, int64, float64, float64, int64)", counts=False)
-def _keep(counts, directions, before, at, pieces, low, high, entry):  # type: ignore[no-untyped-def]
+def _keep(counts, directions, before, at, pieces, low, high, entry):
     """Keep a path to place `at` that goes on from an entry, unless there is one of fewer pieces, or one that may arrive
     likewise.
 
@@ -159,7 +162,7 @@ def _keep(counts, directions, before, at, pieces, low, high, entry):  # type: ig
 
 
 @kernel(f"void({_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, int64, int64, float64, float64, float64, float64)", counts=False)
-def _extend(counts, directions, before, source, at, chord, least, most, bend):  # type: ignore[no-untyped-def]
+def _extend(counts, directions, before, source, at, chord, least, most, bend):
     """Extend all paths to place `source` by a piece to place `at` with halves of its sweep between two.
 
     It leaves in the direction chord - half, which is no farther than `bend` from that in which the path arrives.
@@ -168,6 +171,7 @@ def _extend(counts, directions, before, source, at, chord, least, most, bend):  
         low, high = least, most
         if bend < math.pi:
             arrives = 0.5 * (directions[source, e, 0] + directions[source, e, 1])
+            # Directions are known but for whole turns: the chord's is taken within half a turn of the arrival's.
             turned = chord - 2.0 * math.pi * round((chord - arrives) / (2.0 * math.pi))
             low = max(low, turned - directions[source, e, 1] - bend)
             high = min(high, turned - directions[source, e, 0] + bend)
@@ -181,7 +185,7 @@ def _extend(counts, directions, before, source, at, chord, least, most, bend):  
     f"boolean({_SAMPLES}, int64[::1], {_STATES}, float64[::1], int64, int64, float64, float64, {_COUNTS}, "
     f"{_DIRECTIONS}, {_ENTRIES}, int64[::1])"
 )
-def _reach(samples, at, states, aside, i, j, longest, limit, counts, directions, before, hardest):  # type: ignore[no-untyped-def]
+def _reach(samples, at, states, aside, i, j, longest, limit, counts, directions, before, hardest):
     """Extend all paths to state i by a piece to state j, an arc where no chord is too long; tell whether the points
     allow about one.
     """
@@ -224,7 +228,7 @@ def _reach(samples, at, states, aside, i, j, longest, limit, counts, directions,
 @kernel(
     f"void({_SAMPLES}, int64[::1], {_STATES}, int64[::1], float64[::1], float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES})"
 )
-def search(samples, at, states, points, aside, limit, counts, directions, before):  # type: ignore[no-untyped-def]
+def search(samples, at, states, points, aside, limit, counts, directions, before):
     """Find the paths of the fewest pieces from the first state to all others.
 
     Args:
@@ -239,6 +243,7 @@ def search(samples, at, states, points, aside, limit, counts, directions, before
         before: (n w, MOST) the entry that it goes on from.
     """
     count, ways, hardest = len(states), len(aside), np.zeros(1, np.int64)
+    # Pieces run forward: all paths to state i are there when its turn comes, so one pass finds the fewest.
     for i in range(count - 1):
         missed, longest, j, paths = 0, 0.0, i + 1, counts[i * ways : (i + 1) * ways, USED].sum()
         while paths > 0 and j < count and missed < _PATIENCE:
@@ -253,7 +258,7 @@ def search(samples, at, states, points, aside, limit, counts, directions, before
 
 
 @kernel("float64(float64, float64, float64, float64, float64)", counts=False)
-def _chosen(low, high, size, largest, slight):  # type: ignore[no-untyped-def]
+def _chosen(low, high, size, largest, slight):
     """Return one of the halves of a sweep between two: their middle, or a line's where that is as good as one, or
     flatter than may be.
     """
@@ -271,7 +276,7 @@ def _chosen(low, high, size, largest, slight):  # type: ignore[no-untyped-def]
     f"int64({_STATES}, float64[::1], float64, float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, int64[::1], float64[::1], "
     "float64[::1])"
 )
-def trace(states, aside, largest, slight, counts, directions, before, rows, left, half):  # type: ignore[no-untyped-def]
+def trace(states, aside, largest, slight, counts, directions, before, rows, left, half):
     """Write the path of the fewest pieces to the last state, from its end on, and return how many they are; 0: there is
     none.
 
@@ -300,6 +305,7 @@ def trace(states, aside, largest, slight, counts, directions, before, rows, left
             * math.pi
             * round((0.5 * (directions[source, e, 0] + directions[source, e, 1]) - leaves) / (2.0 * math.pi))
         )
+        # Now that this piece's way out is chosen, the one before must arrive within a bend of it.
         low, high = (leaves + turned - bend, leaves + turned + bend) if bend < math.pi else (-np.inf, np.inf)
         at, best = source, e
     return pieces

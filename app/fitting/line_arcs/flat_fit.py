@@ -26,6 +26,7 @@ _FINE = 0.01
 there.
 """
 _MOST_DIGITS = 8
+"""Decimals that a last digit is looked for in, and one less of them: finer ones are rounding."""
 _SAME = 1e-6
 """Radians: bends are held to their limit but for the digits that they are reckoned in."""
 

@@ -19,7 +19,9 @@ _STARTS = (1.0, 0.9)
 _SURE = 0.985
 """Joints are moved within so much of the limit: they are held to samples, and then looked at whole."""
 _ROUNDS = 12
+"""Rounds of tuning and fitting anew, at most; a path that is still beyond its limits is not taken."""
 _HALVINGS = 7
+"""Halvings of the limit, as a factor, for that which gives so many pieces: 400 to within 5 %."""
 _PLENTY = 200
 """Of more points only some are tried as joints of what is fitted anew."""
 _BLOCK, _OVERLAP = 24, 4
@@ -27,7 +29,9 @@ _BLOCK, _OVERLAP = 24, 4
 _EVEN = 3.0
 """A chord may become an arc beside pieces of at least a third of its length: a long side with crumbs stays a side."""
 _LEAST_CHORDS = 3
+"""An arc stands for so many chords at least: two points and a bend between them are no evidence of one."""
 _AS_SHARP = 2.0
+"""Times what the polyline itself turns nearby, at most: more is a bend that was made, and not drawn."""
 _ROUNDED = 2.0 * math.sqrt(2.0)
 """Ends of two chords of equal length that are off by half a last digit in X and Y turn them by so many of it a length,
 at most.

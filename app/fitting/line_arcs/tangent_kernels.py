@@ -21,6 +21,7 @@ _EACH = 8
 _BAND = 8
 """Variables that meet in one bend are so near one another."""
 _STEPS = 80
+"""Newton's steps at most; `off` tells what is not within the limit by then."""
 _FIRM, _FIRST, _LIGHT = 1.0, 0.1, 1e-6
 """What the walls weigh beside the bends: while the path is beyond the limit, from then on, and in the end."""
 _HARD = math.radians(2.0)
@@ -38,46 +39,50 @@ _DONE = 1e-3
 
 
 @kernel("float64(complex128, complex128, float64, complex128)", counts=False)
-def _apart(a, b, half, p):  # type: ignore[no-untyped-def]
+def _apart(a, b, half, p):
     """Return how far a point lies left of the circle that a piece from a to b is of."""
     c, w = b - a, p - a
     size = abs(c)
     tangent = c / size * cmath.exp(-1j * half)
     bent = 2.0 * math.sin(half) / size
+    # F = y - k (x² + y²) / 2 is 0 on the circle of curvature k that leaves a along x; a place lies 2 F / (1 + sqrt(1
+    # - 2 k F)) to its left. That needs no centre, so that a line, k = 0, is no case of its own.
     left = (w * tangent.conjugate()).imag - 0.5 * bent * (w.real * w.real + w.imag * w.imag)
     return 2.0 * left / (1.0 + math.sqrt(max(1.0 - 2.0 * bent * left, 1e-9)))
 
 
 @kernel(f"float64({_Z}, {_R}, int64)", counts=False)
-def _bend(z, half, j):  # type: ignore[no-untyped-def]
+def _bend(z, half, j):
     """Return by how much the path turns at joint j, radians."""
+    # The piece before arrives in its chord's direction + half its sweep, the next one leaves in its chord's - half.
     turn = cmath.phase((z[j + 1] - z[j]) / (z[j] - z[j - 1])) - half[j] - half[j - 1]
     return turn - 2.0 * math.pi * round(turn / (2.0 * math.pi))
 
 
 @kernel("float64(float64, float64)", counts=False)
-def _ease(share, swell):  # type: ignore[no-untyped-def]
+def _ease(share, swell):
     """Return what a distance from a place of a chord counts for, where the region is wider between points than at
     them.
     """
+    # The squared limit is a parabola along the chord: once at the points, 1 + swell times in the middle.
     return 1.0 / math.sqrt(1.0 + 4.0 * swell * share * (1.0 - share))
 
 
 @kernel(f"complex128({_Z}, int64)", counts=False)
-def _sample(xy, s):  # type: ignore[no-untyped-def]
+def _sample(xy, s):
     """Return sample s of a polyline: its points and, between them, places that part its chords evenly."""
     k, share = s // _EACH, (s % _EACH) / _EACH
     return xy[k] if share == 0.0 else xy[k] + share * (xy[k + 1] - xy[k])
 
 
 @kernel(f"float64({_Z}, complex128, complex128, float64, int64, float64)", counts=False)
-def _off(xy, a, b, half, s, swell):  # type: ignore[no-untyped-def]
+def _off(xy, a, b, half, s, swell):
     """Return how far sample s lies left of the circle that a piece from a to b is of, as it counts."""
     return _apart(a, b, half, _sample(xy, s)) * _ease((s % _EACH) / _EACH, swell)
 
 
 @kernel("UniTuple(int64, 3)(float64, float64, float64)", counts=False)
-def _samples(low, high, swell):  # type: ignore[no-untyped-def]
+def _samples(low, high, swell):
     """Return first, stop and step of the samples between two feet: of many those at points, where these have less
     room.
     """
@@ -89,18 +94,19 @@ def _samples(low, high, swell):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_Z}, {_R}, {_Z}, {_R}, {_R}, int64, int64, {_R}, {_Z})", counts=False)
-def place(xy, along, ahead, s, left, first, stop, feet, z):  # type: ignore[no-untyped-def]
+def place(xy, along, ahead, s, left, first, stop, feet, z):
     """Write the feet, in chords of the polyline, and the places of joints first to stop - 1."""
     for j in range(first, stop):
         k = min(max(int(np.searchsorted(along, s[j], side="right")) - 1, 0), len(xy) - 2)
         share = (s[j] - along[k]) / (along[k + 1] - along[k])
+        # Directions turn evenly along a chord: a joint that slides past a point does not jump.
         way = ahead[k] + share * (ahead[k + 1] - ahead[k])
         feet[j] = k + share
         z[j] = xy[k] + share * (xy[k + 1] - xy[k]) + left[j] * 1j * way / abs(way)
 
 
 @kernel(f"float64({_Z}, complex128, complex128, float64, float64, float64, float64)", counts=False)
-def _farthest(xy, a, b, half, low, high, swell):  # type: ignore[no-untyped-def]
+def _farthest(xy, a, b, half, low, high, swell):
     """Return how far the polyline between two feet is from the circle that a piece is of: at its points, and where a
     chord is parallel.
     """
@@ -112,6 +118,8 @@ def _farthest(xy, a, b, half, low, high, swell):  # type: ignore[no-untyped-def]
         d, w = xy[k + 1] - xy[k], xy[k] - a
         flat = bent * (d.real * d.real + d.imag * d.imag)
         rise = (d * tangent.conjugate()).imag - bent * (w.conjugate() * d).real
+        # F of `_apart` changes along the chord by rise - share * flat: where that is 0 the chord is parallel to the
+        # circle.
         if first * flat < rise < last * flat or last * flat < rise < first * flat:
             share = rise / flat
             worst = max(worst, abs(_apart(a, b, half, xy[k] + share * d)) * _ease(share, swell))
@@ -121,7 +129,7 @@ def _farthest(xy, a, b, half, low, high, swell):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, boolean, float64, {_R})", counts=False)
-def measure(xy, z, feet, left, half, first, stop, whole, swell, off):  # type: ignore[no-untyped-def]
+def measure(xy, z, feet, left, half, first, stop, whole, swell, off):
     """Write how far each of pieces first to stop - 1 is from its samples, or from the whole polyline, or its joints
     from it, at most.
     """
@@ -136,13 +144,14 @@ def measure(xy, z, feet, left, half, first, stop, whole, swell, off):  # type: i
 
 
 @kernel(f"float64({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, {_R}, {_R}, float64, float64)", counts=False)
-def _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight, swell):  # type: ignore[no-untyped-def]
+def _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight, swell):
     """Return what is to be least: squared bends, and walls at the limits; inf beyond these."""
     walls, count = 0.0, len(half)
     for k in range(first, stop):
         size = abs(z[k + 1] - z[k])
         if feet[k + 1] <= feet[k] or abs(half[k]) >= _WIDEST or size <= sizes[k]:
             return np.inf
+        # Logarithms are infinite at the walls, so a step that makes the merit less never goes through one.
         walls -= math.log(size - sizes[k])
         low, high, step = _samples(feet[k], feet[k + 1], swell)
         for s in range(low, high, step):
@@ -162,7 +171,7 @@ def _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight, swell): 
 
 
 @kernel(f"void({_BANDS}, {_R}, int64, {_R}, float64, float64)", counts=False)
-def _add(band, slope, at, part, value, second):  # type: ignore[no-untyped-def]
+def _add(band, slope, at, part, value, second):
     """Add a function of the variables from `at` on: its slopes `part`, times `value` to the slope, and times `second`
     as squares.
     """
@@ -173,7 +182,7 @@ def _add(band, slope, at, part, value, second):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void(complex128, complex128, float64, complex128, {_Z})", counts=False)
-def _slopes(a, b, half, p, found):  # type: ignore[no-untyped-def]
+def _slopes(a, b, half, p, found):
     """Write how `_apart` changes: by the real part of found[0] da + found[1] dhalf + found[2] db."""
     c, w = b - a, p - a
     size = abs(c)
@@ -186,6 +195,8 @@ def _slopes(a, b, half, p, found):  # type: ignore[no-untyped-def]
     share = min(max(share, -0.5), 1.5)
     whole = 2.0 * share - 1.0
     turned = cmath.exp(1j * half * whole)
+    # The arc's nearest place is a + c at; `grows` is the slope of `at` in half. Only what moves that place square to
+    # the arc counts: its share changes, too, but along the arc.
     if straight:
         at, grows = complex(share, 0.0), complex(0.0, share * (share - 1.0))
     else:
@@ -197,7 +208,7 @@ def _slopes(a, b, half, p, found):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_Z}, {_R}, {_Z}, {_R}, {_R}, int64, int64, {_FRAMES})", counts=False)
-def _frames(xy, along, ahead, feet, left, first, stop, frames):  # type: ignore[no-untyped-def]
+def _frames(xy, along, ahead, feet, left, first, stop, frames):
     """Write how joints first to stop - 1 move with their distance along and with their distance from the polyline."""
     for j in range(first, stop):
         k = min(int(feet[j]), len(xy) - 2)
@@ -206,13 +217,15 @@ def _frames(xy, along, ahead, feet, left, first, stop, frames):  # type: ignore[
         way = ahead[k] + (feet[j] - k) * grows
         length = abs(way)
         way /= length
+        # Beside the polyline a joint is carried round as the direction turns: faster outside of the bend, slower
+        # within.
         turns = (way.conjugate() * grows).imag / (length * size)
         frames[j, 0] = (xy[k + 1] - xy[k]) / size - left[j] * turns * way
         frames[j, 1] = 1j * way
 
 
 @kernel(f"void({_Z}, {_Z}, {_R}, {_R}, {_FRAMES}, int64, int64, {_R}, {_R}, float64, float64, {_BANDS}, {_R})")
-def _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell, band, slope):  # type: ignore[no-untyped-def]
+def _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell, band, slope):
     """Add the walls: of piece first + i its half at 3 i, of joint first + i its distances at 3 i - 2 and 3 i - 1."""
     part, found = np.empty(5), np.empty(3, np.complex128)
     for k in range(first, stop):
@@ -223,6 +236,8 @@ def _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell,
             square = (limits[k] / _ease((s % _EACH) / _EACH, swell)) ** 2
             d = _apart(z[k], z[k + 1], half[k], p)
             room = 1.0 - d * d / square
+            # Slope and curvature of the wall -log(1 - d² / square) in d. How d itself curves is left out (Gauss and
+            # Newton), which keeps the matrix positive.
             pull = 2.0 * d / (square * room)
             _slopes(z[k], z[k + 1], half[k], p, found)
             part[0], part[1] = (found[0] * frames[k, 0]).real, (found[0] * frames[k, 1]).real
@@ -238,7 +253,7 @@ def _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell,
 
 
 @kernel(f"void({_R}, {_R}, int64, int64, {_R}, float64, float64, {_BANDS}, {_R})", counts=False)
-def _rails(feet, left, first, stop, limits, weight, swell, band, slope):  # type: ignore[no-untyped-def]
+def _rails(feet, left, first, stop, limits, weight, swell, band, slope):
     """Add the walls of the joints."""
     for j in range(first + 1, stop):
         square = (min(limits[j - 1], limits[j]) / _ease(feet[j] % 1.0, swell)) ** 2
@@ -250,7 +265,7 @@ def _rails(feet, left, first, stop, limits, weight, swell, band, slope):  # type
 
 
 @kernel(f"void({_Z}, {_R}, {_FRAMES}, int64, int64, {_BANDS}, {_R})")
-def _turns(z, half, frames, first, stop, band, slope):  # type: ignore[no-untyped-def]
+def _turns(z, half, frames, first, stop, band, slope):
     """Add the squared bends."""
     part = np.empty(8)
     for j in range(max(first, 1), min(stop, len(half) - 1) + 1):
@@ -265,9 +280,10 @@ def _turns(z, half, frames, first, stop, band, slope):  # type: ignore[no-untype
 
 
 @kernel(f"boolean({_BANDS}, {_R})", counts=False)
-def _solved(band, right):  # type: ignore[no-untyped-def]
+def _solved(band, right):
     """Solve a symmetric positive system, given by its lower band, in place."""
     count, p = len(band), band.shape[1] - 1
+    # Cholesky: band = L Lᵀ. L has no entries outside the band either, so the cost is count times its width squared.
     for i in range(count):
         for off in range(min(p, i), -1, -1):
             j = i - off
@@ -292,9 +308,10 @@ def _solved(band, right):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_BANDS}, {_R}, boolean[::1], int64, int64)", counts=False)
-def _hold(band, slope, bent, first, stop):  # type: ignore[no-untyped-def]
+def _hold(band, slope, bent, first, stop):
     """Keep lines straight, and make the system's numbers firm."""
     for i in range(len(slope)):
+        # Where a joint may slide at nearly no cost the matrix is nearly singular: this keeps it positive.
         band[i, 0] += 1e-9 + 1e-12 * band[i, 0]
         if i % 3 == 0 and not bent[first + i // 3]:
             slope[i] = 0.0
@@ -305,7 +322,7 @@ def _hold(band, slope, bent, first, stop):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(boolean, 2)({_R}, int64, int64, float64, {_R})", counts=False)
-def _limits(off, first, stop, limit, limits):  # type: ignore[no-untyped-def]
+def _limits(off, first, stop, limit, limits):
     """Set the walls of what is beyond the limit farther out, never farther than before; tell whether any is, and comes
     nearer.
     """
@@ -325,7 +342,7 @@ def _limits(off, first, stop, limit, limits):  # type: ignore[no-untyped-def]
     f"float64({_Z}, {_Z}, {_R}, {_R}, {_FRAMES}, {_R}, boolean[::1], int64, int64, {_R}, {_R}, float64, float64, "
     f"{_BANDS}, {_R})"
 )
-def _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes, weight, swell, band, way):  # type: ignore[no-untyped-def]
+def _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes, weight, swell, band, way):
     """Write Newton's step, to be taken off; return by how much the merit falls along it at first, -1 if there is
     none.
     """
@@ -345,7 +362,7 @@ def _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes,
 
 
 @kernel(f"void({_R}, {_R}, {_R}, int64, int64, {_R}, float64, {_R}, {_R}, {_R})", counts=False)
-def _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new):  # type: ignore[no-untyped-def]
+def _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new):
     """Write where a share of a step leads."""
     for k in range(first, stop):
         i = 3 * (k - first)
@@ -355,7 +372,7 @@ def _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new):
 
 
 @kernel(f"float64({_Z}, {_R}, {_Z}, {_R}, {_R}, {_R}, boolean[::1], int64, int64, float64, float64, {_R})")
-def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):  # type: ignore[no-untyped-def]
+def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):
     """Move joints first + 1 to stop - 1 and bend pieces first to stop - 1, in place, so that the path turns as little
     as it can there.
 
@@ -393,6 +410,8 @@ def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):
         _frames(xy, along, ahead, feet, left, near, end, frames)
         falls = _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes, weight, swell, band, way)
         here, share = _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight, swell), 1.0
+        # Armijo's rule: of a step is taken what yields a part of the fall that its beginning promises, else half of
+        # it.
         while share > _LEAST and falls > 0.0:
             _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new)
             place(xy, along, ahead, s_new, left_new, first + 1, stop, feet_new, z_new)
@@ -407,6 +426,8 @@ def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):
         if share <= _LEAST or falls < _DONE * len(way) * weight:
             if weight <= _LIGHT or (beyond and not nearer):
                 break
+            # With less weight the walls may be come nearer to; begun where the last weight ended, each takes few
+            # steps.
             weight *= 1.0 if beyond else 0.1
     measure(xy, z, feet, left, half, first, stop, True, swell, off)
     most = 0.0
@@ -416,7 +437,7 @@ def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):
 
 
 @kernel(f"void({_Z}, {_R}, {_R})")
-def bends(z, half, found):  # type: ignore[no-untyped-def]
+def bends(z, half, found):
     """Write by how much the path turns at each joint, radians: (m + 1,), 0 at the ends."""
     found[:] = 0.0
     for j in range(1, len(half)):

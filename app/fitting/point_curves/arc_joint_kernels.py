@@ -9,13 +9,15 @@ import numpy as np
 from ...core.jit import kernel
 
 _ROUNDS = 60
+"""Steps at most, helpful or not."""
 _STILL = 1e-13
 """Facets: a step so small is none."""
 _FLAT = 1e-300
+"""Below all that is meant: it keeps a root and a division defined where a number is 0."""
 
 
 @kernel("void(float64[:, ::1], int64, float64[::1], float64[::1], float64[:, ::1])", counts=False)
-def _distances(flat, count, guess, off, slope):  # type: ignore[no-untyped-def]
+def _distances(flat, count, guess, off, slope):
     """Write how far points are to the left of the arcs of a guess, and by how much more with each of its numbers.
 
     Of an arc of curvature k that leaves 0, 0 along X a point x, y is (2 y - k (x² + y²)) / (1 + w) to the left, where
@@ -30,6 +32,7 @@ def _distances(flat, count, guess, off, slope):  # type: ignore[no-untyped-def]
         square = x * x + y * y
         spoke = math.sqrt(max(1.0 - 2.0 * bent * y + bent * bent * square, _FLAT))
         off[i] = (2.0 * y - bent * square) / (1.0 + spoke)
+        # The unit normal of the circle round the same centre through the point: by it, what moves the frame counts.
         along, left = -bent * x / spoke, (1.0 - bent * y) / spoke
         slope[i, 0] = -(c * along - s * left)
         slope[i, 1] = -(s * along + c * left)
@@ -39,7 +42,7 @@ def _distances(flat, count, guess, off, slope):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[::1], float64[:, ::1], float64, float64[:, ::1], float64[::1])", counts=False)
-def _step(off, slope, damping, normal, step):  # type: ignore[no-untyped-def]
+def _step(off, slope, damping, normal, step):
     """Write the step that makes the squared distances least if they go on as they do here, damped; the matrix of the
     normal equations is positive then, and needs no choice of rows.
     """
@@ -52,6 +55,7 @@ def _step(off, slope, damping, normal, step):  # type: ignore[no-untyped-def]
                 normal[k, m] += slope[i, k] * slope[i, m]
         for i in range(len(off)):
             step[k] -= slope[i, k] * off[i]
+        # Marquardt: each number is damped by its own measure, so that mm and 1 / mm are treated alike.
         normal[k, k] = normal[k, k] * (1.0 + damping) + _FLAT
     for k in range(size):
         for row in range(k + 1, size):
@@ -66,7 +70,7 @@ def _step(off, slope, damping, normal, step):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64[:, ::1], int64, float64[::1])")
-def two_arcs(flat, count, joint):  # type: ignore[no-untyped-def]
+def two_arcs(flat, count, joint):
     """Improve a joint (x, y, angle, curvature before it, behind it) of arcs by points (n, 2), the first `count` of
     which lie before it; return how far they are from the arcs at most.
     """
@@ -80,6 +84,7 @@ def two_arcs(flat, count, joint):  # type: ignore[no-untyped-def]
         _distances(flat, count, trial, off, slope)
         squares = (off * off).sum()
         if squares < least:
+            # A step that helps is taken and the next one is bolder; one that does not is tried shorter and steeper.
             joint[:], least, damping = trial, squares, damping * 0.1
         else:
             _distances(flat, count, joint, off, slope)

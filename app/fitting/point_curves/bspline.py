@@ -28,12 +28,17 @@ _SPAN = 32
 _ANGLE, _LEAST = 0.8, 4
 """A span to begin with turns by so much, radians; so many spans are tried however little the path turns."""
 _SEEN = 4096
+"""Points, about, by which a path is judged for how much it turns."""
 _ROUNDS = 40
+"""Rounds of halving spans that fail, at most; then the path gets a corner where it still does."""
 _BETWEEN = np.array([0.25, 0.5, 0.75])
 """Where on a chord the curve is drawn to it, lightly, so that it does not swing out between points."""
 _LIGHT = 0.05
+"""What a place between points weighs beside a point."""
 _SPREADINGS = 8
+"""How often breaks are spread anew, for fewer spans."""
 _MENDINGS = 6
+"""Rounds in which spread breaks may be halved until all is proven; else they are given up."""
 _USE = 0.7
 """How much of the tolerance a span is to use up at first."""
 _LESS = 0.7

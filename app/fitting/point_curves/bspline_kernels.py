@@ -19,7 +19,7 @@ point does.
 
 
 @kernel("void(float64[::1], int64, int64, float64, float64[::1])", counts=False)
-def _basis(knots, degree, span, t, values):  # type: ignore[no-untyped-def]
+def _basis(knots, degree, span, t, values):
     """Write the degree + 1 B-splines that are not 0 between knots span and span + 1 (de Boor and Cox)."""
     values[0] = 1.0
     for level in range(1, degree + 1):
@@ -32,7 +32,7 @@ def _basis(knots, degree, span, t, values):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(float64[::1], int64, float64, int64)", counts=False)
-def _span_of(knots, degree, t, span):  # type: ignore[no-untyped-def]
+def _span_of(knots, degree, t, span):
     """Return the span that holds a parameter, looked for from one before on."""
     last = len(knots) - degree - 2
     while span < last and t >= knots[span + 1]:
@@ -41,9 +41,10 @@ def _span_of(knots, degree, t, span):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(float64[:, ::1], float64[:, ::1])", counts=False)
-def _cholesky(band, right):  # type: ignore[no-untyped-def]
+def _cholesky(band, right):
     """Solve a symmetric positive system, given by its lower band (k, p + 1), in place."""
     count, p = len(band), band.shape[1] - 1
+    # band = L Lᵀ; L has no entries outside the band, so that the cost rises with the count alone.
     for i in range(count):
         for off in range(min(p, i), -1, -1):
             j = i - off
@@ -71,7 +72,7 @@ def _cholesky(band, right):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(float64[::1], int64, float64[:, ::1], float64[::1], float64[::1], float64[:, ::1], float64[:, ::1])")
-def solve(knots, degree, points, places, weights, lead, control):  # type: ignore[no-untyped-def]
+def solve(knots, degree, points, places, weights, lead, control):
     """Write the control points (k, 3) of least squares; the last is the last point. False: singular.
 
     Args:
@@ -96,6 +97,7 @@ def solve(knots, degree, points, places, weights, lead, control):  # type: ignor
         mean += band[row, 0] / count
     stiff = _STIFF * mean
     for row in range(1, count - 1):
+        # The square of c[row - 1] - 2 c[row] + c[row + 1], weighed.
         band[row, 0] += stiff * 4.0
         band[row - 1, 0] += stiff
         band[row + 1, 0] += stiff
@@ -119,13 +121,14 @@ def solve(knots, degree, points, places, weights, lead, control):  # type: ignor
 
 
 @kernel("int64(float64[:, :, ::1], float64[:, ::1], float64[::1], float64, float64, boolean[::1])")
-def failing(control, points, feet, end, swell, bad):  # type: ignore[no-untyped-def]
+def failing(control, points, feet, end, swell, bad):
     """Mark the chords (n - 1,) whose stretch of the curve is not proven to be in their region; return how many."""
     here, count = np.empty(3), 0
     bad[:] = False
     for i in range(len(points)):
         point_at(control, feet[i], here)
         if not holds_point(here, points[i], points[i], end, 0.0):
+            # A foot that is too far from its point spoils the chords on both sides; no proof has to be tried there.
             bad[min(i, len(bad) - 1)] = True
             bad[max(i - 1, 0)] = True
     for i in range(len(points) - 1):
@@ -136,7 +139,7 @@ def failing(control, points, feet, end, swell, bad):  # type: ignore[no-untyped-
 
 
 @kernel("void(float64[::1], int64, float64[:, ::1], float64[:, :, ::1])")
-def cut(knots, degree, control, pieces):  # type: ignore[no-untyped-def]
+def cut(knots, degree, control, pieces):
     """Write the Bézier pieces (m, 6, 3) of a spline with clamped ends and single knots within, raised to degree 5.
 
     Control point j of a span is the blossom at its ends, taken p - j and j times.
@@ -171,7 +174,7 @@ def cut(knots, degree, control, pieces):  # type: ignore[no-untyped-def]
     "void(float64[::1], int64, float64[:, ::1], float64[::1], float64[::1], int64, float64, float64, "
     "float64[:, ::1], float64[:, ::1], float64[:, :, ::1], float64[::1], float64[::1], boolean[::1])"
 )
-def tried(breaks, degree, samples, places, weights, every, end, swell, lead, control, pieces, feet, moved, bad):  # type: ignore[no-untyped-def]
+def tried(breaks, degree, samples, places, weights, every, end, swell, lead, control, pieces, feet, moved, bad):
     """Fit a spline over breaks to samples and see where it is proven.
 
     Args:
@@ -185,6 +188,8 @@ def tried(breaks, degree, samples, places, weights, every, end, swell, lead, con
     """
     count = len(breaks)
     knots = np.empty(count + 2 * degree)
+    # Clamped: with the outer breaks themselves degree + 1 knots stand at each end, so the spline begins and ends at
+    # its outer control points.
     knots[:degree], knots[degree + count :] = breaks[0], breaks[count - 1]
     knots[degree : degree + count] = breaks
     solve(knots, degree, samples, places, weights, lead, control)
@@ -197,6 +202,7 @@ def tried(breaks, degree, samples, places, weights, every, end, swell, lead, con
     settle(pieces, samples, on)
     for i in range(len(samples)):
         span = min(int(on[i]), count - 2)
+        # Back from places on pieces, which are all 1 long, to the spline's own parameter.
         moved[i] = breaks[span] + (on[i] - span) * (breaks[span + 1] - breaks[span])
     points = np.empty((len(feet), 3))
     for i in range(len(feet)):

@@ -10,7 +10,7 @@ from ...core.jit import kernel
 
 
 @kernel("void(float64[:, ::1], float64, float64[::1], float64[::1])")
-def turns(points, reach, along, turn):  # type: ignore[no-untyped-def]
+def turns(points, reach, along, turn):
     """Write the length up to each point (n,), mm, and the turn there (n,), radians; 0 at the outer ones.
 
     Args:
@@ -27,6 +27,7 @@ def turns(points, reach, along, turn):  # type: ignore[no-untyped-def]
     turn[0] = turn[n - 1] = 0.0
     low, high, before, behind = 0, 1, np.empty(3), np.empty(3)
     for i in range(1, n - 1):
+        # Both ends of the window only move on with i, so all windows together cost one pass.
         while along[low + 1] <= along[i] - reach:
             low += 1
         high = max(high, i + 1)
@@ -52,7 +53,7 @@ def turns(points, reach, along, turn):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[::1], float64[::1], float64, float64, boolean[::1])")
-def peaks(turn, along, angle, reach, kept):  # type: ignore[no-untyped-def]
+def peaks(turn, along, angle, reach, kept):
     """Mark the points that turn by more than an angle, and more than all others within a reach: the first of equals."""
     n = len(turn)
     kept[:] = False
@@ -63,6 +64,7 @@ def peaks(turn, along, angle, reach, kept):  # type: ignore[no-untyped-def]
         best = True
         k = i - 1
         while best and k > 0 and along[i] - along[k] < reach:
+            # Strictly more than those before, no less than those behind: of equals the first one stays.
             best = turn[k] < turn[i] - 1e-12
             k -= 1
         k = i + 1

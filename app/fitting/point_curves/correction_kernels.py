@@ -11,10 +11,11 @@ from ...core.jit import kernel
 _TRIES = 12
 """Places of a stretch looked at for the nearest."""
 _HALVINGS = 50
+"""Of a stretch, until it is as short as a number can tell."""
 
 
 @kernel("void(float64[::1], float64[:, ::1], float64[:, ::1])")
-def spline_slopes(at, value, slope):  # type: ignore[no-untyped-def]
+def spline_slopes(at, value, slope):
     """Write the slopes (m, 3) of the cubic spline through values (m, 3), C2, the outer two pieces at each end one
     cubic.
 
@@ -29,6 +30,7 @@ def spline_slopes(at, value, slope):  # type: ignore[no-untyped-def]
             slope[:, axis] = p
             continue
         if m == 3:
+            # A parabola's slope in the middle is the mean of its chords' slopes, each weighed by the other's length.
             middle = (two * p + one * q) / (one + two)
             slope[0, axis], slope[1, axis], slope[2, axis] = 2 * p - middle, middle, 2 * q - middle
             continue
@@ -37,6 +39,8 @@ def spline_slopes(at, value, slope):  # type: ignore[no-untyped-def]
             behind = at[i + 1] - at[i]
             q = (value[i + 1, axis] - value[i, axis]) / behind
             if i == 0:
+                # Not a knot: the third derivatives of the first two pieces agree, which takes the place of an end
+                # condition.
                 far = at[2] - at[0]
                 diagonal[0], upper[0] = at[2] - at[1], far
                 other = (value[2, axis] - value[1, axis]) / (at[2] - at[1])
@@ -56,7 +60,7 @@ def spline_slopes(at, value, slope):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[::1], float64[:, ::1], float64[:, ::1])")
-def least_squares(at, value, slope):  # type: ignore[no-untyped-def]
+def least_squares(at, value, slope):
     """Replace values (m, 3) by those of the cubic nearest to them, and write its slopes; by orthogonal polynomials."""
     m = len(at)
     fitted, basis, old = np.zeros((m, 3)), np.ones(m), np.zeros(m)
@@ -70,6 +74,9 @@ def least_squares(at, value, slope):  # type: ignore[no-untyped-def]
             for i in range(m):
                 fitted[i, axis] += share * basis[i]
                 slope[i, axis] += share * steep[i]
+        # The next orthogonal polynomial is (t - centre) times this one less `back` times the one before (Stieltjes,
+        # Forsythe); so shares never have to be solved for together, which a cubic's plain powers would make
+        # ill-conditioned.
         centre, back = np.dot(basis * basis, at) / size, size / was if degree > 0 else 0.0
         was = size
         for i in range(m):
@@ -85,7 +92,7 @@ def least_squares(at, value, slope):  # type: ignore[no-untyped-def]
     "float64(float64, float64[::1], float64[:, ::1], float64[:, ::1], float64[::1], float64[::1], float64[::1])",
     counts=False,
 )
-def _ahead(t, at, value, slope, point, along, place):  # type: ignore[no-untyped-def]
+def _ahead(t, at, value, slope, point, along, place):
     """Write the place of the curve at t, and return how far it is ahead of a point: as seen along a direction, else its
     own (0).
     """
@@ -99,6 +106,7 @@ def _ahead(t, at, value, slope, point, along, place):  # type: ignore[no-untyped
     for axis in range(3):
         a, b = value[i, axis], value[i + 1, axis]
         p, q = slope[i, axis] * size, slope[i + 1, axis] * size
+        # Hermite's form: values and slopes at both ends of the piece.
         bend, twist = 3 * (b - a) - 2 * p - q, 2 * (a - b) + p + q
         place[axis] = a + u * (p + u * (bend + u * twist))
         direction = along[axis] if fixed else (p + u * (2 * bend + 3 * u * twist)) / size
@@ -107,7 +115,7 @@ def _ahead(t, at, value, slope, point, along, place):  # type: ignore[no-untyped
 
 
 @kernel("float64(float64[::1], float64[::1])", counts=False)
-def _gap(a, b):  # type: ignore[no-untyped-def]
+def _gap(a, b):
     return math.sqrt((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2)
 
 
@@ -116,7 +124,7 @@ def _gap(a, b):  # type: ignore[no-untyped-def]
     "float64[::1])",
     counts=False,
 )
-def _foot(low, high, at, value, slope, point, along, nothing, place):  # type: ignore[no-untyped-def]
+def _foot(low, high, at, value, slope, point, along, nothing, place):
     """Write the place of a stretch of the curve that is level with a point along a direction; the nearest if there is
     none.
 
@@ -136,6 +144,8 @@ def _foot(low, high, at, value, slope, point, along, nothing, place):  # type: i
             if away < nearest:
                 nearest, best = away, i
         low, high = low + max(best - 1, 0) * step, low + min(best + 1, _TRIES) * step
+    # Only signs are asked, so that no flat place of the curve leads astray; where an end of the stretch is nearest,
+    # all signs are alike and it comes out.
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
         if _ahead(middle, at, value, slope, point, direction, place) > 0.0:
@@ -148,7 +158,7 @@ def _foot(low, high, at, value, slope, point, along, nothing, place):  # type: i
     "int64(float64[:, ::1], int64[::1], boolean[::1], int64, int64, int64, float64[::1], float64[:, ::1], int64[::1])",
     counts=False,
 )
-def choose(points, effective, kept, gap, before, after, at, value, chosen):  # type: ignore[no-untyped-def]
+def choose(points, effective, kept, gap, before, after, at, value, chosen):
     """Write which effective points the correction curve of a gap goes by (S21), their places and the lengths up to
     them.
 
@@ -175,7 +185,7 @@ _SIGNATURE = "void(float64[:, ::1], int64[::1], boolean[::1], int64, int64, bool
 
 
 @kernel(_SIGNATURE)
-def correct(points, effective, kept, before, after, near, upright, places):  # type: ignore[no-untyped-def]
+def correct(points, effective, kept, before, after, near, upright, places):
     """Write where every point of a path moves to (n, 3), were all to move; an effective one by the mean of its gaps'
     moves.
 
@@ -208,4 +218,5 @@ def correct(points, effective, kept, before, after, near, upright, places):  # t
             if not kept[gap + end]:
                 low, high = at[max(here + end - 1, 0)], at[min(here + end + 1, m - 1)]
                 _foot(low, high, at[:m], value[:m], slope[:m], points[effective[gap + end]], along, nothing, place)
+                # Each of the two gaps that meet here adds half of its own move.
                 places[effective[gap + end]] += (place - points[effective[gap + end]]) / 2

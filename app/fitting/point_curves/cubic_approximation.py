@@ -9,6 +9,7 @@ from ...model.motion import Floats, Nurbs
 
 _CUBIC, _QUINTIC = 3, 5
 _ROUNDS = 16
+"""Rounds of halving spans at most: a cubic is off by the fourth power of its span."""
 _AT = np.arange(_QUINTIC + 1) / _QUINTIC
 _BINOMIAL = np.array([1, 5, 10, 10, 5, 1])
 _CONTROL = np.linalg.inv(_BINOMIAL * _AT[:, None] ** np.arange(6) * (1 - _AT[:, None]) ** np.arange(5, -1, -1))

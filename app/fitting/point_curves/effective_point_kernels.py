@@ -13,6 +13,12 @@ import numpy as np
 
 from ...core.jit import kernel
 
+_HALF, _REACH = 3, 4
+"""Numbers of a cone behind its axis: half its angle, radians, more than pi while any direction will do; the distance of
+the farthest point that it was made by, mm.
+"""
+_ANY = 4.0
+"""Radians; a half angle of which any direction is within."""
 _GUARD = 1e-11
 """So much inside the cone a direction must be, rad: what rounding may add up to."""
 _STRAIGHTER = 0.22
@@ -26,7 +32,7 @@ _MANY = 8
 
 
 @kernel("float64(float64[:, ::1], int64, int64, int64)", counts=False)
-def _off(points, i, j, k):  # type: ignore[no-untyped-def]
+def _off(points, i, j, k):
     """Return how far point j is from the segment from point i to point k."""
     along, size = 0.0, 0.0
     for axis in range(3):
@@ -40,7 +46,7 @@ def _off(points, i, j, k):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64[:, ::1], int64, int64, float64[::1])", counts=False)
-def _angle(points, i, k, axis):  # type: ignore[no-untyped-def]
+def _angle(points, i, k, axis):
     """Return the angle between a unit direction and that from point i to point k."""
     x, y, z = points[k, 0] - points[i, 0], points[k, 1] - points[i, 1], points[k, 2] - points[i, 2]
     cross = math.sqrt(
@@ -50,35 +56,38 @@ def _angle(points, i, k, axis):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64[:, ::1], int64, int64)", counts=False)
-def _size(points, i, k):  # type: ignore[no-untyped-def]
+def _size(points, i, k):
     return math.sqrt(
         (points[k, 0] - points[i, 0]) ** 2 + (points[k, 1] - points[i, 1]) ** 2 + (points[k, 2] - points[i, 2]) ** 2
     )
 
 
 @kernel("void(float64[:, ::1], int64, int64, float64, float64[::1])", counts=False)
-def _narrow(points, i, k, epsilon, cone):  # type: ignore[no-untyped-def]
+def _narrow(points, i, k, epsilon, cone):
     """Keep of a cone (axis, half angle, reach) a cone of directions from point i that also pass point k."""
     size = _size(points, i, k)
-    cone[4] = max(cone[4], size)
-    if size <= epsilon or cone[3] < 0.0:
+    cone[_REACH] = max(cone[_REACH], size)
+    # Every direction passes a ball that the first point lies in.
+    if size <= epsilon or cone[_HALF] < 0.0:
         return
     half = math.asin(epsilon / size)
     turn = _angle(points, i, k, cone)
-    if cone[3] > math.pi or turn + half <= cone[3]:  # any direction yet, or the new cone is within the old
+    if cone[_HALF] > math.pi or turn + half <= cone[_HALF]:  # any direction yet, or the new cone is within the old
         for axis in range(3):
             cone[axis] = (points[k, axis] - points[i, axis]) / size
-        cone[3] = half
-    elif turn + cone[3] > half:
-        lean = (turn - half + cone[3]) / 2
-        cone[3] = (half + cone[3] - turn) / 2
+        cone[_HALF] = half
+    elif turn + cone[_HALF] > half:
+        # What two cones share is a lens; the widest cone within it has its axis between theirs (spherical
+        # interpolation).
+        lean = (turn - half + cone[_HALF]) / 2
+        cone[_HALF] = (half + cone[_HALF] - turn) / 2
         one, two = math.sin(turn - lean) / math.sin(turn), math.sin(lean) / math.sin(turn) / size
         for axis in range(3):
             cone[axis] = one * cone[axis] + two * (points[k, axis] - points[i, axis])
 
 
 @kernel("boolean(float64[:, ::1], int64, int64, float64, float64[::1])", counts=False)
-def _all_within(points, i, k, epsilon, cone):  # type: ignore[no-untyped-def]
+def _all_within(points, i, k, epsilon, cone):
     """Return whether all points between lie within epsilon of the segment; if so the cone is made anew about it."""
     for j in range(i + 1, k):
         if _off(points, i, j, k) > epsilon:
@@ -87,32 +96,35 @@ def _all_within(points, i, k, epsilon, cone):  # type: ignore[no-untyped-def]
     if length > 0.0:
         for axis in range(3):
             cone[axis] = (points[k, axis] - points[i, axis]) / length
-        cone[3] = 4.0
+        # More than any angle: the narrowest of what the points between leave round the new axis is kept.
+        cone[_HALF] = _ANY
         for j in range(i + 1, k):
             size = _size(points, i, j)
             if size > epsilon:
-                cone[3] = min(cone[3], math.asin(epsilon / size) - _angle(points, i, j, cone))
+                cone[_HALF] = min(cone[_HALF], math.asin(epsilon / size) - _angle(points, i, j, cone))
     return True
 
 
 @kernel("int64(float64[:, ::1], int64, float64, boolean[::1], float64[::1])", counts=False)
-def _reach(points, i, epsilon, stop, cone):  # type: ignore[no-untyped-def]
+def _reach(points, i, epsilon, stop, cone):
     """Return the last point of the range that begins at point i (S113-S116)."""
     cone[:] = 0.0
-    cone[3] = 4.0
+    cone[_HALF] = _ANY
     k = i + 1
     while k < len(points) - 1 and not stop[k]:
         _narrow(points, i, k, epsilon, cone)
-        free = cone[3] > math.pi  # all are about the first point
-        clear = cone[3] > 0.0 and _angle(points, i, k + 1, cone) <= cone[3] * (1 - 1e-6) - _GUARD
-        if not (free or (clear and _size(points, i, k + 1) >= cone[4]) or _all_within(points, i, k + 1, epsilon, cone)):
+        free = cone[_HALF] > math.pi  # all are about the first point
+        clear = cone[_HALF] > 0.0 and _angle(points, i, k + 1, cone) <= cone[_HALF] * (1 - 1e-6) - _GUARD
+        if not (
+            free or (clear and _size(points, i, k + 1) >= cone[_REACH]) or _all_within(points, i, k + 1, epsilon, cone)
+        ):
             break
         k += 1
     return k
 
 
 @kernel("int64(float64[:, ::1], int64, int64, float64[::1])", counts=False)
-def _farthest(points, i, k, off):  # type: ignore[no-untyped-def]
+def _farthest(points, i, k, off):
     """Return which point between i and k is the farthest off their segment, i if there is none; write how far."""
     at, off[0] = i, 0.0
     for j in range(i + 1, k):
@@ -123,7 +135,7 @@ def _farthest(points, i, k, off):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(float64[:, ::1], int64, int64, float64[::1])", counts=False)
-def _bend(points, i, k, off):  # type: ignore[no-untyped-def]
+def _bend(points, i, k, off):
     """Return the one point at which a range from i to k bends, i if it does not; write how far it is off there.
 
     On both sides of it the range is far straighter than it is as a whole.
@@ -141,7 +153,7 @@ def _bend(points, i, k, off):  # type: ignore[no-untyped-def]
 
 
 @kernel("int64(float64[:, ::1], float64, boolean[::1], boolean, int64[:, ::1])")
-def ranges(points, epsilon, stop, at_bends, found):  # type: ignore[no-untyped-def]
+def ranges(points, epsilon, stop, at_bends, found):
     """Write first and last point of each range (n, 2), and return their number; no range goes beyond a stop.
 
     At bends a range that bends at one point ends there if the next one then reaches farther, so that it ended within a

@@ -11,10 +11,11 @@ from ...core.jit import kernel
 _ROUNDS = 8
 """How often a facet's plane is laid anew through the points that it reaches."""
 _SWEEPS = 12
+"""Of Jacobi's rotations, which about double the digits that are right each time."""
 
 
 @kernel("float64(float64[:, ::1], int64[::1], int64, float64[::1])")
-def lay(points, members, count, plane):  # type: ignore[no-untyped-def]
+def lay(points, members, count, plane):
     """Write normal and centre (6,) of the plane nearest to members; return the mean square of their distances, mm2.
 
     By Jacobi's rotations of the 3 x 3 matrix of their spread.
@@ -33,6 +34,8 @@ def lay(points, members, count, plane):  # type: ignore[no-untyped-def]
             for b in range(a + 1, 3):
                 if spread[a, b] == 0.0:
                     continue
+                # t is the tangent of the smaller of the two angles that make spread[a, b] 0: with it the rotations
+                # converge.
                 lean = (spread[b, b] - spread[a, a]) / (2 * spread[a, b])
                 t = math.copysign(1.0, lean) / (abs(lean) + math.sqrt(lean * lean + 1))
                 c = 1 / math.sqrt(t * t + 1)
@@ -54,7 +57,7 @@ def lay(points, members, count, plane):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[:, ::1], int64[::1], int64[::1], float64[::1])")
-def roughness(points, offsets, beside, rough):  # type: ignore[no-untyped-def]
+def roughness(points, offsets, beside, rough):
     """Write how far each point and its neighbours (beside[offsets[i]:offsets[i + 1]]) lie off one plane, mm2."""
     members, plane = np.empty(len(points), np.int64), np.empty(6)
     for i in range(len(points)):
@@ -68,7 +71,7 @@ def roughness(points, offsets, beside, rough):  # type: ignore[no-untyped-def]
     "int64(float64[:, ::1], int64[::1], int64[::1], int64, float64, float64[::1], int64[::1], int64[::1], int64, "
     "int64[::1])"
 )
-def _flood(points, offsets, beside, seed, epsilon, plane, facet, seen, mark, members):  # type: ignore[no-untyped-def]
+def _flood(points, offsets, beside, seed, epsilon, plane, facet, seen, mark, members):
     """Write what is reached from a seed over free points within epsilon of a plane; return how many."""
     members[0] = seed
     seen[seed] = mark
@@ -90,7 +93,7 @@ def _flood(points, offsets, beside, seed, epsilon, plane, facet, seen, mark, mem
 
 
 @kernel("int64(float64[:, ::1], int64[::1], int64[::1], int64[::1], float64, int64[::1], float64[:, ::1])")
-def grow(points, offsets, beside, order, epsilon, facet, planes):  # type: ignore[no-untyped-def]
+def grow(points, offsets, beside, order, epsilon, facet, planes):
     """Write each point's facet (n,) and the facets' planes (normal, centre); return the number of facets.
 
     Args:
@@ -109,6 +112,8 @@ def grow(points, offsets, beside, order, epsilon, facet, planes):  # type: ignor
                 members[size] = beside[row]
                 size += 1
         best = 0
+        # A plane through more points reaches more: on until it reaches no more, and the one that reached most is
+        # kept.
         for _ in range(_ROUNDS):
             lay(points, members, size, trial)
             away = 0.0
@@ -117,6 +122,7 @@ def grow(points, offsets, beside, order, epsilon, facet, planes):  # type: ignor
             if abs(away) > epsilon:
                 break
             size = _flood(points, offsets, beside, seed, epsilon, trial, facet, seen, mark, members)
+            # `seen` says in which round a point was seen, and so never has to be cleared.
             mark += 1
             if size <= best:
                 break

@@ -22,6 +22,7 @@ from .tube import ToleranceTube, TubeAnswer, TubeJudgement, judge
 CELLS = 1024
 """Stretches of z; what the steps take off f is its slope over so many."""
 _LEAST, _MOST = 1e-4, 10.0
+"""mm; radii that regions may have: less is below what controls write, more is no tolerance."""
 _SHARES = (1.0, 0.5, 0.25)
 """Of what an outline is wider than at the points, that barrels are tried to be fitted with."""
 

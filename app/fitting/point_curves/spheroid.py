@@ -21,6 +21,7 @@ from .tube import TubeAnswer
 Floats = NDArray[np.float64]
 
 _DEEPEST = 40
+"""Halvings of a stretch, at most; what is open then is not proven."""
 
 
 @dataclass(frozen=True)

@@ -25,10 +25,11 @@ MOST = 4
 there.
 """
 _GOLDEN = 0.3819660112501051
+"""(3 - sqrt 5) / 2 of a stretch: where golden sections ask, from either end."""
 
 
 @kernel("float64(float64[:, :, ::1], float64, float64, float64[::1], float64[::1])", counts=False)
-def _nearest(control, low, high, point, here):  # type: ignore[no-untyped-def]
+def _nearest(control, low, high, point, here):
     """Return the place of a stretch that is nearest to a point: of five in it, and by golden sections from there."""
     step, best, least = (high - low) / 4, low, math.inf
     for k in range(5):
@@ -36,6 +37,7 @@ def _nearest(control, low, high, point, here):  # type: ignore[no-untyped-def]
         off = squared_off_chord(here, point, point)
         if off < least:
             best, least = low + k * step, off
+    # Between the neighbours of the best of five the distance is taken to have one least place.
     low, high = max(low, best - step), min(high, best + step)
     for _ in range(32):
         one, two = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
@@ -52,7 +54,7 @@ def _nearest(control, low, high, point, here):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64[::1], float64[::1], float64[::1])", counts=False)
-def _share(c, a, b):  # type: ignore[no-untyped-def]
+def _share(c, a, b):
     """Return where on a chord it is nearest to a point, as a part of it."""
     size, along = 0.0, 0.0
     for axis in range(3):
@@ -62,7 +64,7 @@ def _share(c, a, b):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64, float64[::1])")
-def guess(control, points, slack, feet):  # type: ignore[no-untyped-def]
+def guess(control, points, slack, feet):
     """Write a likely place (n,) for each point, never falling: the nearest of those about as far along.
 
     Args:
@@ -93,7 +95,7 @@ def guess(control, points, slack, feet):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64[::1])")
-def settle(control, points, feet):  # type: ignore[no-untyped-def]
+def settle(control, points, feet):
     """Move each foot nearer to its point, by a step of Newton's in its own piece; their order stays.
 
     Args:
@@ -107,6 +109,7 @@ def settle(control, points, feet):  # type: ignore[no-untyped-def]
         for level in range(5):
             if level == 3:
                 for axis in range(3):
+                    # Three points left of six: second derivative, 5 * 4 times their second difference.
                     e[axis] = 20.0 * (c[2, axis] - 2 * c[1, axis] + c[0, axis])
             if level == 4:
                 for axis in range(3):
@@ -119,15 +122,18 @@ def settle(control, points, feet):  # type: ignore[no-untyped-def]
             off = c[0, axis] - points[i, axis]
             slope += off * d[axis]
             bend += d[axis] * d[axis] + off * e[axis]
+        # Slope and bend are halves of the derivatives of the squared distance; where it curves down Newton would
+        # climb.
         if bend > 0.0:
             t = min(max(t - slope / bend, 0.0), 1.0)
         feet[i] = max(k + t, feet[i - 1])
     for i in range(len(points) - 2, 0, -1):
+        # Order once more from behind: what was pushed on must not have gone beyond the end.
         feet[i] = min(feet[i], feet[i + 1])
 
 
 @kernel("UniTuple(int64, 2)(float64[:, :, ::1], float64[:, ::1], float64[::1], float64, float64)")
-def proven(control, points, feet, end, swell):  # type: ignore[no-untyped-def]
+def proven(control, points, feet, end, swell):
     """Return INSIDE, or what the first chord that is not proven gives, and its number.
 
     Args:
@@ -149,7 +155,7 @@ def proven(control, points, feet, end, swell):  # type: ignore[no-untyped-def]
     "UniTuple(int64, 2)(float64[:, :, ::1], float64[:, ::1], float64, float64, float64[:, :, ::1], int64[::1], "
     "float64[::1])"
 )
-def reach(control, points, end, swell, ways, counts, witness):  # type: ignore[no-untyped-def]
+def reach(control, points, end, swell, ways, counts, witness):
     """Find the places of the curve that can answer to each point, in order: INSIDE and -1 where the last one is
     reached.
 
@@ -169,11 +175,14 @@ def reach(control, points, end, swell, ways, counts, witness):  # type: ignore[n
         found, until = 0, -1.0
         for w in range(counts[i]):
             start = ways[i, w, 0]
+            # The last way has come by here within the region of this very chord: what it reached is all that is
+            # reached.
             if start < until:
                 continue
             until = first_exit(control, start, stop, a, b, end, swell)
             at = first_entry(control, start, until, b, end)
             while at <= until and found < MOST:
+                # One stretch in which the point's ball is not left; the curve may come back to it farther on.
                 left = first_exit(control, at, until, b, b, end, 0.0)
                 ways[i + 1, found, 0], ways[i + 1, found, 1] = at, left
                 found += 1
@@ -192,13 +201,14 @@ def reach(control, points, end, swell, ways, counts, witness):  # type: ignore[n
 
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64, float64, float64[:, :, ::1], int64[::1], float64[::1])")
-def step_back(control, points, end, swell, ways, counts, feet):  # type: ignore[no-untyped-def]
+def step_back(control, points, end, swell, ways, counts, feet):
     """Write a place (n,) for each point out of those that `reach` has found: the nearest from which the next is
     reached.
     """
     last, here = len(points) - 1, np.empty(3)
     feet[last] = float(len(control))
     for i in range(last - 1, -1, -1):
+        # Each way was reached from one of the point before, so from behind no choice leads into a dead end.
         for w in range(counts[i] - 1, -1, -1):
             low, high = ways[i, w, 0], min(ways[i, w, 1], feet[i + 1])
             if (
@@ -210,7 +220,7 @@ def step_back(control, points, end, swell, ways, counts, feet):  # type: ignore[
 
 
 @kernel("UniTuple(float64, 4)(float64[:, :, ::1], float64[:, ::1], float64[::1])")
-def found_apart(control, points, feet):  # type: ignore[no-untyped-def]
+def found_apart(control, points, feet):
     """Return the largest distance found from the curve and where, of three places a chord; and from a point and
     which.
     """
@@ -231,16 +241,18 @@ def found_apart(control, points, feet):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64[:, ::1], float64[::1], float64[::1])", counts=False)
-def _most_off(piece, a, b):  # type: ignore[no-untyped-def]
+def _most_off(piece, a, b):
     """Return a distance from a chord that no place of a piece exceeds: that of its farthest control point."""
     most = 0.0
+    # The distance from a chord is convex, and a piece lies in the hull of its control points: none of its places is
+    # farther than the farthest of these.
     for k in range(len(piece)):
         most = max(most, squared_off_chord(piece[k], a, b))
     return math.sqrt(most)
 
 
 @kernel("UniTuple(float64, 3)(float64[:, :, ::1], float64[:, ::1], float64[::1], float64, UniTuple(float64, 3))")
-def bound_apart(control, points, feet, share, start):  # type: ignore[no-untyped-def]
+def bound_apart(control, points, feet, share, start):
     """Return a proven bound of how far curve and polyline are apart, the largest distance found from the curve, and
     where.
 
@@ -260,6 +272,8 @@ def bound_apart(control, points, feet, share, start):  # type: ignore[no-untyped
             while depth > 0:
                 depth -= 1
                 most = _most_off(work[depth], points[i], points[i + 1])
+                # Halves of a piece have hulls four times as tight, so few are looked into: those where the hull says
+                # more than what was found.
                 if most <= max(found, back) * (1.0 + share) + 1e-12 or level[depth] >= 60.0:
                     bound = max(bound, most)
                     continue
@@ -278,7 +292,7 @@ def bound_apart(control, points, feet, share, start):  # type: ignore[no-untyped
 
 
 @kernel("float64(float64[::1], float64[:, ::1], int64)", counts=False)
-def _off_near(here, points, chord):  # type: ignore[no-untyped-def]
+def _off_near(here, points, chord):
     """Return the squared distance of a place from the chords up to 256 before and behind one."""
     least = math.inf
     for k in range(max(0, chord - 256), min(len(points) - 1, chord + 257)):
@@ -287,7 +301,7 @@ def _off_near(here, points, chord):  # type: ignore[no-untyped-def]
 
 
 @kernel("UniTuple(float64, 3)(float64[:, :, ::1], float64, float64[:, ::1], int64, float64, float64)")
-def excursion(control, left, points, chord, end, swell):  # type: ignore[no-untyped-def]
+def excursion(control, left, points, chord, end, swell):
     """Return where a curve that leaves the region of a chord is farthest from the path before it comes back, and how
     far.
 
@@ -309,6 +323,7 @@ def excursion(control, left, points, chord, end, swell):  # type: ignore[no-unty
         off = _off_near(here, points, chord)
         if off > most:
             best, most = u, off
+        # Small steps near the exit, where the way out may be short; longer ones as it goes on.
         step = min(step * 1.3, 1.0 / 64)
         u, steps = (stop if u < stop < u + step else u + step), steps + 1
     low, high = max(left, best - step), min(stop, best + step)
@@ -327,7 +342,7 @@ def excursion(control, left, points, chord, end, swell):  # type: ignore[no-unty
 
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64[::1], float64[::1])")
-def off_chords(control, points, feet, off):  # type: ignore[no-untyped-def]
+def off_chords(control, points, feet, off):
     """Write how far each piece is found from the chords that it answers to, at most, mm: at feet and half way
     between.
     """

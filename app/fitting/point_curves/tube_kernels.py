@@ -11,9 +11,11 @@ from ...core.jit import kernel
 P = 5
 """Degree of the pieces."""
 INSIDE, OUTSIDE, UNDECIDED = 0, 1, 2
+"""What is known of a curve: it lies within the regions, it leaves them, or signs have not decided."""
 _FINEST = 1e-11
 """A stretch of so little parameter is not halved again; so near the edge of its region, nobody can decide."""
 _ROUNDING = 1e-14
+"""Of the numbers that a coefficient is a sum of: by so much rounding may have made it larger."""
 
 _WEIGHTS = np.array(
     [[math.comb(P, i) * math.comb(P, j) / math.comb(2 * P, i + j) for j in range(P + 1)] for i in range(P + 1)]
@@ -22,7 +24,7 @@ _WEIGHTS = np.array(
 
 
 @kernel("void(float64[:, :, ::1], float64, float64, float64[:, ::1])", counts=False)
-def portion(control, a, b, out):  # type: ignore[no-untyped-def]
+def portion(control, a, b, out):
     """Write the control points (6, 3) of the curve between parameters a <= b of one piece."""
     k = min(int(a), len(control) - 1)
     if b <= k:
@@ -32,6 +34,7 @@ def portion(control, a, b, out):  # type: ignore[no-untyped-def]
     for axis in range(3):
         for i in range(P + 1):
             out[i, axis] = control[k, i, axis]
+        # De Casteljau twice: first what is behind t, then of that the share s.
         for r in range(1, P + 1):
             for i in range(P + 1 - r):
                 out[i, axis] = (1.0 - t) * out[i, axis] + t * out[i + 1, axis]
@@ -41,7 +44,7 @@ def portion(control, a, b, out):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[:, ::1], float64[:, ::1], float64[:, ::1])", counts=False)
-def halved(b, left, right):  # type: ignore[no-untyped-def]
+def halved(b, left, right):
     """Write the two halves of a piece (6, 3)."""
     for axis in range(3):
         for i in range(P + 1):
@@ -53,7 +56,7 @@ def halved(b, left, right):  # type: ignore[no-untyped-def]
 
 
 @kernel("void(float64[:, :, ::1], float64, float64[::1])", counts=False)
-def point_at(control, u, out):  # type: ignore[no-untyped-def]
+def point_at(control, u, out):
     """Write the curve's point at a parameter."""
     k = min(int(u), len(control) - 1)
     t = u - k
@@ -69,7 +72,7 @@ def point_at(control, u, out):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64[::1], float64[::1], float64[::1])", counts=False)
-def squared_off_chord(c, a, b):  # type: ignore[no-untyped-def]
+def squared_off_chord(c, a, b):
     """Return the squared distance of a point from a chord."""
     dx, dy, dz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
     px, py, pz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
@@ -81,7 +84,7 @@ def squared_off_chord(c, a, b):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(float64[::1], float64[::1], float64[::1], float64, float64)", counts=False)
-def holds_point(c, a, b, end, swell):  # type: ignore[no-untyped-def]
+def holds_point(c, a, b, end, swell):
     """Tell whether the region round a chord holds a point.
 
     Args:
@@ -101,7 +104,7 @@ def holds_point(c, a, b, end, swell):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(float64[:, ::1], float64, float64, float64, float64)", counts=False)
-def _signs(work, end, swell, size, guard):  # type: ignore[no-untyped-def]
+def _signs(work, end, swell, size, guard):
     """Tell whether all coefficients of the body's inequality are above the rounding."""
     for k in range(2 * P + 1):
         value = end
@@ -109,6 +112,8 @@ def _signs(work, end, swell, size, guard):  # type: ignore[no-untyped-def]
             j = k - i
             dot = work[i, 0] * work[j, 0] + work[i, 1] * work[j, 1] + work[i, 2] * work[j, 2]
             both = work[i, 3] * work[j, 3]
+            # The share times 1, written evenly, is (share_i + share_j) / 2: so it has the products' degree. Bernstein
+            # polynomials are positive, so a function whose coefficients all are is, too.
             value += _WEIGHTS[i, j] * (swell * (0.5 * (work[i, 3] + work[j, 3]) - both) - dot + size * both)
         if value < guard:
             return False
@@ -116,7 +121,7 @@ def _signs(work, end, swell, size, guard):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(float64[:, ::1], float64, float64, float64, float64, float64)", counts=False)
-def _ball_signs(work, x, y, z, end, guard):  # type: ignore[no-untyped-def]
+def _ball_signs(work, x, y, z, end, guard):
     """Tell whether all coefficients of a ball's inequality are above the rounding; its centre counts from the chord's
     start.
     """
@@ -139,7 +144,7 @@ def _ball_signs(work, x, y, z, end, guard):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(float64[:, ::1], float64[::1], float64[::1], float64, float64, float64[:, ::1])", counts=False)
-def holds_piece(piece, a, b, end, swell, work):  # type: ignore[no-untyped-def]
+def holds_piece(piece, a, b, end, swell, work):
     """Tell whether Bernstein signs prove that the region round a chord holds a piece: True is a proof, False is none.
 
     The body holds it where 0 <= share <= 1 and end + swell share (1 - share) - off^2 >= 0 in all coefficients, a ball
@@ -166,8 +171,9 @@ def holds_piece(piece, a, b, end, swell, work):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(float64[:, ::1], float64[::1], float64)", counts=False)
-def _keeps_off(piece, centre, end):  # type: ignore[no-untyped-def]
+def _keeps_off(piece, centre, end):
     """Tell whether Bernstein signs prove that a piece has no point in a ball."""
+    # Distance squared less the radius squared, in Bernstein form: positive where all coefficients are.
     for k in range(2 * P + 1):
         value = -end
         for i in range(max(0, k - P), min(k, P) + 1):
@@ -181,12 +187,13 @@ def _keeps_off(piece, centre, end):  # type: ignore[no-untyped-def]
 
 
 @kernel("float64(float64[:, :, ::1], float64, float64, float64[::1], float64[::1], float64, float64)")
-def first_exit(control, start, stop, a, b, end, swell):  # type: ignore[no-untyped-def]
+def first_exit(control, start, stop, a, b, end, swell):
     """Return up to where, from `start` on, the curve is proven to lie in the region round a chord; at most `stop`."""
     piece, work, stack = np.empty((P + 1, 3)), np.empty((P + 1, 4)), np.empty(64)
     low = start
     while low < stop:
         depth, stack[0] = 1, min(math.floor(low) + 1.0, stop)
+        # Proven from start to low. The stack holds ends of stretches, the nearest on top, each tried from low on.
         while depth > 0:
             high = stack[depth - 1]
             portion(control, low, high, piece)
@@ -201,12 +208,14 @@ def first_exit(control, start, stop, a, b, end, swell):  # type: ignore[no-untyp
 
 
 @kernel("float64(float64[:, :, ::1], float64, float64, float64[::1], float64)")
-def first_entry(control, start, stop, centre, end):  # type: ignore[no-untyped-def]
+def first_entry(control, start, stop, centre, end):
     """Return where, from `start` on, the curve first lies in a ball; more than `stop` where it does not up to there."""
     piece, stack = np.empty((P + 1, 3)), np.empty(64)
     low = start
     while low < stop:
         depth, stack[0] = 1, min(math.floor(low) + 1.0, stop)
+        # As in `first_exit`: from start to low the curve is proven to keep off, or stretches too short to halve were
+        # passed.
         while depth > 0:
             high = stack[depth - 1]
             portion(control, low, high, piece)

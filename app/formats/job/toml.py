@@ -198,7 +198,8 @@ def read_job_tables(text: JobText, tree: dict[str, Any]) -> JobFile:
 
 
 def read_kept_job(text: JobText, tree: dict[str, Any]) -> Job:
-    """Return the job of tables that `job_write` has written, with an empty part; it may not be fit to be computed yet.
+    """Return the job of tables that `formats.job.write` has written, with an empty part; it may not be fit to be
+    computed yet.
 
     Raises:
         InputError: as `read_job`.

@@ -7,18 +7,13 @@ import zlib
 from collections.abc import Iterable
 
 import cv2
-import numpy as np
-from numpy.typing import NDArray
 
 from .flat import FlatPolyline, dashes, flat_drawing, flat_frame
 from .page import PlotPage
-
-Pixels = NDArray[np.uint8]
+from .pixels import FINE, SHIFT, Pixels, averaged, bgr, fixed, sheet_of
 
 _DPI = 200
 _MOST_PIXELS = 16e6
-_FINE, _SHIFT = 2, 4
-"""Times finer that everything is drawn, and binary digits of a pixel that positions keep."""
 
 
 def page_png(page: PlotPage) -> bytes:
@@ -29,33 +24,26 @@ def page_png(page: PlotPage) -> bytes:
     """
     per_mm = min(_DPI / 25.4, (_MOST_PIXELS / (page.width * page.height)) ** 0.5)
     width, height = round(page.width * per_mm), round(page.height * per_mm)
-    image = np.full((height * _FINE, width * _FINE, 3), 255, np.uint8)
+    image = sheet_of(width, height, "#ffffff")
     inside = image.copy()
-    _draw(inside, flat_drawing(page), per_mm * _FINE)
-    x0, x1 = (round(x * per_mm * _FINE) for x in (page.window[0], page.window[2]))
-    y0, y1 = (round((page.height - y) * per_mm * _FINE) for y in (page.window[3], page.window[1]))
+    _draw(inside, flat_drawing(page), per_mm * FINE)
+    x0, x1 = (round(x * per_mm * FINE) for x in (page.window[0], page.window[2]))
+    y0, y1 = (round((page.height - y) * per_mm * FINE) for y in (page.window[3], page.window[1]))
     image[y0:y1, x0:x1] = inside[y0:y1, x0:x1]
-    _draw(image, flat_frame(page), per_mm * _FINE)
-    small = cv2.resize(image, (width, height), interpolation=cv2.INTER_AREA)
-    return _with_size(cv2.imencode(".png", small, (cv2.IMWRITE_PNG_COMPRESSION, 9))[1].tobytes(), per_mm)
+    _draw(image, flat_frame(page), per_mm * FINE)
+    return _with_size(cv2.imencode(".png", averaged(image), (cv2.IMWRITE_PNG_COMPRESSION, 9))[1].tobytes(), per_mm)
 
 
 def _draw(image: Pixels, flats: Iterable[FlatPolyline], per_mm: float) -> None:
     for flat in flats:
-        colour = tuple(int(flat.pen.colour[k : k + 2], 16) for k in (5, 3, 1))
+        colour = bgr(flat.pen.colour)
         pieces = list(dashes(flat.points, flat.pen.dash)) if flat.pen.dash else [flat.points]
-        fixed = [_fixed(points * per_mm, len(image)) for points in pieces]
+        placed = [fixed(points * (per_mm, -per_mm) + (0.0, len(image))) for points in pieces]
         if flat.filled:
-            cv2.fillPoly(image, fixed, colour, cv2.LINE_AA, _SHIFT)
+            cv2.fillPoly(image, placed, colour, cv2.LINE_AA, SHIFT)
         else:
-            cv2.polylines(
-                image, fixed, False, colour, max(1, round(flat.pen.width * per_mm - 0.5)), cv2.LINE_AA, _SHIFT
-            )
-
-
-def _fixed(points: NDArray[np.float64], height: int) -> NDArray[np.int32]:
-    x, y = points.T
-    return np.asarray(np.round(np.stack([x, height - y], axis=1) * 2**_SHIFT), np.int32)
+            width = max(1, round(flat.pen.width * per_mm - 0.5))
+            cv2.polylines(image, placed, False, colour, width, cv2.LINE_AA, SHIFT)
 
 
 def _with_size(png: bytes, per_mm: float) -> bytes:

@@ -9,6 +9,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from ...core import tolerances
+from ...core.wording import trimmed
 from ...geometry.transform import Similarity, transformed
 from ...model.curves import Point
 from .page import PageContent, Pen, PlotPage, TextLine, chains, segments
@@ -88,5 +89,4 @@ def _place(point: Point, height: float) -> str:
 
 def _n(value: float) -> str:
     """Return a number to a nanometre."""
-    text = f"{value:.6f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    return trimmed(value, 6)

@@ -7,6 +7,7 @@ from html import escape
 
 import numpy as np
 
+from ...core.wording import trimmed
 from ...geometry.primitives import TURN, R, Rows, sweeps
 from .picture import (
     AREA,
@@ -116,6 +117,5 @@ def _legend(picture: PathPicture) -> str:
 
 
 def _n(value: float) -> str:
-    """Return a number as short as six decimals allow."""
-    text = f"{value:.6f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    """Return a number to a nanometre."""
+    return trimmed(value, 6)

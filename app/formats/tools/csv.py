@@ -2,7 +2,7 @@
 
 Columns are parted by commas with decimal points, or by semicolons or tabs with decimal commas or points: as
 spreadsheets write them. What a material's feeds are stands in three columns, `aluminium: surface_speed_m_min` and so
-on. Lengths may be inches (`diameter_in`), feed rates inches a minute; a column without a unit is mm, mm/min, rpm or
+on. Lengths may be inches ("diameter_in"), feed rates inches a minute; a column without a unit is mm, mm/min, rpm or
 degrees.
 """
 

@@ -7,6 +7,7 @@ from ...core.jit import kernel
 _BYTES, _INTS, _FLAGS = "Array(uint8, 1, 'C', True)", "int64[::1]", "boolean[::1]"
 _SAME = 1e-7
 """mm; a place that words say is that of the motion where they are no farther apart."""
+# ASCII; & _UPPER clears the bit that tells small letters from capitals.
 _SPACE, _ZERO, _NINE, _DOT, _PLUS, _MINUS, _UPPER = 32, 48, 57, 46, 43, 45, 0xDF
 _LETTERS = (88, 89, 90, 70)
 """X, Y, Z, F."""
@@ -14,7 +15,7 @@ _G, _N = 71, 78
 
 
 @kernel("boolean(uint8)", counts=False)
-def _blank(byte):  # type: ignore[no-untyped-def]
+def _blank(byte):
     """Tell whether a byte is a space, a tab, a vertical one, a form or line feed, a return or a separator of files to
     units.
     """
@@ -22,19 +23,19 @@ def _blank(byte):  # type: ignore[no-untyped-def]
 
 
 @kernel("boolean(uint8)", counts=False)
-def _digit(byte):  # type: ignore[no-untyped-def]
+def _digit(byte):
     return _ZERO <= byte <= _NINE
 
 
 @kernel(f"int64({_BYTES}, int64, int64)", counts=False)
-def _past_blanks(text, at, stop):  # type: ignore[no-untyped-def]
+def _past_blanks(text, at, stop):
     while at < stop and _blank(text[at]):
         at += 1
     return at
 
 
 @kernel(f"int64({_BYTES}, int64, int64)", counts=False)
-def _past_number(text, at, stop):  # type: ignore[no-untyped-def]
+def _past_number(text, at, stop):
     """Return where the line's number, if it begins with one, and the blanks round it end."""
     at = _past_blanks(text, at, stop)
     if at + 1 < stop and text[at] & _UPPER == _N and _digit(text[at + 1]):
@@ -45,21 +46,23 @@ def _past_number(text, at, stop):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"int64({_BYTES}, int64, int64)", counts=False)
-def _past_code(text, at, stop):  # type: ignore[no-untyped-def]
+def _past_code(text, at, stop):
     """Return where a G1 that begins here ends, `at` itself where there is none."""
     end = at + 1
     if at >= stop or text[at] & _UPPER != _G:
         return at
     if end < stop and text[end] == _ZERO:
         end += 1
+    # G1 and G01, but not G10 to G19 or G1.5, which are other words.
     if end >= stop or text[end] != _ZERO + 1 or (end + 1 < stop and (_digit(text[end + 1]) or text[end + 1] == _DOT)):
         return at
     return end + 1
 
 
 @kernel(f"Tuple((int64, float64))({_BYTES}, int64, int64)", counts=False)
-def _number(text, at, stop):  # type: ignore[no-untyped-def]
+def _number(text, at, stop):
     """Return where a decimal number that begins here ends, and its value; `at` itself where there is none."""
+    # No exponent: in NC text E is an address of its own.
     begin, sign = at, 1.0
     if at < stop and (text[at] == _PLUS or text[at] == _MINUS):
         sign = -1.0 if text[at] == _MINUS else 1.0
@@ -75,7 +78,7 @@ def _number(text, at, stop):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"boolean({_BYTES}, int64, int64, float64[::1], float64[::1], float64, int64[::1])", counts=False)
-def _says(text, at, stop, end, shift, unit, feed):  # type: ignore[no-untyped-def]
+def _says(text, at, stop, end, shift, unit, feed):
     """Tell whether words X, Y, Z and F, each once, are all that is left of a line, and say where it ends.
 
     Args:
@@ -89,6 +92,7 @@ def _says(text, at, stop, end, shift, unit, feed):  # type: ignore[no-untyped-de
         for k in range(4):
             if text[at] & _UPPER == _LETTERS[k]:
                 which = k
+        # `seen` has a bit a letter: a word said twice has two meanings, which are not this one's to choose between.
         if which < 0 or seen & (1 << which):
             return False
         seen |= 1 << which
@@ -98,6 +102,7 @@ def _says(text, at, stop, end, shift, unit, feed):  # type: ignore[no-untyped-de
             return False
         if which == 3:
             feed[0], feed[1] = begin, at
+        # Written so that a place that is not a number fails, too.
         elif not abs(value * unit + shift[which] - end[which]) <= _SAME:
             return False
         else:
@@ -110,7 +115,7 @@ def _says(text, at, stop, end, shift, unit, feed):  # type: ignore[no-untyped-de
     f"void({_BYTES}, {_INTS}, {_INTS}, float64[:, ::1], {_INTS}, float64[:, ::1], float64[::1], {_FLAGS}, {_FLAGS}, "
     f"{_FLAGS}, int64[:, ::1])"
 )
-def read_moves(text, begins, lines, ends, states, shifts, units, plain, coded, numbered, feeds):  # type: ignore[no-untyped-def]
+def read_moves(text, begins, lines, ends, states, shifts, units, plain, coded, numbered, feeds):
     """Read the lines of n straight moves.
 
     Args:
@@ -133,7 +138,7 @@ def read_moves(text, begins, lines, ends, states, shifts, units, plain, coded, n
 
 
 @kernel(f"int64({_BYTES}, {_INTS}, {_INTS})")
-def read_lines(text, begins, filled):  # type: ignore[no-untyped-def]
+def read_lines(text, begins, filled):
     """Write where each line begins, and behind the last one; and how many lines with something in them are before each,
     and in all.
 

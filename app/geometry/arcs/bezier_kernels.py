@@ -22,7 +22,7 @@ _ROUNDING = 1e-3
 
 
 @kernel(f"void({_CONTROL}, float64, {_PIECE}, {_FOUND})", counts=False)
-def place(control, u, work, found):  # type: ignore[no-untyped-def]
+def place(control, u, work, found):
     """Write the place at a parameter, mm, and a vector along the tangent there, of any length.
 
     Args:
@@ -33,6 +33,7 @@ def place(control, u, work, found):  # type: ignore[no-untyped-def]
     for j in range(degree + 1):
         for axis in range(3):
             work[j, axis] = control[k, j, axis]
+    # De Casteljau without its last step: the last two points give the place and the tangent.
     for level in range(degree, 1, -1):
         for j in range(level):
             for axis in range(3):
@@ -41,11 +42,12 @@ def place(control, u, work, found):  # type: ignore[no-untyped-def]
     for axis in range(2):
         along = work[1, axis] - work[0, axis]
         found[axis] = (work[0, axis] + along * t) / w
+        # The slope of (w x) / w is ((w x)' - x w') / w; neither the 1 / w nor the degree turns it.
         found[2 + axis] = along - found[axis] * (work[1, 2] - work[0, 2])
 
 
 @kernel(f"UniTuple(float64, 2)({_CONTROL}, float64, boolean, float64, {_PIECE}, {_FOUND})", counts=False)
-def direction(control, u, forward, still, work, found):  # type: ignore[no-untyped-def]
+def direction(control, u, forward, still, work, found):
     """Return the unit tangent just after (forward) or just before a parameter; (0, 0) where the curve stands still.
 
     Args:
@@ -55,6 +57,8 @@ def direction(control, u, forward, still, work, found):  # type: ignore[no-untyp
     if u == math.floor(u):
         k, degree = int(u), control.shape[1] - 1
         k = min(k, len(control) - 1) if forward else max(k - 1, 0)
+        # At a piece's end the tangent is towards the first control point that stands apart, also where the slope is
+        # 0.
         here = 0 if forward else degree
         for j in range(1, degree + 1):
             other = j if forward else degree - j
@@ -75,10 +79,11 @@ def direction(control, u, forward, still, work, found):  # type: ignore[no-untyp
 
 
 @kernel(f"void({_CONTROL}, float64, float64, {_PIECE}, {_PIECE})", counts=False)
-def cut(control, first, last, work, piece):  # type: ignore[no-untyped-def]
+def cut(control, first, last, work, piece):
     """Write the stretch between two parameters of one piece: control point j is the blossom of its ends, taken p - j
     and j times.
     """
+    # Its middle names the piece: an end may lie on the joint to a neighbour.
     k, degree = min(max(int((first + last) / 2), 0), len(control) - 1), control.shape[1] - 1
     for j in range(degree + 1):
         for i in range(degree + 1):
@@ -94,7 +99,7 @@ def cut(control, first, last, work, piece):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64({_PIECE}, float64, float64, float64, float64)", counts=False)
-def off_line(piece, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+def off_line(piece, ax, ay, bx, by):
     """Return a bound of how far a piece is from the line from a to b, mm: that of its control points, each way by
     itself.
     """
@@ -111,7 +116,7 @@ def off_line(piece, ax, ay, bx, by):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64({_PIECE}, float64, float64, float64, float64, {_CONTROL})", counts=False)
-def off_circle(piece, x, y, cx, cy, products):  # type: ignore[no-untyped-def]
+def off_circle(piece, x, y, cx, cy, products):
     """Return a bound of how far a piece is from the circle round a centre c through a place, mm.
 
     The squared distance from the centre is a polynomial over the squared weight; its Bernstein coefficients enclose it,
@@ -131,14 +136,16 @@ def off_circle(piece, x, y, cx, cy, products):  # type: ignore[no-untyped-def]
             j = k - i
             ix, iy = piece[i, 0] - piece[i, 2] * x, piece[i, 1] - piece[i, 2] * y
             jx, jy = piece[j, 0] - piece[j, 2] * x, piece[j, 1] - piece[j, 2] * y
+            # |p - c|² - r² = |p - q|² + 2 (p - q)·(q - c) with q on the circle: no difference of large squares.
             gap += products[i, j, k] * (ix * jx + iy * jy + 2.0 * piece[i, 2] * (jx * rx + jy * ry))
         gap /= least * least
+        # sqrt(r² + gap) - r, without the difference.
         worst = max(worst, abs(gap / (math.sqrt(max(radius * radius + gap, 0.0)) + radius)))
     return worst
 
 
 @kernel(f"void({_PIECE}, {_FOUND}, int64[::1], {_CONTROL})")
-def blossoms(points, knots, spans, result):  # type: ignore[no-untyped-def]
+def blossoms(points, knots, spans, result):
     """Write the control points of a B-spline's Bézier pieces: j of a span is the blossom at its ends, taken p - j and j
     times.
 
@@ -166,7 +173,7 @@ def blossoms(points, knots, spans, result):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"boolean({_CONTROL}, boolean, float64, float64, float64)")
-def surely_not_round(control, given, cx, cy, tolerance):  # type: ignore[no-untyped-def]
+def surely_not_round(control, given, cx, cy, tolerance):
     """Tell whether places on a curve show that it is no circle round a centre, or through three of them; False where
     they do not.
 
@@ -192,6 +199,7 @@ def surely_not_round(control, given, cx, cy, tolerance):  # type: ignore[no-unty
         place(control, k / 8, work, found)
         radius = math.hypot(found[0] - cx, found[1] - cy)
         least, most = min(least, radius), max(most, radius)
+        # Whatever is within the tolerance of a circle is at radii that differ by twice as much at most.
         if most - least > 2.0 * tolerance + _ROUNDING:
             return True
     return False

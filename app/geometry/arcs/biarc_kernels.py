@@ -9,7 +9,9 @@ from ...core.jit import kernel
 
 _POINT = "UniTuple(float64, 2)"
 NONE, LINE, ARC = 0, 1, 2
+"""What there is from a tangent to a place."""
 _STRAIGHT = tolerances.WELD / 2
+"""mm; an arc that is no higher over its chord is a line."""
 
 
 @kernel(f"Tuple((boolean, float64, float64))({_POINT}, {_POINT}, {_POINT}, {_POINT})")

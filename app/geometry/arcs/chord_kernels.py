@@ -12,7 +12,7 @@ from .bezier_kernels import place
 
 
 @kernel("Tuple((float64[:, ::1], int64))(float64[:, :, ::1], float64, int64)")
-def chords(control, tolerance, finest):  # type: ignore[no-untyped-def]
+def chords(control, tolerance, finest):
     """Return (places along a curve (m, 2), how many), so that the middle of each stretch is near that of its chord.
 
     Every piece has two chords at least: an S has its middle on its chord.
@@ -44,6 +44,7 @@ def chords(control, tolerance, finest):  # type: ignore[no-untyped-def]
             place(control, middle, work, at)
             off = math.hypot(at[0] - (x + to_x) / 2, at[1] - (y + to_y) / 2)
             if depth < finest and (depth == 0 or off > tolerance):
+                # The middle becomes the next end, before the one that waits: chords come out in order.
                 level[top - 1] = depth + 1
                 ends[top, 0], ends[top, 1], ends[top, 2], level[top] = middle, at[0], at[1], depth + 1
                 top += 1

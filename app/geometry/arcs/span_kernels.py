@@ -20,6 +20,8 @@ _CONTROL, _PIECE, _FOUND = "float64[:, :, ::1]", "float64[:, ::1]", "float64[::1
 FIRST, LAST, X0, Y0, X1, Y1, X2, Y2, CX, CY, TURN, DX, DY, DTURN, PARTS = range(15)
 """Columns of a row; D stands for the second part."""
 COLUMNS = 15
+_PART_START, _PART_END, _PART_CENTRE, _PART_TURN = 0, 2, 4, 6
+"""Numbers of one part of a row: two each of its start, its end and its centre, and its turn."""
 _SMALLEST = 1e-9
 """A stretch of parameter below which a corner that no arc can follow becomes a line."""
 _TURNS_BACK = 0.6
@@ -27,10 +29,13 @@ _TURNS_BACK = 0.6
 _SAMPLES, _EACH = 16, 8
 """Parts that a span is cut in to be measured, and that a piece is, whichever are more."""
 _TRIALS, _BISECTIONS, _PARTS = 60, 48, 6
+"""Spans that are tried for one; halvings of a span for the place where its parts meet; parts of it that are bounded
+one by one, as short ones are bounded more tightly.
+"""
 
 
 @kernel("float64(float64, float64, float64, float64, float64, float64, float64, float64, float64)", counts=False)
-def _apart(x, y, ax, ay, bx, by, cx, cy, turn):  # type: ignore[no-untyped-def]
+def _apart(x, y, ax, ay, bx, by, cx, cy, turn):
     """Return the distance of a place from a line or arc from a to b."""
     px, py = x - ax, y - ay
     if turn == 0.0:
@@ -41,12 +46,13 @@ def _apart(x, y, ax, ay, bx, by, cx, cy, turn):  # type: ignore[no-untyped-def]
     ex, ey = bx - cx, by - cy
     sweep = (turn * math.atan2(rx * ey - ry * ex, rx * ex + ry * ey)) % (2.0 * math.pi)
     if (turn * math.atan2(rx * oy - ry * ox, rx * ox + ry * oy)) % (2.0 * math.pi) <= sweep:
+        # |o|² - |r|² = |p|² + 2 p·r over |o| + |r|: large radii are not taken from each other.
         return abs(px * px + py * py + 2.0 * (px * rx + py * ry)) / (math.hypot(ox, oy) + math.hypot(rx, ry))
     return min(math.hypot(px, py), math.hypot(x - bx, y - by))
 
 
 @kernel(f"boolean({_FOUND}, float64, float64, float64, float64)", counts=False)
-def _put_biarc(row, out_x, out_y, in_x, in_y):  # type: ignore[no-untyped-def]
+def _put_biarc(row, out_x, out_y, in_x, in_y):
     """Write the line or the two arcs between a row's ends that leave and arrive in unit directions; tell whether there
     are any.
     """
@@ -66,7 +72,7 @@ def _put_biarc(row, out_x, out_y, in_x, in_y):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64({_CONTROL}, float64, float64, float64, {_PIECE}, {_PIECE}, {_FOUND})")
-def _trial(control, first, last, still, work, places, row):  # type: ignore[no-untyped-def]
+def _trial(control, first, last, still, work, places, row):
     """Write what replaces a span, its chord where it turns back; return its greatest distance from samples, mm."""
     count, length = max(_SAMPLES, _EACH * math.ceil(last - first)), 0.0
     found = places[len(places) - 1]
@@ -83,6 +89,7 @@ def _trial(control, first, last, still, work, places, row):  # type: ignore[no-u
         places[count, 1],
     )
     row[TURN], row[PARTS] = 0.0, 1.0
+    # Where the span turns back its tangents say nothing about a biarc: its chord stands for it, and is off as it is.
     if math.hypot(row[X2] - row[X0], row[Y2] - row[Y0]) > _TURNS_BACK * length:
         out_x, out_y = direction(control, first, True, still, work, found)
         in_x, in_y = direction(control, last, False, still, work, found)
@@ -103,7 +110,7 @@ def _trial(control, first, last, still, work, places, row):  # type: ignore[no-u
 
 
 @kernel(f"float64({_CONTROL}, float64, float64, float64, float64, float64, {_PIECE}, {_PIECE}, {_FOUND}, {_FOUND})")
-def _longest(control, first, last, step, target, still, work, places, trial, row):  # type: ignore[no-untyped-def]
+def _longest(control, first, last, step, target, still, work, places, trial, row):
     """Write about the longest span from a parameter on that stays within the target; return a step to try next.
 
     The error of a biarc grows with the third power of its length, so few trials find the length.
@@ -116,6 +123,7 @@ def _longest(control, first, last, step, target, still, work, places, trial, row
         if error <= target:
             for c in range(COLUMNS):
                 row[c] = trial[c]
+            # `held`: a shorter span has been good, and stands in the row; the next failure ends the search.
             if end == last or factor < 1.2 or held:
                 return (end - first) * min(max(factor, 0.7), 2.0)
             held, step = True, (end - first) * min(factor, 2.0)
@@ -127,12 +135,13 @@ def _longest(control, first, last, step, target, still, work, places, trial, row
             break
     for c in range(COLUMNS):
         row[c] = trial[c]
+    # Not even the shortest stretch is near an arc: a corner, which its chord passes; beyond it steps begin small.
     row[TURN], row[PARTS] = 0.0, 1.0
     return 1e-3
 
 
 @kernel(f"int64({_CONTROL}, {_FOUND}, float64, float64, float64, {_PIECE})")
-def cover(control, state, last, target, still, rows):  # type: ignore[no-untyped-def]
+def cover(control, state, last, target, still, rows):
     """Cover a curve with spans, each about the longest within a target, until they end or the rows are full; return how
     many there are.
 
@@ -143,6 +152,7 @@ def cover(control, state, last, target, still, rows):  # type: ignore[no-untyped
         rows: (k, COLUMNS) out.
     """
     work, trial = np.empty((control.shape[1], 3)), np.zeros(COLUMNS)
+    # Its last row is where `place` writes before x and y are taken over.
     places, count = np.empty((max(_SAMPLES, _EACH * math.ceil(last - state[0] + 1.0)) + 2, 4)), 0
     while state[0] < last and count < len(rows):
         state[1] = _longest(control, state[0], last, state[1], target, still, work, places, trial, rows[count])
@@ -152,11 +162,12 @@ def cover(control, state, last, target, still, rows):  # type: ignore[no-untyped
 
 
 @kernel(f"float64({_CONTROL}, {_FOUND}, {_PIECE}, {_FOUND})", counts=False)
-def _share(control, row, work, found):  # type: ignore[no-untyped-def]
+def _share(control, row, work, found):
     """Return the parameter where a span's two parts share it: where the curve crosses their common normal."""
     low, high = row[FIRST], row[LAST]
     x, y = row[X1] - row[X0], row[Y1] - row[Y0]
     if row[TURN] != 0.0:
+        # Square to the radius, in the arc's own sense: before the joint the curve's offset along it is negative.
         x, y = -row[TURN] * (row[Y1] - row[CY]), row[TURN] * (row[X1] - row[CX])
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
@@ -169,7 +180,7 @@ def _share(control, row, work, found):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64({_CONTROL}, float64, float64, {_FOUND}, {_CONTROL}, {_PIECE}, {_PIECE})", counts=False)
-def _bound(control, first, last, part, products, work, piece):  # type: ignore[no-untyped-def]
+def _bound(control, first, last, part, products, work, piece):
     """Return a bound of how far a curve between two parameters is from a line or arc: start, end, centre, turn.
 
     It is cut in a few parts, and wherever a piece ends.
@@ -177,30 +188,32 @@ def _bound(control, first, last, part, products, work, piece):  # type: ignore[n
     worst, at, n = 0.0, first, 1
     while at < last or n == 1:
         even = first + n * (last - first) / _PARTS if n < _PARTS else last
+        # Bernstein form speaks of one piece: parts end where pieces do, and what is left of an even part comes next.
         until = min(even, math.floor(at) + 1.0, last)
         n += until >= even
         cut(control, at, until, work, piece)
-        if part[6] == 0.0:
-            worst = max(worst, off_line(piece, part[0], part[1], part[2], part[3]))
+        x, y = part[_PART_START], part[_PART_START + 1]
+        if part[_PART_TURN] == 0.0:
+            worst = max(worst, off_line(piece, x, y, part[_PART_END], part[_PART_END + 1]))
         else:
-            worst = max(worst, off_circle(piece, part[0], part[1], part[4], part[5], products))
+            worst = max(worst, off_circle(piece, x, y, part[_PART_CENTRE], part[_PART_CENTRE + 1], products))
         at = until
     return worst
 
 
 @kernel(f"void({_FOUND}, int64, int64, int64, {_FOUND})")
-def _take(row, start, end, centre, part):  # type: ignore[no-untyped-def]
+def _take(row, start, end, centre, part):
     """Write the piece of a row that begins, ends and has its centre and turn from these columns on: x0, y0, x1, y1, cx,
     cy, turn. Number by number, see `geometry.kernels.enlarged`.
     """
     for k in range(2):
-        part[k], part[2 + k] = row[start + k], row[end + k]
-    for k in range(3):
-        part[4 + k] = row[centre + k]
+        part[_PART_START + k], part[_PART_END + k] = row[start + k], row[end + k]
+    for k in range(3):  # the turn stands behind the centre
+        part[_PART_CENTRE + k] = row[centre + k]
 
 
 @kernel(f"void({_CONTROL}, {_PIECE}, {_CONTROL}, {_FOUND})")
-def bounds(control, rows, products, found):  # type: ignore[no-untyped-def]
+def bounds(control, rows, products, found):
     """Write for each row (k, COLUMNS) a bound of its distance from the span that it replaces, both ways, mm.
 
     Args:
@@ -211,7 +224,7 @@ def bounds(control, rows, products, found):  # type: ignore[no-untyped-def]
         row = rows[k]
         _take(row, X0, X2, CX, part)
         if row[PARTS] == 1.0:
-            part[6] = 0.0
+            part[_PART_TURN] = 0.0
             found[k] = _bound(control, row[FIRST], row[LAST], part, products, work, piece)
             continue
         shared = _share(control, row, work, here)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core import tolerances
+from ...core.wording import trimmed
 from ...model.curves import Circle, Line, Point, Primitive
 from ...model.finding import Finding, FindingKind
 from ...model.job import LARGEST_JOIN
@@ -40,7 +41,7 @@ def at(point: Point) -> str:
 def size_of(contour: Contour) -> str:
     """Return how wide and high a contour is, as text, mm."""
     (x0, y0), (x1, y1) = _corners(contour)
-    return f"{_tidy(x1 - x0)} x {_tidy(y1 - y0)} mm"
+    return f"{trimmed(x1 - x0, 3)} x {trimmed(y1 - y0, 3)} mm"
 
 
 def named(contour: Contour) -> str:
@@ -54,10 +55,6 @@ def _corners(contour: Contour) -> tuple[Point, Point]:
     around = boxes(contour_rows(contour))
     (x0, y0), (x1, y1) = around[:, :2].min(axis=0).tolist(), around[:, 2:].max(axis=0).tolist()
     return (x0, y0), (x1, y1)
-
-
-def _tidy(length: float) -> str:
-    return f"{length:.3f}".rstrip("0").rstrip(".")
 
 
 def limited(findings: Sequence[Finding], what: str) -> list[Finding]:

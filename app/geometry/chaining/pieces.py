@@ -158,13 +158,14 @@ def straightened(curve: Curve) -> Curve:
 def _all_primitives(entities: Sequence[Entity]) -> list[_PrimitivesNear | GeometryError]:
     """Return what each entity has become, or why it is nothing."""
     curves = [_straight_or_far(entity.curve) for entity in entities]
-    bent = iter(arcs_of_all([curve for curve in curves if isinstance(curve, Ellipse | Spline)]))
+    bent = [curve for curve in curves if isinstance(curve, Ellipse | Spline)]
+    arcs = iter(arcs_of_all(bent) if bent else [])
     made: list[_PrimitivesNear | GeometryError] = []
     for entity, curve in zip(entities, curves, strict=True):
         if isinstance(curve, GeometryError):
             made.append(curve)
         elif isinstance(curve, Ellipse | Spline):
-            near = next(bent)
+            near = next(arcs)
             made.append(near if isinstance(near, GeometryError) else _PrimitivesNear(near.primitives, near.deviation))
         elif length_of(curve) < tolerances.WELD:
             made.append(_PrimitivesNear((), 0.0))

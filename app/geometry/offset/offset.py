@@ -55,6 +55,7 @@ _FEW = 64
 """Rows among which it is not worth looking for those that can still block."""
 
 _BANDS = 4
+"""Bands at least: uneven ones keep both cores at work until the end."""
 
 _BAND = 10_000
 """Pieces that are cut in less than a fifth of a second."""
@@ -68,6 +69,9 @@ else closes.
 """
 
 _NUDGES = (0.0, 1e-7, 3.3e-7, 7.1e-7, -1.3e-7)
+"""mm by which a level is moved where rings do not close on it: what touches at one place alone crosses beside it, or
+not at all.
+"""
 
 _ATTEMPTS = tuple((nudge, limit) for limit in (_EXACT, tolerances.LEVEL / 2) for nudge in _NUDGES)
 
@@ -338,6 +342,7 @@ def _on_a_ridge(ring: Ring) -> bool:
 _STEP = 0.05  # mm between points; the chord of a 0.3 mm arc then sags by 1 um
 
 _CHORD = 1e-4
+"""mm by which chords may leave arcs in polygons that show where rings are to be looked for."""
 
 _SMALL = 1e-6  # mm; step of the numeric slope
 

@@ -77,9 +77,8 @@ class DiscPasses:
         if into_metal:
             stroke.purpose[:_SEED] = Purpose.PLUNGE
         x, y = stroke.start
-        self.builder.straight((x, y, self.levels.travel), Purpose.RAPID, self.label)
-        if self.levels.retract < self.levels.travel and not self._beside_clamp(x, y):
-            self.builder.straight((x, y, self.levels.retract), Purpose.RAPID, self.label)
+        for height in self.levels.over(x, y):
+            self.builder.straight((x, y, height), Purpose.RAPID, self.label)
         if into_metal and self.ground.cleared.floor(self.ground.tool, (x, y)) > z + _SAME:
             self._enter(stroke, z)
         else:
@@ -128,10 +127,6 @@ class DiscPasses:
         if into_metal:
             feeds[:_SEED] = max(self.label.feed / 2, min(self.label.plunge_rate, self.label.feed))
         return feeds
-
-    def _beside_clamp(self, x: float, y: float) -> bool:
-        clamps, wide = self.levels.clamps, self.levels.wide
-        return clamps is not None and float(clamps.nearest(np.array([[x, y]]))[0][0]) <= wide
 
 
 def nearest_first(parts: Sequence[ConnectedPath], at: tuple[float, float]) -> list[ConnectedPath]:

@@ -37,7 +37,9 @@ from ..vcarve.branches import AxisBranch
 from ..vcarve.paths import CarvedPass, PassWriter, VCutter, carved
 
 _SAME = 1e-9
+"""mm; lengths that differ by no more are equal."""
 _WELD = 1e-6
+"""mm; places that are no farther apart are one."""
 
 
 @dataclass(frozen=True)

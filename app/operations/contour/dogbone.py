@@ -89,7 +89,7 @@ def _farthest(rows: Rows, place: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class _Walls:
-    """Everything that bounds a sheet, with the rows before and behind each row."""
+    """Everything that bounds an area, with the rows before and behind each row."""
 
     area: MachiningArea
     around: Floats
@@ -139,9 +139,8 @@ def inserted(rows: Rows, where: Floats, ways: Sequence[CornerRelief]) -> tuple[R
 
     Args:
         rows, where: as of `ContourPath.span`.
+        ways: into corners, at least one.
     """
-    if not ways:
-        return rows, where, np.zeros(len(rows))
     ends = {relief.corner: relief.end for relief in ways}
     made, along, marks = [], [], []
     for row, place in zip(rows, where.tolist(), strict=True):

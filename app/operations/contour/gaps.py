@@ -68,7 +68,7 @@ class WallGap:
 
     Attributes:
         rows: (m, 8) the wall, cut to the gap.
-        walls: indices of these rows among the sheet's.
+        walls: indices of these rows among the area's.
         region: number of its region.
         bare: True when it begins or ends at a clamp or the frame.
         left: (k,) by how much the wall turns left at each of its joints and in each of its arcs, radians; right turns
@@ -194,40 +194,57 @@ def _uncovered(spans: _WallSpans, area: MachiningArea, known: set[int]) -> dict[
 
 
 def _chains(free: dict[int, list[tuple[float, float]]], area: MachiningArea) -> list[list[_WallPart]]:
-    """Return runs that go on from row to row of the walls."""
-    following = np.empty(len(area.primitives.previous), np.int64)
-    following[area.primitives.previous] = np.arange(len(following))
+    """Return runs that go on from row to row of the walls.
 
-    def begins(row: int) -> bool:
-        return row in free and free[row][0][0] == 0.0
-
-    def ends(row: int) -> bool:
-        return row in free and free[row][-1][1] == 1.0
-
+    Args:
+        free: of each row its parts, from and to, as fractions.
+    """
+    walls = _FreeWalls(free, area.primitives.previous)
     chains = []
-    used: set[int] = set()  # rows whose first part has its place in a chain
-
-    def chain_from(row: int, part: int) -> list[_WallPart]:
-        chain = [_WallPart(row, *free[row][part])]
-        while part == len(free[row]) - 1 and ends(row):
-            row, part = int(following[row]), 0
-            if not begins(row) or row in used:
-                break
-            used.add(row)
-            chain.append(_WallPart(row, *free[row][0]))
-        return chain
-
     for row, parts in free.items():
         for k in range(len(parts)):
-            if k or not (begins(row) and ends(int(area.primitives.previous[row]))):
-                if k == 0:
-                    used.add(row)
-                chains.append(chain_from(row, k))
+            if k or not walls.goes_on_into(row):
+                chains.append(walls.chain_from(row, k))
     for row in free:  # what is left are whole contours
-        if row not in used and begins(row):
-            used.add(row)
-            chains.append(chain_from(row, 0))
+        if row not in walls.used and walls.begins(row):
+            chains.append(walls.chain_from(row, 0))
     return chains
+
+
+class _FreeWalls:
+    """Free parts of walls, and which of them have their place in a chain.
+
+    Attributes:
+        used: rows whose first part has its place.
+    """
+
+    def __init__(self, free: dict[int, list[tuple[float, float]]], previous: Indices) -> None:
+        self.used: set[int] = set()
+        self._free, self._previous = free, previous
+        self._following = np.empty(len(previous), np.int64)
+        self._following[previous] = np.arange(len(previous))
+
+    def begins(self, row: int) -> bool:
+        """Tell whether a row is free where it begins."""
+        return row in self._free and self._free[row][0][0] == 0.0
+
+    def goes_on_into(self, row: int) -> bool:
+        """Tell whether the row before one is free up to its end, and this one from there on."""
+        before = int(self._previous[row])
+        return self.begins(row) and before in self._free and self._free[before][-1][1] == 1.0
+
+    def chain_from(self, row: int, part: int) -> list[_WallPart]:
+        """Return the run that begins with a part of a row, up to where a wall is not free."""
+        if part == 0:
+            self.used.add(row)
+        chain = [_WallPart(row, *self._free[row][part])]
+        while part == len(self._free[row]) - 1:
+            row, part = int(self._following[row]), 0
+            if not self.goes_on_into(row) or row in self.used:
+                break
+            self.used.add(row)
+            chain.append(_WallPart(row, *self._free[row][0]))
+        return chain
 
 
 def _made(chains: Sequence[Sequence[_WallPart]], area: MachiningArea) -> list[WallGap]:

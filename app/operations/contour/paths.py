@@ -234,9 +234,19 @@ def _bones(
 
 
 def _finish(work: _ContourJob, paths: Sequence[ContourPath], ways: Sequence[CornerRelief]) -> _ContourStrokes:
-    """Return the paths along the walls themselves, with tabs by hand and automatic ones."""
-    context, requested = work.context, work.operation.tabs
-    shape = TabShape.of(work.operation, work.tool)
+    """Return the paths along the walls themselves, with tabs where some are asked for."""
+    if work.operation.tabs.enabled:
+        return _finish_over_tabs(work, paths, ways)
+    around = work.around(work.wall)
+    made = runs(paths, [()] * len(paths), around)
+    work.context.findings.extend(lead_findings(made, around))
+    tabs = ((),) * len(paths)
+    return _ContourStrokes(made, strokes_of(made, tabs, StrokeExtras(corner_reliefs=ways)), tabs)
+
+
+def _finish_over_tabs(work: _ContourJob, paths: Sequence[ContourPath], ways: Sequence[CornerRelief]) -> _ContourStrokes:
+    """Return the paths along the walls with tabs by hand and automatic ones, and say which of them do not hold."""
+    context, shape = work.context, TabShape.of(work.operation, work.tool)
     own, left_out = by_hand(paths, shape, context.job.copies.shifts, _followed(work, paths))
     context.findings.extend(left_out)
     taken = [spans_of(path, places, shape.half) for path, places in zip(paths, own, strict=True)]
@@ -244,15 +254,14 @@ def _finish(work: _ContourJob, paths: Sequence[ContourPath], ways: Sequence[Corn
     made = runs(paths, taken, around)
     tabs = tuple((*places, *spread(run, places, shape, around)) for run, places in zip(made, own, strict=True))
     context.findings.extend(lead_findings(made, around))
-    if requested.enabled:
-        context.findings.extend(far_tab_findings(paths, shape, context.job.copies.shifts))
-        context.findings.extend(tab_findings(made, tabs, shape, work.operation))
-        bridges = [tab for run, places in zip(made, tabs, strict=True) for tab in tabs_at(run.path, places, shape)]
-        context.tabs.extend(bridges)
-        walls = _followed(work, paths)
-        if work.operation.side is Side.OUTSIDE and walls is not None:
-            box = stock_box(context.job, context.regions)
-            context.findings.extend(unheld_findings(bridges, walls, box))
+    context.findings.extend(far_tab_findings(paths, shape, context.job.copies.shifts))
+    context.findings.extend(tab_findings(made, tabs, shape, work.operation))
+    bridges = [tab for run, places in zip(made, tabs, strict=True) for tab in tabs_at(run.path, places, shape)]
+    context.tabs.extend(bridges)
+    walls = _followed(work, paths)
+    if work.operation.side is Side.OUTSIDE and walls is not None:
+        box = stock_box(context.job, context.regions)
+        context.findings.extend(unheld_findings(bridges, walls, box))
     extras = StrokeExtras(shape.half, shape.top, ways)
     return _ContourStrokes(made, strokes_of(made, tabs, extras), tabs)
 
@@ -435,8 +444,9 @@ def _stroke(run: PathWithLeads, cut: _CutRows, spans: Sequence[tuple[float, floa
         cut: from beginning to end.
         spans: (from, to) of its tabs, mm.
     """
-    rows, where, relief = inserted(*cut, extras.corner_reliefs)
-    over = under_tabs(run.path, where, spans)
+    reliefs = extras.corner_reliefs
+    rows, where, relief = inserted(*cut, reliefs) if reliefs else (*cut, np.zeros(len(cut.rows)))
+    over = under_tabs(run.path, where, spans) if spans else np.zeros(len(where), np.bool_)
     purpose = np.where(relief, Purpose.DOG_BONE, np.where(over, Purpose.TAB, Purpose.CONTOUR))
     ends = [np.full(len(way), Purpose.LEAD) for way in (run.way_in, run.way_out)]
     least_z = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.primitives import Rows, contour_rows, lengths, points_at, reversed_rows, signed_area
 from ...model.finding import Finding, FindingKind
 from ...model.operation import Direction
+from ...model.part import Contour
 from ...model.tool import Tool
 from ...toolpath.leads.contour_path import ContourPath, Floats
 from ...toolpath.machining_areas import MachiningArea, ranks
@@ -24,40 +26,57 @@ _TELL = 50
 """Places that are told one by one; the rest is counted."""
 
 
+class _CutOffPart(NamedTuple):
+    """A part of a line that a clamp cuts off: its middle and how long it is, mm."""
+
+    x: float
+    y: float
+    length: float
+
+
 def line_paths(
-    sheet: MachiningArea, tool: Tool, direction: Direction, progress: Progress
+    area: MachiningArea, tool: Tool, direction: Direction, progress: Progress
 ) -> tuple[tuple[ContourPath, ...], list[Finding]]:
-    """Return the paths on a sheet's lines, and what of them clamps cut off.
+    """Return the paths on an area's lines, and what of them clamps cut off.
 
     Climb milling keeps what a closed contour encloses on the right, or, where an odd number of others lie round it, on
     the left, as if the drawing were the outline of a part with its holes. Open lines go as they are drawn, or the other
     way for conventional milling.
     """
-    loops = [contour for contour in sheet.lines if contour.closed]
+    loops = [contour for contour in area.lines if contour.closed]
     rank = dict(zip(map(id, loops), ranks([contour_rows(contour) for contour in loops]), strict=True))
     paths: list[ContourPath] = []
-    cut_off: list[tuple[float, float, float]] = []
-    for k, contour in enumerate(sheet.lines):
-        progress.step(k / len(sheet.lines), "Lines")
-        rows = contour_rows(contour)
-        area = signed_area(rows) if contour.closed else 0.0
-        depth = rank[id(contour)] if contour.closed else len(loops)  # open lines before any loop that may free a part
-        clockwise = direction is Direction.CLIMB if depth % 2 == 0 else direction is not Direction.CLIMB
-        wrong = (area > 0) == clockwise if contour.closed else direction is not Direction.CLIMB
-        parts = -abs(area) if depth % 2 == 0 else abs(area)
-        whole = ContourPath(
-            reversed_rows(rows) if wrong else rows, contour.closed, 0, depth, parts, k + 1 if contour.closed else 0
-        )
-        kept, lost = _beside_clamps(whole, sheet, tool.radius)
+    cut_off: list[_CutOffPart] = []
+    for k, contour in enumerate(area.lines):
+        progress.step(k / len(area.lines), "Lines")
+        # open lines before any loop that may free a part
+        depth = rank[id(contour)] if contour.closed else len(loops)
+        whole = _path_along(contour, depth, direction, k + 1 if contour.closed else 0)
+        kept, lost = _beside_clamps(whole, area, tool.radius)
         paths.extend(kept)
         cut_off.extend(lost)
     return tuple(paths), _told(cut_off, tool)
 
 
+def _path_along(contour: Contour, depth: int, direction: Direction, loop: int) -> ContourPath:
+    """Return the path along a line, in the direction that is milled in.
+
+    Args:
+        depth: how many closed contours lie round it. loop: its number among these, 0 of an open line.
+    """
+    rows, climbs = contour_rows(contour), direction is Direction.CLIMB
+    if not contour.closed:
+        return ContourPath(rows if climbs else reversed_rows(rows), False, 0, depth, 0.0, loop)
+    enclosed, outer = signed_area(rows), depth % 2 == 0
+    turns_wrong = (enclosed > 0) == (climbs if outer else not climbs)
+    area = -abs(enclosed) if outer else abs(enclosed)
+    return ContourPath(reversed_rows(rows) if turns_wrong else rows, True, 0, depth, area, loop)
+
+
 def _beside_clamps(
     path: ContourPath, area: MachiningArea, radius: float
-) -> tuple[list[ContourPath], list[tuple[float, float, float]]]:
-    """Return (what of a path is clear of clamps, (x, y, length) of what is not): by its name, as tools fit gaps."""
+) -> tuple[list[ContourPath], list[_CutOffPart]]:
+    """Return (what of a path is clear of clamps, what is not): by its name, as tools fit gaps."""
     row, low, high = clear_parts(path.rows, area.distances, radius - tolerances.NOMINAL)
     size = lengths(path.rows)
     begin = path.ends - size
@@ -79,8 +98,8 @@ def _beside_clamps(
     return kept, _between(path, spans)
 
 
-def _between(path: ContourPath, spans: list[tuple[float, float]]) -> list[tuple[float, float, float]]:
-    """Return (x, y, length) of each part of a path between some spans of it."""
+def _between(path: ContourPath, spans: list[tuple[float, float]]) -> list[_CutOffPart]:
+    """Return each part of a path between some spans of it."""
     length = path.length
     if not spans:
         gaps = [(0.0, length)]
@@ -90,13 +109,13 @@ def _between(path: ContourPath, spans: list[tuple[float, float]]) -> list[tuple[
         gaps = [(b, a) for (_, b), (a, _) in zip([(0.0, 0.0), *spans], [*spans, (length, 0.0)], strict=True)]
     gaps = [(a, b) for a, b in gaps if b - a > _FINEST]
     places = path.points(np.array([(a + b) / 2 for a, b in gaps])) if gaps else np.zeros((0, 2))
-    return [(float(x), float(y), b - a) for (x, y), (a, b) in zip(places, gaps, strict=True)]
+    return [_CutOffPart(float(x), float(y), b - a) for (x, y), (a, b) in zip(places, gaps, strict=True)]
 
 
 def clear_parts(
     rows: Rows, field: DistanceField, radius: float, bounded: bool = True
 ) -> tuple[NDArray[np.int64], Floats, Floats]:
-    """Return (row, from, to) of all parts of rows, as fractions, in which a cutter is clear of what a sheet is bounded
+    """Return (row, from, to) of all parts of rows, as fractions, in which a cutter is clear of what an area is bounded
     by; without `bounded`, of walls that bound nothing.
 
     Distance changes by no more than the way gone, so one distance, from the middle of a part, can decide it all; what
@@ -146,7 +165,7 @@ def runs_of_parts(rows: Rows, row: NDArray[np.int64], low: Floats, high: Floats)
     return (np.array(run) for run in runs)
 
 
-def _told(cut_off: list[tuple[float, float, float]], tool: Tool) -> list[Finding]:
+def _told(cut_off: list[_CutOffPart], tool: Tool) -> list[Finding]:
     findings = [
         Finding(
             FindingKind.LEFT_OUT,
@@ -160,13 +179,7 @@ def _told(cut_off: list[tuple[float, float, float]], tool: Tool) -> list[Finding
     ]
     more = cut_off[_TELL:]
     if more:
-        findings.append(
-            Finding(
-                FindingKind.LEFT_OUT,
-                f"Keep-out areas cut {len(more)} more places of lines off, {sum(each[2] for each in more):.3f} mm in "
-                "all.",
-                *more[0][:2],
-                amount=sum(each[2] for each in more),
-            )
-        )
+        length = sum(each.length for each in more)
+        text = f"Keep-out areas cut {len(more)} more places of lines off, {length:.3f} mm in all."
+        findings.append(Finding(FindingKind.LEFT_OUT, text, more[0].x, more[0].y, amount=length))
     return findings

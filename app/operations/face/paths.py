@@ -38,6 +38,7 @@ _CLEAR = 1.0
 """mm beside the stock at which the tool goes down."""
 
 _SAME = 1e-9
+"""mm; steps that differ by no more are equal."""
 
 
 def end_radius(tool: Tool) -> float:

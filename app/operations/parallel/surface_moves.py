@@ -64,7 +64,7 @@ def surface_moves(families: Sequence[PassFamily], clearance: float, approach: fl
     """
     rows: list[_Row] = []
     for number, family in enumerate(families):
-        rows += _milled(family, number, clearance, approach)
+        rows += _FamilyMoves(family, number, clearance, approach).all()
     count = len(rows)
     kind = np.array([row.kind for row in rows], np.uint8)
     moves = Moves(
@@ -92,47 +92,57 @@ class _Row:
     surface: int = NO_SURFACE
 
 
-def _milled(family: PassFamily, number: int, clearance: float, approach: float) -> Iterator[_Row]:
-    """Yield the moves of one family."""
-    tool = family.tool
-    at: Floats | None = None
+@dataclass(frozen=True, eq=False)
+class _FamilyMoves:
+    """Makes the moves of one family of passes.
 
-    def rapid(place: Floats, z: float) -> _Row:
+    Attributes:
+        number: of the family, from 0 on.
+        clearance, approach: heights that the tool travels at, and from which it goes down slowly, mm.
+    """
+
+    family: PassFamily
+    number: int
+    clearance: float
+    approach: float
+
+    def all(self) -> Iterator[_Row]:
+        """Yield the moves."""
+        at: Floats | None = None
+        for run in _ordered(self.family.path.runs, self.family.strategy):
+            way = _link(self.family, at, run.points[0])
+            if way is not None:
+                yield from self._along(way, Purpose.LINK, [NO_SURFACE] * (len(way) - 1))
+            else:
+                yield from self._through_air(at, run.points[0])
+            yield from self._along(run.points, Purpose.CONTOUR, run.owner.tolist())
+            at = run.points[-1]
+        if at is not None:
+            yield self._rapid(at, self.clearance)
+
+    def _through_air(self, at: Floats | None, to: Floats) -> Iterator[_Row]:
+        """Yield the way from one place to another, over the clearance height and down."""
+        if at is not None:
+            yield self._rapid(at, self.clearance)
+        yield self._rapid(to, self.clearance)
+        yield self._rapid(to, max(self.approach, float(to[2])))
+        if to[2] < self.approach:
+            yield self._line(to.tolist(), Purpose.PLUNGE, self.family.tool.plunge_rate)
+
+    def _along(self, points: Floats, purpose: Purpose, owner: Sequence[int]) -> Iterator[_Row]:
+        """Yield straight moves from the first of some points to all others, down no faster than a plunge."""
+        tool = self.family.tool
+        slow = min(tool.feed_rate, tool.plunge_rate)
+        for point, surface, steep in zip(points[1:].tolist(), owner, plunging(points).tolist(), strict=True):
+            yield self._line(point, purpose, slow if steep else tool.feed_rate, surface)
+
+    def _rapid(self, place: Floats, z: float) -> _Row:
         x, y = place[:2].tolist()
-        return _Row((x, y, z), MoveKind.RAPID, Purpose.RAPID, number, tool.number, 0.0)
+        return _Row((x, y, z), MoveKind.RAPID, Purpose.RAPID, self.number, self.family.tool.number, 0.0)
 
-    def line(point: Sequence[float], purpose: Purpose, surface: int = NO_SURFACE, steep: bool = False) -> _Row:
-        feed = (
-            tool.plunge_rate
-            if purpose is Purpose.PLUNGE
-            else min(tool.feed_rate, tool.plunge_rate)
-            if steep
-            else tool.feed_rate
-        )
+    def _line(self, point: Sequence[float], purpose: Purpose, feed: float, surface: int = NO_SURFACE) -> _Row:
         x, y, z = point
-        return _Row((x, y, z), MoveKind.LINE, purpose, number, tool.number, feed, surface)
-
-    for run in _ordered(family.path.runs, family.strategy):
-        z = float(run.points[0, 2])
-        way = _link(family, at, run.points[0])
-        if way is not None:
-            down = plunging(way).tolist()
-            yield from (
-                line(point, Purpose.LINK, steep=steep) for point, steep in zip(way[1:].tolist(), down, strict=True)
-            )
-        else:
-            if at is not None:
-                yield rapid(at, clearance)
-            yield rapid(run.points[0], clearance)
-            yield rapid(run.points[0], max(approach, z))
-            if z < approach:
-                yield line(run.points[0].tolist(), Purpose.PLUNGE)
-        owner = run.owner.tolist()
-        cuts = zip(run.points[1:].tolist(), owner, plunging(run.points).tolist(), strict=True)
-        yield from (line(point, Purpose.CONTOUR, surface, steep) for point, surface, steep in cuts)
-        at = run.points[-1]
-    if at is not None:
-        yield rapid(at, clearance)
+        return _Row((x, y, z), MoveKind.LINE, purpose, self.number, self.family.tool.number, feed, surface)
 
 
 def plunging(points: Floats) -> NDArray[np.bool_]:

@@ -2,21 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
-from ...model.finding import Finding
 from ...model.hole_operations import ReamOperation
-from ...model.operation import Operation
-from ...toolpath.drill_holes import holes_of
-from ...toolpath.machining_areas import MachiningArea, MachiningAreas
-from ..holes import circle_findings
+from ..holes import circles_missed
 from ..registry import OperationMethod, register
 from .paths import VERB, ream
 
-
-def _missed(areas: MachiningAreas, operation: Operation, _: MachiningArea | None) -> Iterable[Finding]:
-    assert isinstance(operation, ReamOperation)
-    return circle_findings(holes_of(areas.job, areas.drawn, operation), areas.job, operation, VERB)
-
-
-register(ReamOperation, OperationMethod(ream, _missed))
+register(ReamOperation, OperationMethod(ream, circles_missed(VERB)))

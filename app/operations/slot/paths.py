@@ -33,6 +33,7 @@ from ..engrave.open_line import line_paths
 from ..pocket.paths import PocketTarget, clear_in_rings
 
 _SAME = 1e-9
+"""mm; a slot is as wide as the tool within this."""
 
 _CHORD = 1e-3
 """mm; what clamps hold of slots is measured as chords this near to them."""

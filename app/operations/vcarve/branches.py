@@ -24,6 +24,7 @@ _LOOKED = np.linspace(0.0, 1.0, 9)
 """Fractions of a chord at which it is held against its piece."""
 
 _HALVINGS = 30
+"""Of a piece, at most: one that is not straight then bends more than can be told."""
 
 
 @dataclass(frozen=True, eq=False)

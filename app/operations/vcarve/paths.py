@@ -32,6 +32,7 @@ _TOLD = 20
 """Places that are told one by one."""
 
 _SAME = 1e-9
+"""mm; lengths that differ by no more are equal."""
 
 _CLEARED = 1e-3
 """mm; stock to leave that is so near to how wide the cone is clears the floor that it leaves."""
@@ -259,19 +260,13 @@ class PassWriter:
         self.builder.along(stroke, heights, self.label, np.maximum(feed, min(self.label.feed, self.label.plunge_rate)))
 
     def _down(self, x: float, y: float, z: float) -> None:
-        levels = self.levels
-        self.builder.straight((x, y, levels.travel), Purpose.RAPID, self.label)
-        if levels.retract < levels.travel and not self._beside_clamp(x, y):
-            self.builder.straight((x, y, levels.retract), Purpose.RAPID, self.label)
+        for height in self.levels.over(x, y):
+            self.builder.straight((x, y, height), Purpose.RAPID, self.label)
         self.builder.straight((x, y, z), Purpose.PLUNGE, self.label)
 
     def _up(self) -> None:
         x, y, _ = self.builder.at
         self.builder.straight((x, y, self.levels.travel), Purpose.RAPID, self.label)
-
-    def _beside_clamp(self, x: float, y: float) -> bool:
-        clamps, wide = self.levels.clamps, self.levels.wide
-        return clamps is not None and float(clamps.nearest(np.array([[x, y]]))[0][0]) <= wide
 
 
 def nearest_next(trails: Sequence[AxisBranch], at: tuple[float, float]) -> Iterator[AxisBranch]:

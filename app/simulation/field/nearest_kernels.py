@@ -11,6 +11,7 @@ from ..box_tree import LEAF
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _STACK = 128
+"""Nodes that wait, at most: one a level of the tree, and no tree is so deep."""
 _HALVINGS = 64
 """Intervals of a segment that wait at most; each is half as long as the one before it."""
 

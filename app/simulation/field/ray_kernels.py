@@ -12,6 +12,7 @@ from .solid_kernels import holds, side
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _STACK = 128
+"""Nodes that wait, at most: one a level of the tree, and no tree is so deep."""
 
 
 @kernel(f"UniTuple(float64, 2)({_R}, float64, float64)", counts=False)

@@ -106,7 +106,8 @@ class PieceSplitter:
         self._level = _is_level(motions, self._arcs, chord) & arcs_stay
         self._arc = np.full(len(motions), -1)
         self._arc[self._arcs.rows] = np.arange(len(self._arcs))
-        self._splines = dict(zip(motions.splines, flattened_all(list(motions.splines.values()), chord), strict=True))
+        splines = motions.splines
+        self._splines = dict(zip(splines, flattened_all(list(splines.values()), chord), strict=True)) if splines else {}
         self._table = _table(self._arcs, self._level)
         self._levelled = np.zeros(len(motions), np.bool_)
         self._levelled[self._arcs.rows] = self._level

@@ -15,7 +15,9 @@ _SHAPE = "UniTuple(float64, 6)"
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _STACK = 128
+"""Nodes that wait, at most: one a level of the tree, and no tree is so deep."""
 _GOLDEN = 0.6180339887498949
+"""(sqrt 5 - 1) / 2 of a stretch is left by a golden section."""
 _NARROWED = 60
 """Times that the interval in which a cutter is lowest is made shorter: to the twelfth digit."""
 

@@ -20,6 +20,7 @@ import numpy as np
 from ...core.jit import kernel
 
 LANES = 16
+"""Cells that are computed at a time, float32: as many as the widest vector registers hold."""
 _F = np.float32
 _ZERO, _ONE, _STEP, _NEVER = _F(0.0), _F(1.0), _F(LANES), _F(math.inf)
 _LINE = "void(float32[::1], int64, int64, UniTuple(float32, 5), UniTuple(float32, {}))"

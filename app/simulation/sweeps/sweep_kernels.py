@@ -26,6 +26,7 @@ STRIDE = TILE + 2 * LANES
 
 BALL, FLAT_END, CONE, TAPER, BULL = range(5)
 _LEVEL = 5
+"""Kind of a run, behind those of cutters: any of them on a level move."""
 
 LOWEST_RISE = 1e-9
 """A move that rises less on a cutter's radius, mm, touches where a level one does."""

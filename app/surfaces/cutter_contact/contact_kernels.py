@@ -18,18 +18,19 @@ DISC, CORNER, CONE, RADIUS, BEND = 0, 1, 2, 3, 4
 corner ends.
 """
 _STEPS, _NEAR = 80, 1e-14
+"""Steps at most, and of the radius: a step so small is none."""
 _SLIVER = 1e-22
 """mm2: the square of how high a triangle is, seen from above, that has a slope."""
 
 
 @kernel("float64(float64, float64)", counts=False)
-def length(x, y):  # type: ignore[no-untyped-def]
+def length(x, y):
     """Return how long a vector is; `math.hypot` guards against overflow, and takes several times as long."""
     return math.sqrt(x * x + y * y)
 
 
 @kernel(f"float64(float64, {_R})", counts=False)
-def height(r, shape):  # type: ignore[no-untyped-def]
+def height(r, shape):
     """Return h at a distance from the axis, no more than the radius."""
     if r <= shape[DISC]:
         return 0.0
@@ -39,7 +40,7 @@ def height(r, shape):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64(float64, {_R})", counts=False)
-def rise(r, shape):  # type: ignore[no-untyped-def]
+def rise(r, shape):
     """Return how steeply h rises there."""
     if r <= shape[DISC]:
         return 0.0
@@ -51,7 +52,7 @@ def rise(r, shape):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64(float64, {_R})", counts=False)
-def contact(steepness, shape):  # type: ignore[no-untyped-def]
+def contact(steepness, shape):
     """Return how far from the axis a plane of some steepness is touched."""
     if steepness == 0.0:
         return 0.0
@@ -63,14 +64,14 @@ def contact(steepness, shape):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64(float64, float64, {_R})", counts=False)
-def _falls(off, at, shape):  # type: ignore[no-untyped-def]
+def _falls(off, at, shape):
     """Return how steeply h rises along a line, `off` from the axis."""
     r = length(off, at)
     return rise(r, shape) * at / r if r > 0.0 else 0.0
 
 
 @kernel(f"float64(float64, float64, {_R})", counts=False)
-def _bends(off, at, shape):  # type: ignore[no-untyped-def]
+def _bends(off, at, shape):
     """Return how much steeper it gets there."""
     r = length(off, at)
     steep, bend = rise(r, shape), 0.0
@@ -81,7 +82,7 @@ def _bends(off, at, shape):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64(float64, float64, float64, float64, {_R})", counts=False)
-def _along(slope, off, low, high, shape):  # type: ignore[no-untyped-def]
+def _along(slope, off, low, high, shape):
     """Return where on a line, `off` from the axis, slope t - h has its maximum between two places."""
     if shape[DISC] == 0.0 and shape[CONE] == 0.0:  # a ball
         corner = shape[CORNER]
@@ -112,7 +113,7 @@ def _along(slope, off, low, high, shape):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64(float64, float64, float64, float64, float64, float64, {_R}, float64)", counts=False)
-def over_edge(ax, ay, az, bx, by, bz, shape, known):  # type: ignore[no-untyped-def]
+def over_edge(ax, ay, az, bx, by, bz, shape, known):
     """Return how low the tip comes over an edge, its ends told from the axis; `known` where that is not less."""
     radius = shape[RADIUS]
     dx, dy = bx - ax, by - ay
@@ -135,7 +136,7 @@ def over_edge(ax, ay, az, bx, by, bz, shape, known):  # type: ignore[no-untyped-
 
 
 @kernel(f"float64({_R}, float64, float64, {_R}, float64)", counts=False)
-def over_triangle(t, x, y, shape, known):  # type: ignore[no-untyped-def]
+def over_triangle(t, x, y, shape, known):
     """Return how low the tip comes at (x, y) over a triangle (9,); `known` where that is not less."""
     ax, ay, bx, by, cx, cy = t[0] - x, t[1] - y, t[3] - x, t[4] - y, t[6] - x, t[7] - y
     az, bz, cz = t[2], t[5], t[8]
@@ -157,7 +158,7 @@ def over_triangle(t, x, y, shape, known):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_R}, float64, {_R})", counts=False)
-def thicken(shape, skin, out):  # type: ignore[no-untyped-def]
+def thicken(shape, skin, out):
     """Set `out` to a cutter with a skin, mm, or, if that is less than 0, pared by as much; measured from its own lowest
     place.
 

@@ -8,6 +8,7 @@ from ...core.jit import kernel
 
 _R = "float64[::1]"
 _FLAT = 1e-300
+"""mm2; a side whose square is less is a point."""
 _SLIVER = 1e-22
 """mm2; a triangle whose height is less than the root of this is its edges: of what it faces only rounding would
 tell.
@@ -15,7 +16,7 @@ tell.
 
 
 @kernel("float64(float64, float64, float64, float64, float64, float64, float64, float64, float64)", counts=False)
-def _between(dx, dy, dz, ex, ey, ez, wx, wy, wz):  # type: ignore[no-untyped-def]
+def _between(dx, dy, dz, ex, ey, ez, wx, wy, wz):
     """Return the square of the distance between segments along d and e, whose starts are apart by w (Eberly, closest
     points).
     """
@@ -32,7 +33,7 @@ def _between(dx, dy, dz, ex, ey, ez, wx, wy, wz):  # type: ignore[no-untyped-def
 
 
 @kernel(f"float64({_R}, float64, float64, float64, float64, float64, float64)", counts=False)
-def square_from_triangle(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-def]
+def square_from_triangle(t, ax, ay, az, bx, by, bz):
     """Return the square of the distance of the segment from a to b from a triangle (9,); 0 where it goes through."""
     dx, dy, dz = bx - ax, by - ay, bz - az
     ux, uy, uz, vx, vy, vz = t[3] - t[0], t[4] - t[1], t[5] - t[2], t[6] - t[0], t[7] - t[1], t[8] - t[2]
@@ -65,7 +66,7 @@ def square_from_triangle(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-
 
 
 @kernel(f"float64({_R}, float64, float64, float64, float64, float64, float64)", counts=False)
-def square_from_curtain(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-def]
+def square_from_curtain(t, ax, ay, az, bx, by, bz):
     """Return the square of the distance of a triangle (9,) from all that is on or above the segment from a to b."""
     best = square_from_triangle(t, ax, ay, az, bx, by, bz)
     top = max(t[2], t[5], t[8])

@@ -43,10 +43,11 @@ _R, _MANY, _INTS = "float64[::1]", "float64[:, ::1]", "int64[::1]"
 _MOST = 400
 """So often is one facet quartered for one place; where a cutter lies on a surface all along, there is no end to it."""
 _RIM = 1.0 - 1e-9
+"""Of the radius: farther out a profile may be too steep to be told by its slope."""
 
 
 @kernel(f"float64({_MANY}, int64, float64, float64, {_R}, float64)", counts=False)
-def bound(boxes, node, x, y, shape, known):  # type: ignore[no-untyped-def]
+def bound(boxes, node, x, y, shape, known):
     """Return what the tip comes down to at most over what a node holds; -inf where that is out of reach or not above
     `known`.
 
@@ -58,6 +59,7 @@ def bound(boxes, node, x, y, shape, known):  # type: ignore[no-untyped-def]
     r = length(
         max(max(boxes[node, 0] - x, x - boxes[node, 2]), 0.0), max(max(boxes[node, 1] - y, y - boxes[node, 3]), 0.0)
     )
+    # r: from the axis to the nearest place of the box seen from above.
     if r > radius:
         return -math.inf
     top = boxes[node, 4] - height(r, shape)
@@ -69,6 +71,7 @@ def bound(boxes, node, x, y, shape, known):  # type: ignore[no-untyped-def]
     at_x = min(max(x + far * east, boxes[node, 0]), boxes[node, 2])
     at_y = min(max(y + far * north, boxes[node, 1]), boxes[node, 3])
     r = length(at_x - x, at_y - y)
+    # At a ball's rim the profile stands upright and has no slope to bound by.
     if r >= radius * _RIM:
         return top
     over = boxes[node, 7] + east * at_x + north * at_y - height(r, shape)
@@ -81,13 +84,14 @@ def bound(boxes, node, x, y, shape, known):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"int64({_MANY}, int64, float64, float64, {_R}, float64, {_INTS}, {_R}, int64)", counts=False)
-def open_node(boxes, node, x, y, shape, known, nodes, bounds, depth):  # type: ignore[no-untyped-def]
+def open_node(boxes, node, x, y, shape, known, nodes, bounds, depth):
     """Put the children of a node that could be above `known` on the stack, the higher one last; return how deep it
     is.
     """
     one = bound(boxes, 2 * node + 1, x, y, shape, known)
     other = bound(boxes, 2 * node + 2, x, y, shape, known)
     near = 1 if one >= other else 2
+    # The higher one is opened first: what it finds rules out most of what waits below it.
     if min(one, other) > known:
         nodes[depth], bounds[depth] = 2 * node + 3 - near, min(one, other)
         depth += 1
@@ -98,7 +102,7 @@ def open_node(boxes, node, x, y, shape, known, nodes, bounds, depth):  # type: i
 
 
 @kernel(f"float64({TREE}, int64, float64, float64, {_R}, float64, float64, {DESK})", counts=False)
-def over_facet(tree, n, x, y, shape, known, fine, desk):  # type: ignore[no-untyped-def]
+def over_facet(tree, n, x, y, shape, known, fine, desk):
     """Return how low the tip comes at (x, y) over what a facet stands for; `known` where that is not less.
 
     Args:
@@ -110,6 +114,7 @@ def over_facet(tree, n, x, y, shape, known, fine, desk):  # type: ignore[no-unty
         return known
     lay(tree, n, work)
     depth, best, times = 2, known, 0
+    # `best` is reached, HIGHEST is never exceeded: a row whose HIGHEST is no more than `best` is done with.
     while depth > 1:
         depth -= 1
         if work[depth, HIGHEST] <= best:
@@ -121,6 +126,8 @@ def over_facet(tree, n, x, y, shape, known, fine, desk):  # type: ignore[no-unty
             continue
         times += 1
         quarter(tree[CONTROL], tree[PATCH][n], work, LAST, QUARTERS)
+        # A smooth surface is off its chord by the square of the chord's length: half the length, a quarter of the
+        # error.
         error *= 0.25
         thicken(shape, error, wide)
         for k in range(QUARTERS, ROOM):
@@ -131,7 +138,7 @@ def over_facet(tree, n, x, y, shape, known, fine, desk):  # type: ignore[no-unty
 
 
 @kernel(f"Tuple((float64, int64))({TREE}, {_R}, float64, float64, int64, float64, {DESK})", counts=False)
-def drop_one(tree, shape, x, y, whose, fine, desk):  # type: ignore[no-untyped-def]
+def drop_one(tree, shape, x, y, whose, fine, desk):
     """Return the tip's height at (x, y) and the facet that it touches, NONE and -inf where nothing is in reach.
 
     Args:
@@ -163,7 +170,7 @@ def drop_one(tree, shape, x, y, whose, fine, desk):  # type: ignore[no-untyped-d
 
 
 @kernel(f"void({TREE}, {_R}, {_MANY}, int64, int64, int64, float64, {_R}, {_INTS})")
-def drop(tree, shape, places, first, stop, whose, fine, heights, touched):  # type: ignore[no-untyped-def]
+def drop(tree, shape, places, first, stop, whose, fine, heights, touched):
     """Drop a cutter at places first to stop - 1; `heights` and `touched` (m,) come out, see `drop_one`."""
     desk = new_desk()
     for k in range(first, stop):

@@ -46,21 +46,23 @@ _R = "float64[::1]"
 _TIMES, _MANY_FACETS = 40, 8
 """So often is a facet quartered, and so many facets are, for one place."""
 _LEAN = 50.0
+"""Steeper triangles count as of so much: what an upright one stands for is off upwards by any length."""
 _AROUND = 2.5
 """Facets within so many of their sizes of a touched place have nothing else to say."""
 
 
 @kernel(f"float64({_R})", counts=False)
-def _lean(t):  # type: ignore[no-untyped-def]
+def _lean(t):
     """Return how much more a triangle (9,) is off upwards than across, at most _LEAN."""
     ux, uy, uz, vx, vy, vz = t[3] - t[0], t[4] - t[1], t[5] - t[2], t[6] - t[0], t[7] - t[1], t[8] - t[2]
     x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
     size = math.sqrt(x * x + y * y + z * z)
+    # What is off by e square to a triangle is off by e / cos(slope) upwards, and nz / size is that cosine.
     return size / max(abs(z), size / _LEAN) if size > 0.0 else _LEAN
 
 
 @kernel(f"UniTuple(float64, 3)({TREE}, int64, float64, float64, {_R}, float64, float64, float64, {DESK})", counts=False)
-def _refined(tree, n, x, y, shape, known, fine, care, desk):  # type: ignore[no-untyped-def]
+def _refined(tree, n, x, y, shape, known, fine, care, desk):
     """Return the tip's height over what a facet stands for, `known` where that is not less, and where it touches."""
     work = desk[WORK]
     lay(tree, n, work)
@@ -79,6 +81,7 @@ def _refined(tree, n, x, y, shape, known, fine, care, desk):  # type: ignore[no-
                 best = low
                 best_u = (work[k, 9] + work[k, 11] + work[k, 13]) / 3.0
                 best_v = (work[k, 10] + work[k, 12] + work[k, 14]) / 3.0
+            # By its own facet, so probably and not surely: `care` is `_lean`, which holds for the facet as a whole.
             work[k, OFF], work[k, HIGHEST] = error, low + care * error
         if error > fine:
             depth = put_quarters(work, depth, best)
@@ -86,18 +89,19 @@ def _refined(tree, n, x, y, shape, known, fine, care, desk):  # type: ignore[no-
 
 
 @kernel(f"float64({TREE}, int64)", counts=False)
-def _off(tree, n):  # type: ignore[no-untyped-def]
+def _off(tree, n):
     """Return how far the tip over a facet may be from that over what it stands for."""
     return tree[ERROR][n] * _lean(tree[TRIANGLES][n]) if tree[PATCH][n] >= 0 else 0.0
 
 
 @kernel(f"int64({DESK}, int64, int64, float64)", counts=False)
-def _remember(desk, count, n, low):  # type: ignore[no-untyped-def]
+def _remember(desk, count, n, low):
     """Put a facet among those that may be touched, the highest first; return how many they are."""
     which, heights = desk[WHICH], desk[HEIGHTS]
     at = min(count, LIKELY - 1)
     if at < count and heights[at] >= low:
         return count
+    # Sorted by insertion, since there are few; when all places are taken the lowest falls out.
     while at > 0 and heights[at - 1] < low:
         heights[at], which[at] = heights[at - 1], which[at - 1]
         at -= 1
@@ -106,7 +110,7 @@ def _remember(desk, count, n, low):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"int64({TREE}, {_R}, float64, float64, int64, float64, float64, {DESK})", counts=False)
-def _likely(tree, shape, x, y, whose, slack, known, desk):  # type: ignore[no-untyped-def]
+def _likely(tree, shape, x, y, whose, slack, known, desk):
     """Set the facets that may be touched and their own heights, the highest first; return how many."""
     boxes, triangles, nodes, bounds = tree[BOXES], tree[TRIANGLES], desk[NODES], desk[BOUNDS]
     inner = len(boxes) // 2
@@ -129,6 +133,7 @@ def _likely(tree, shape, x, y, whose, slack, known, desk):  # type: ignore[no-un
             if low == -math.inf:
                 continue
             off = _off(tree, n)
+            # `best` is what a facet gives at least; one that cannot come up to it is not touched.
             if low + off <= best:
                 continue
             best = max(best, low - off)
@@ -139,14 +144,14 @@ def _likely(tree, shape, x, y, whose, slack, known, desk):  # type: ignore[no-un
 
 
 @kernel(f"UniTuple(float64, 2)({TREE}, int64)", counts=False)
-def _middle(tree, n):  # type: ignore[no-untyped-def]
+def _middle(tree, n):
     """Return the parameters in the middle of a facet."""
     c = tree[CORNERS][n]
     return (c[0] + c[2] + c[4]) / 3.0, (c[1] + c[3] + c[5]) / 3.0
 
 
 @kernel(f"boolean({TREE}, int64, float64, float64)", counts=False)
-def _around(tree, n, u, v):  # type: ignore[no-untyped-def]
+def _around(tree, n, u, v):
     """Return whether a facet lies round a place of its patch."""
     c, (mid_u, mid_v) = tree[CORNERS][n], _middle(tree, n)
     wide = abs(c[0] - mid_u) + abs(c[2] - mid_u) + abs(c[4] - mid_u)
@@ -155,7 +160,7 @@ def _around(tree, n, u, v):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({TREE}, {_R}, int64, float64, float64, {_R}, {DESK})", counts=False)
-def quick_one(tree, shape, whose, slack, fine, found, desk):  # type: ignore[no-untyped-def]
+def quick_one(tree, shape, whose, slack, fine, found, desk):
     """Drop a cutter at one place.
 
     Args:
@@ -166,6 +171,7 @@ def quick_one(tree, shape, whose, slack, fine, found, desk):  # type: ignore[no-
     """
     x, y = found[0], found[1]
     best, touched, best_u, best_v = -math.inf, NONE, math.nan, math.nan
+    # Not a number is unequal to itself: the comparison asks whether a place on the patch is known.
     if found[3] >= 0.0 and found[4] == found[4]:
         n = int(found[3])
         tip, u, v = touch(tree[CONTROL], tree[PATCH][n], found[4], found[5], x, y, shape)
@@ -188,6 +194,7 @@ def quick_one(tree, shape, whose, slack, fine, found, desk):  # type: ignore[no-
                 continue
             u, v = _middle(tree, n)
             tip, u, v = touch(tree[CONTROL], tree[PATCH][n], u, v, x, y, shape)
+            # Lower than the facet is for sure, Newton has led astray, and the facet is quartered instead.
             if tip >= own - most:
                 if tip > best:
                     best, touched, best_u, best_v = tip, n, u, v

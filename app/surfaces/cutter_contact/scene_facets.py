@@ -25,9 +25,11 @@ Floats = NDArray[np.float64]
 _SHARE = 3e-4
 """Of the surfaces' extent: how far facets may be off them, at most."""
 _COARSEST, _FINEST = 0.06, 1e-5
+"""mm; limits of that, for scenes of any extent."""
 _CHORD = 1e-6
 """mm by which chords may be off a region's arcs."""
 _FAR = 1e7
+"""mm; a box so wide stands for all of the plane."""
 
 
 @dataclass(frozen=True, eq=False)

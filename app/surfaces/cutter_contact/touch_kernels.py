@@ -18,14 +18,17 @@ _R, _NETS = "float64[::1]", "float64[:, :, :, ::1]"
 _SLOPE_STEP, _TURN_STEP = 1e-6, 1e-4
 """Steps of the parameters by which slopes, and how they change, are told."""
 _TIMES, _SIDE_TIMES = 8, 24
+"""Newton's steps at most, and those of a climb along a side."""
 _SAME = 1e-11
+"""Of a patch's parameters, both from 0 to 1: a place is found where steps are below a hundred of these."""
 _OUTSIDE = 1e-9
+"""Of a patch's parameters: what lies beyond a side by no more lies on it."""
 _INSIDE = 1.0 - 1e-9
 """Touched so much nearer to the axis than it would be: rounding puts no place of a cutter's rim out of its reach."""
 
 
 @kernel(f"float64({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
-def tip_over(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
+def tip_over(control, patch, u, v, x, y, shape):
     """Return how low the tip comes at (x, y) over one place of a patch; -inf where that is out of reach."""
     at_x, at_y, z = place(control, patch, u, v)
     r = length(at_x - x, at_y - y)
@@ -33,7 +36,7 @@ def tip_over(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(float64, 2)({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
-def _off(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
+def _off(control, patch, u, v, x, y, shape):
     """Return how far, in x and y, a place is from where it would be touched."""
     ax, ay, az = place(control, patch, u, v)
     bx, by, bz = place(control, patch, u + _SLOPE_STEP, v)
@@ -42,6 +45,7 @@ def _off(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
     nx, ny, nz = by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx
     if nz == 0.0:
         return math.nan, math.nan
+    # What is written of the surface as z(x, y): its slopes, from the normal. The touch lies uphill by `contact`.
     east, north = -nx / nz, -ny / nz
     steep = length(east, north)
     far = _INSIDE * contact(steep, shape) / steep if steep > 0.0 else 0.0
@@ -49,7 +53,7 @@ def _off(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
-def touch_within(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
+def touch_within(control, patch, u, v, x, y, shape):
     """Return the tip's height and where it touches, by Newton's method from (u, v); -inf and where it left a patch, or
     NaN.
     """
@@ -66,6 +70,7 @@ def touch_within(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-
     for n in range(_TIMES):
         du, dv = (off_x * vy - off_y * vx) / base, (off_y * ux - off_x * uy) / base
         u, v = u - du, v - dv
+        # So far beyond its patch a polynomial is no guide back.
         if not (-0.5 < u < 1.5 and -0.5 < v < 1.5):
             return -math.inf, u, v
         if abs(du) + abs(dv) <= _SAME * 100.0 or (n == _TIMES - 1 and abs(du) + abs(dv) <= 1e-8):
@@ -89,7 +94,7 @@ def touch_within(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, float64, float64, float64, float64, {_R}, int64)", counts=False)
-def _on_side(control, patch, u, v, x, y, shape, side):  # type: ignore[no-untyped-def]
+def _on_side(control, patch, u, v, x, y, shape, side):
     """Return the tip's height and where it touches a side of a patch (u = 0, 1 or v = 0, 1), climbing from (u, v)."""
     at, fixed = (v, float(side)) if side < 2 else (u, float(side - 2))
     at = min(max(at, 0.0), 1.0)
@@ -136,7 +141,7 @@ def _on_side(control, patch, u, v, x, y, shape, side):  # type: ignore[no-untype
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
-def touch(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
+def touch(control, patch, u, v, x, y, shape):
     """Return the tip's height at (x, y) over a patch and the parameters of where it touches, near (u, v).
 
     -inf where Newton's method led nowhere. The height is that over a true place; another one may be higher.

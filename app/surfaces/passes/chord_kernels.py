@@ -17,12 +17,13 @@ from ..cutter_contact.facet_tree_kernels import DESK, SHAPES
 
 _R = "float64[::1]"
 APART, _TOGETHER, _OPEN = 0, 1, 2
+"""What a triangle's middle tells of it and a cutter's way: too far apart to meet, surely in one another, or neither."""
 _SHORT = 0.02
 """Of what is allowed: a stretch of a chord that is looked at in one."""
 
 
 @kernel(f"float64({_R}, float64, float64, float64, float64)", counts=False)
-def _nearest(t, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+def _nearest(t, ax, ay, bx, by):
     """Return where on a chord, from 0 to 1, it is nearest to a triangle (9,), both seen from above: beside a corner, or
     over a side.
     """
@@ -48,7 +49,7 @@ def _nearest(t, ax, ay, bx, by):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"boolean({_R}, {_R}, {_R}, {_R}, float64, float64, int64)", counts=False)
-def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[no-untyped-def]
+def _along(triangle, chord, tool, shape, skin, length, times):
     """Return whether a cutter with a skin is proven to go nowhere into a triangle along a chord.
 
     Args:
@@ -108,7 +109,7 @@ def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[n
 
 
 @kernel(f"int64({_R}, {_R}, float64, float64)", counts=False)
-def by_middle(t, chord, radius, away):  # type: ignore[no-untyped-def]
+def by_middle(t, chord, radius, away):
     """Return APART or _TOGETHER, as far as a triangle's middle tells: whether all of it is so far from a ball's way,
     with its shank.
 
@@ -137,7 +138,7 @@ def by_middle(t, chord, radius, away):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"boolean({_R}, float64, {_R}, {_R}, float64, int64, {DESK})", counts=False)
-def apart(part, off, shape, chord, allowed, times, desk):  # type: ignore[no-untyped-def]
+def apart(part, off, shape, chord, allowed, times, desk):
     """Return whether a cutter is proven to go along a chord nowhere deeper than allowed into what a facet (9,) stands
     for.
 

@@ -53,7 +53,9 @@ from .way_kernels import way_clear
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _STACK = 256
+"""Places ahead that wait, at most: a chord that is halved so often has no length left."""
 _TIE = 1e-9
+"""mm; surfaces that lie no farther above one another coincide."""
 _SAG, _RISE, _MORE, _SHORTER = 0.85, 0.9, 1.5, 0.7
 """Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's
 length at most, or, if a line's last chord (4 LEAST or more) was too long, times it: so that the next one does not end
@@ -70,10 +72,11 @@ a small angle, their heights are written as the same beside it.
 _TAKEN, _JUMPS, _SPLIT, _AGAIN = 0, 1, 2, 3
 """What becomes of a chord: it is taken, by way of a corner, or it is split, or looked at again."""
 NO_PROOF, NO_ROOM = -2, -1
+"""What `follow` returns where it cannot return a number of points."""
 
 
 @kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, float64, {_R})", counts=False)
-def _onward(tree, shape, line, rules, left, s, right):  # type: ignore[no-untyped-def]
+def _onward(tree, shape, line, rules, left, s, right):
     """Set `right` to what is touched further on the patch that is touched on the left; False where that is not
     known.
     """
@@ -83,13 +86,14 @@ def _onward(tree, shape, line, rules, left, s, right):  # type: ignore[no-untype
     if patch < 0:
         return False
     x, y = place_on(line, rules, s)
+    # The last touch is where Newton begins: a short way on, on the same patch, it is near.
     tip, u, v = touch_within(tree[CONTROL], patch, left[U], left[V], x, y, shape)
     fill(right, rules, s, x, y, tip, left[FACET], u, v)
     return tip > -math.inf
 
 
 @kernel(f"float64({TREE}, {_R}, {_R}, {_R}, {_R})", counts=False)
-def _spare(tree, shape, rules, left, right):  # type: ignore[no-untyped-def]
+def _spare(tree, shape, rules, left, right):
     """Return how many times as long a chord on one patch could be, by how low the tip comes over the patch in its
     middle; 0: unknown.
     """
@@ -104,11 +108,12 @@ def _spare(tree, shape, rules, left, right):  # type: ignore[no-untyped-def]
         return 0.0
     deep = (low - z) * span / math.sqrt(span * span + rise * rise)
     most = _SAG * rules[ALLOWED] if deep > 0.0 else _RISE * rules[TOLERANCE]
+    # A chord of length l is off by about l² / (8 r): its length may grow by the root of what its error may.
     return math.sqrt(most / max(abs(deep), 1e-12))
 
 
 @kernel(f"int64({TREE}, {_R}, {_R}, {_MANY}, int64, int64, {DESK})", counts=False)
-def _proven(tree, shape, rules, out, first, count, desk):  # type: ignore[no-untyped-def]
+def _proven(tree, shape, rules, out, first, count, desk):
     """Return how many of the chords from a row on, all on one patch, are proven; none of them goes into other surfaces
     at all.
     """
@@ -119,7 +124,7 @@ def _proven(tree, shape, rules, out, first, count, desk):  # type: ignore[no-unt
 
 
 @kernel(f"float64({TREE}, {_R}, {_R}, float64, float64)", counts=False)
-def _low(tree, row, shape, x, y):  # type: ignore[no-untyped-def]
+def _low(tree, row, shape, x, y):
     """Return how low the tip comes at (x, y) over the place that a row touches; -inf where that place is not known."""
     if row[FACET] < 0.0 or row[U] != row[U]:
         return -math.inf
@@ -127,7 +132,7 @@ def _low(tree, row, shape, x, y):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, {_MANY}, {DESK})", counts=False)
-def _stay(tree, shape, line, rules, left, right, rows, desk):  # type: ignore[no-untyped-def]
+def _stay(tree, shape, line, rules, left, right, rows, desk):
     """Where surfaces coincide, stay on the one that the path came on."""
     if left[FACET] < 0.0 or right[FACET] < 0.0 or right[NEW] != 0.0:
         return
@@ -139,7 +144,7 @@ def _stay(tree, shape, line, rules, left, right, rows, desk):  # type: ignore[no
 
 
 @kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {DESK})", counts=False)
-def _missed(tree, shape, rules, row, desk):  # type: ignore[no-untyped-def]
+def _missed(tree, shape, rules, row, desk):
     """Set a row to what is touched higher there, if something was missed."""
     tip, touched = drop_one(tree, shape, row[X], row[Y], ANY, rules[FINE], desk)
     if not tip > row[Z] + rules[FINE]:
@@ -147,13 +152,14 @@ def _missed(tree, shape, rules, row, desk):  # type: ignore[no-untyped-def]
     row[Z] = written(tip, rules)
     if row[NEW] == BOUNDARY:  # what it touches is known; it is written elsewhere
         return True
+    # Which place of the patch is touched, the search over facets does not tell: not a number, until it is asked.
     row[TRUE_Z], row[FACET], row[LEFT] = tip, touched, touched
     row[U] = row[V] = row[LEFT_U] = row[LEFT_V] = math.nan
     return True
 
 
 @kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, {DESK})", counts=False)
-def _clear(tree, shape, rules, left, right, desk):  # type: ignore[no-untyped-def]
+def _clear(tree, shape, rules, left, right, desk):
     """Return whether the chord between two places is proven."""
     for c in range(3):
         desk[PLACES][0, c], desk[PLACES][1, c] = left[X + c], right[X + c]
@@ -161,7 +167,7 @@ def _clear(tree, shape, rules, left, right, desk):  # type: ignore[no-untyped-de
 
 
 @kernel(f"float64({TREE}, {_R}, {_R}, float64, float64, {_R}, {_MANY}, {DESK})", counts=False)
-def _lowest_amid(tree, shape, rules, x, y, middle, rows, desk):  # type: ignore[no-untyped-def]
+def _lowest_amid(tree, shape, rules, x, y, middle, rows, desk):
     """Return how low the tip comes in a chord's middle (x, y); `middle` is that place as it would be written.
 
     On a steep way half a step of the grid aside is a height of many tolerances: by that height every chord would be
@@ -175,7 +181,7 @@ def _lowest_amid(tree, shape, rules, x, y, middle, rows, desk):  # type: ignore[
 
 
 @kernel(f"int64({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, {_R}, {_MANY}, {DESK})", counts=False)
-def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: ignore[no-untyped-def]
+def _judge(tree, shape, line, rules, left, right, middle, rows, desk):
     """Return what becomes of the chord between two places; `middle` is the place at which it is split."""
     span, least = right[S] - left[S], rules[LEAST]
     here, there = left[Z] > -math.inf, right[Z] > -math.inf
@@ -198,6 +204,7 @@ def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: 
         return _JUMPS if jumps else _TAKEN
     length = math.sqrt(span * span + (right[Z] - left[Z]) ** 2)
     x, y, z = 0.5 * (left[X] + right[X]), 0.5 * (left[Y] + right[Y]), 0.5 * (left[Z] + right[Z])
+    # Both limits are square to the chord; heights are compared, so they are stretched by its steepness.
     most = rules[TOLERANCE] * length / span
     lowest = max(_low(tree, left, shape, x, y), _low(tree, right, shape, x, y))
     asked = lowest < z - most
@@ -223,7 +230,7 @@ def _judge(tree, shape, line, rules, left, right, middle, rows, desk):  # type: 
 
 
 @kernel(f"int64({_R}, {_R}, boolean, {_MANY}, int64)", counts=False)
-def _emit(left, right, corner, out, count):  # type: ignore[no-untyped-def]
+def _emit(left, right, corner, out, count):
     """Write a chord's end, and the corner of a jump before it; return how many points there are then."""
     if corner:  # up before it goes on, or on before it goes down
         copy_point(left if right[Z] > left[Z] else right, out[count])
@@ -238,7 +245,7 @@ def _emit(left, right, corner, out, count):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(int64, 2)({_R}, {_MANY}, int64, {_MANY}, int64)", counts=False)
-def _back(left, waiting, depth, out, count):  # type: ignore[no-untyped-def]
+def _back(left, waiting, depth, out, count):
     """Where `left` has been raised, have the chord to it looked at again; return how many points there are then, and
     how many wait.
     """
@@ -250,6 +257,7 @@ def _back(left, waiting, depth, out, count):  # type: ignore[no-untyped-def]
     left[NEW] = left[NEW] if left[NEW] == BOUNDARY else 0.0
     copy_point(left, waiting[depth])
     count -= 1
+    # A corner is written with the chord that jumps, and goes with it.
     while out[count - 1, NEW] == CORNER:
         count -= 1
     copy_point(out[count - 1], left)
@@ -259,7 +267,7 @@ def _back(left, waiting, depth, out, count):  # type: ignore[no-untyped-def]
 @kernel(
     f"Tuple((int64, float64, boolean))({TREE}, {_R}, {_R}, {_R}, float64, {_MANY}, int64, {_R}, {DESK})", counts=False
 )
-def _quickly(tree, shape, line, rules, ds, out, count, row, desk):  # type: ignore[no-untyped-def]
+def _quickly(tree, shape, line, rules, ds, out, count, row, desk):
     """Go on from the last point on its patch, by Newton's method, as far as that goes and chords are proven.
 
     Return how many points there are then, how long the next chord should be, and whether all that was proven was good.
@@ -279,6 +287,7 @@ def _quickly(tree, shape, line, rules, ds, out, count, row, desk):  # type: igno
             continue
         if waiting == 0:
             return count, ds, True
+        # Points were written on trust; those behind the first chord without a proof are forgotten.
         good = _proven(tree, shape, rules, out, sure, waiting, desk)
         sure += good
         if good < waiting:
@@ -291,7 +300,7 @@ def _quickly(tree, shape, line, rules, ds, out, count, row, desk):  # type: igno
     f"({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {_MANY}, int64, {_MANY}, {_MANY}, {DESK})",
     counts=False,
 )
-def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, rows, desk):  # type: ignore[no-untyped-def]
+def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, rows, desk):
     """Go on by so many chords at most from `left`, which goes along; return how many points there are then, or why it
     ends, and `ds`.
 
@@ -314,6 +323,7 @@ def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, r
             waiting[0],
             desk,
         )
+        # waiting[:depth] are places ahead, the nearest last; `left` is the last point written, proven up to it.
         while depth > 0:
             if count + 3 > len(out):
                 return NO_ROOM, ds
@@ -339,7 +349,7 @@ def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, r
 
 
 @kernel(f"int64({TREE}, {_R}, {_R}, {_R}, {_MANY})")
-def follow(tree, shape, line, rules, out):  # type: ignore[no-untyped-def]
+def follow(tree, shape, line, rules, out):
     """Follow surfaces along a line; return how many points there are, NO_ROOM in `out` for them, or NO_PROOF of a
     chord.
 
@@ -367,6 +377,7 @@ def follow(tree, shape, line, rules, out):  # type: ignore[no-untyped-def]
             before = count
             count, ds, good = _quickly(tree, shape, line, rules, ds, out, count, waiting[0], desk)
             copy_point(out[count - 1], left)
+            # Where the quick way fails at once again and again, longer and longer stretches are made with care.
             slow = 1 if good or count > before else min(2 * slow, _SLOW)
         count, ds = _carefully(tree, shape, line, rules, ds, slow, left, out, count, waiting, rows, desk)
         if count < 0:

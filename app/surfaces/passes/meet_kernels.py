@@ -31,13 +31,17 @@ from .point_kernels import (
 
 _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _ROOTS = 80
+"""Places at most that are asked for one root."""
 _MET, _EQUAL, _FINEST = 1e-7, 1e-11, 1e-10
+"""mm; heights over both surfaces are equal for a boundary point, and so near that none is looked for any more; how
+near facets stand for surfaces meanwhile.
+"""
 FOUND, PAIR, OTHER = 0, 1, 3
 """Rows to work on: what was touched last; what is touched on both surfaces; what is touched elsewhere."""
 
 
 @kernel(f"float64({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {DESK})", counts=False)
-def _tip(tree, shape, line, rules, s, whose, found, desk):  # type: ignore[no-untyped-def]
+def _tip(tree, shape, line, rules, s, whose, found, desk):
     """Return the tip's height over one surface, at a place that is not rounded."""
     found[0], found[1] = line[0] + s * line[2], line[1] + s * line[3]
     quick_one(tree, shape, whose, rules[SLACK], _FINEST, found, desk)
@@ -45,7 +49,7 @@ def _tip(tree, shape, line, rules, s, whose, found, desk):  # type: ignore[no-un
 
 
 @kernel(f"UniTuple(float64, 3)({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, float64, {_MANY}, {DESK})", counts=False)
-def _balance(tree, shape, line, rules, left, right, beyond, pair, desk):  # type: ignore[no-untyped-def]
+def _balance(tree, shape, line, rules, left, right, beyond, pair, desk):
     """Return where the tip is as high over the surface on the left as over that on the right, and both heights; NaN if
     nowhere.
 
@@ -61,6 +65,8 @@ def _balance(tree, shape, line, rules, left, right, beyond, pair, desk):  # type
     for n in range(_ROOTS):
         if n < 2:
             s = low if n == 0 else high
+        # Twice the secant, then a half: fast where heights are smooth, and no more than three times a bisection's
+        # steps where they are not. Left is above at `low`, below at `high`, all along.
         elif at_low < math.inf and at_high > -math.inf and n % 3 > 0:
             s = low + (high - low) * at_low / (at_low - at_high)
         else:
@@ -86,7 +92,7 @@ def _balance(tree, shape, line, rules, left, right, beyond, pair, desk):  # type
 
 
 @kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, float64, {_R}, {_MANY}, {DESK})", counts=False)
-def meet(tree, shape, line, rules, left, right, beyond, middle, rows, desk):  # type: ignore[no-untyped-def]
+def meet(tree, shape, line, rules, left, right, beyond, middle, rows, desk):
     """Set `middle` to the boundary point between two places, or so far beyond them; False if there is none."""
     pair = rows[PAIR : PAIR + 2, :6]
     s, a, b = _balance(tree, shape, line, rules, left, right, beyond, rows[PAIR : PAIR + 2], desk)
@@ -104,7 +110,7 @@ def meet(tree, shape, line, rules, left, right, beyond, middle, rows, desk):  # 
 
 
 @kernel(f"void({_R}, {_R})", counts=False)
-def mark(middle, right):  # type: ignore[no-untyped-def]
+def mark(middle, right):
     """Make `right` a boundary point so near to it that no other point is made for it; it is written where it was."""
     for c in range(FACET, COLUMNS):
         right[c] = middle[c]

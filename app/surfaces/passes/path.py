@@ -34,6 +34,7 @@ rest of 1e-4.
 _WHILE_MADE = 9.7e-5
 """mm; paths are made with less, so that their written text is proven again with a hair to spare."""
 _FINE = 1e-7
+"""mm; so near to where it could be a path is made first, and facets so near to their surfaces are taken for these."""
 _PART, _LEAST, _MOST = 0.05, 1e-4, 0.25
 """Of the tolerance, mm, and of the tolerance at most: so far above where it could be a path may be before points are
 left out.
@@ -41,8 +42,11 @@ left out.
 _TWICE = 2.0
 """Times as high as in its middle a chord may be elsewhere, over a path that bends upwards all along it."""
 _ROOM = 4096
+"""Points that there is room for at first, on a line; four times as many where these are too few."""
 _CHORDS = 2_000
+"""Chords that are proven in one call, between two looks at whether to stop."""
 _NEAR = 1e-9
+"""mm, and of a unit direction: what is less is 0."""
 _BESIDE, _STORED, _BESIDE_MOST = 1e-7, 2.0**-23, 4e-5
 """mm, and of the coordinates of meshes, by which a cutter's upright side may go into a wall, mm at most: so one that a
 pass touches all along its way is passed by, as deep as it goes, and what files round makes it no obstacle. What chords

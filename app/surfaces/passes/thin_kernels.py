@@ -28,7 +28,7 @@ COLUMNS = 5
 
 
 @kernel(f"float64({_MANY}, int64, int64, float64, float64, float64)", counts=False)
-def _near_path(rows, n, step, most, found, enough):  # type: ignore[no-untyped-def]
+def _near_path(rows, n, step, most, found, enough):
     """Return how much higher than point n a place straight above it may be for the path to be within `most`, as far as
     one side of the path tells.
 
@@ -54,7 +54,7 @@ def _near_path(rows, n, step, most, found, enough):  # type: ignore[no-untyped-d
 
 
 @kernel(f"void({_MANY}, float64)")
-def give_room(rows, most):  # type: ignore[no-untyped-def]
+def give_room(rows, most):
     """Set how much higher each point may be, straight up, for `most` square to both chords that meet there; 0 of fixed
     ones.
 
@@ -73,7 +73,7 @@ def give_room(rows, most):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"int64({_MANY}, int64, int64, float64, {_R})", counts=False)
-def _chord(rows, first, last, z, found):  # type: ignore[no-untyped-def]
+def _chord(rows, first, last, z, found):
     """Return the farthest point that a chord from height z over a point reaches, `last` at most; `found`: its height
     there.
     """
@@ -81,6 +81,8 @@ def _chord(rows, first, last, z, found):  # type: ignore[no-untyped-def]
     for k in range(first + 1, last + 1):
         far = rows[k, T] - rows[first, T]
         at_least, at_most = (rows[k, Z] - z) / far, (rows[k, Z] + rows[k, ROOM] - z) / far
+        # [low, high] are the slopes that pass all points so far. Once it is empty the chord ends at the last point
+        # that it passed, as high (the path rises) or as low there as it may be.
         if max(at_least, low) > min(at_most, high):
             rising = at_least > high
             far = rows[best, T] - rows[first, T]
@@ -92,7 +94,7 @@ def _chord(rows, first, last, z, found):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"int64({_MANY}, float64, {_INTS}, {_R})")
-def thin(rows, grid, kept, heights):  # type: ignore[no-untyped-def]
+def thin(rows, grid, kept, heights):
     """Set which points are kept and how high they are then; return how many.
 
     Args:
@@ -109,12 +111,14 @@ def thin(rows, grid, kept, heights):  # type: ignore[no-untyped-def]
             stop += 1
         first, z = fixed, rows[fixed, Z]
         while first < stop < len(rows) and rows[stop, BEGINS] == 0.0:
+            # The first point's height is chosen by the chord before it, so that chords join without a step.
             first = _chord(rows, first, stop, z, heights[count:])
             if first == stop:
                 break
             z = heights[count]
             if grid > 0.0:
                 z = math.ceil(z / grid - 1e-6) * grid
+            # Never below the path, whatever division has rounded.
             z = max(z, rows[first, Z])
             kept[count], heights[count] = first, z
             count += 1

@@ -49,7 +49,9 @@ _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _OFF, _FIRST, _STOP = 6, 7, 8
 """Columns of groups behind the ends of their line (6): how far places are off it, and the chords first to stop - 1."""
 _NARROW = 0.5
+"""Of the radius of its inner circle: what would widen a triangle by more makes another one of it."""
 _NOTHING = 1e-300
+"""Keeps a share of it defined where a facet is exact."""
 _PART = 0.25
 """Of the cutter's radius: longer chords are proven in parts."""
 _OFTEN, _SELDOM = 64, 4
@@ -65,7 +67,7 @@ proven.
 
 
 @kernel(f"float64({_MANY}, int64, {_R})", counts=False)
-def _off_line(places, n, line):  # type: ignore[no-untyped-def]
+def _off_line(places, n, line):
     """Return how far a place is from a group's line."""
     dx, dy, dz = line[3] - line[0], line[4] - line[1], line[5] - line[2]
     x, y, z = places[n, 0] - line[0], places[n, 1] - line[1], places[n, 2] - line[2]
@@ -76,7 +78,7 @@ def _off_line(places, n, line):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({DESK}, int64)", counts=False)
-def _group(desk, count):  # type: ignore[no-untyped-def]
+def _group(desk, count):
     """Put so many chords between PLACES into groups: all in row 1, the halves of row k in rows 2 k and 2 k + 1."""
     places, groups = desk[PLACES], desk[GROUPS]
     groups[1, _FIRST], groups[1, _STOP] = 0.0, count
@@ -99,7 +101,7 @@ def _group(desk, count):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(float64, 3)({_R})", counts=False)
-def _normal(t):  # type: ignore[no-untyped-def]
+def _normal(t):
     """Return the way that a triangle (9 or more,) faces, of length 1; 0 of one without an area."""
     ux, uy, uz, vx, vy, vz = t[3] - t[0], t[4] - t[1], t[5] - t[2], t[6] - t[0], t[7] - t[1], t[8] - t[2]
     x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
@@ -108,7 +110,7 @@ def _normal(t):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_R}, float64, float64, float64, float64, float64)", counts=False)
-def _widen(row, x, y, z, below, above):  # type: ignore[no-untyped-def]
+def _widen(row, x, y, z, below, above):
     """Set WIDENED and RISE of a row: the triangle amid what it stands for, and as much wider as that may be off within
     its plane.
 
@@ -156,7 +158,7 @@ def _widen(row, x, y, z, below, above):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"Tuple((int64, int64))({TREE}, int64, {_R}, float64, float64, int64, int64, int64, {DESK})", counts=False)
-def _facet_clear(tree, n, shape, allowed, fine, failing, looked, most, desk):  # type: ignore[no-untyped-def]
+def _facet_clear(tree, n, shape, allowed, fine, failing, looked, most, desk):
     """Return the first chord that is not proven against one facet, `failing` where that is not earlier, and how many
     were looked at.
 
@@ -207,7 +209,7 @@ def _facet_clear(tree, n, shape, allowed, fine, failing, looked, most, desk):  #
 
 
 @kernel(f"int64({TREE}, {_R}, int64, int64, float64, {DESK})", counts=False)
-def way_clear(tree, shape, count, mine, allowed, desk):  # type: ignore[no-untyped-def]
+def way_clear(tree, shape, count, mine, allowed, desk):
     """Return the first of the chords between PLACES that is not proven to go nowhere deeper into surfaces than allowed.
 
     Args:
@@ -243,7 +245,7 @@ def way_clear(tree, shape, count, mine, allowed, desk):  # type: ignore[no-untyp
 
 
 @kernel(f"UniTuple(int64, 3)({_MANY}, int64, int64, int64, {_R}, int64, {DESK})", counts=False)
-def _gather(chords, k, part, stop, shape, most, desk):  # type: ignore[no-untyped-def]
+def _gather(chords, k, part, stop, shape, most, desk):
     """Put chord k from one of its parts on, and what follows without a gap, on PLACES, and the chord of each part on
     WHICH.
 
@@ -271,7 +273,7 @@ def _gather(chords, k, part, stop, shape, most, desk):  # type: ignore[no-untype
 
 
 @kernel(f"void({TREE}, {_R}, {_MANY}, int64, int64, float64, boolean[::1])")
-def clear_all(tree, shape, chords, first, stop, allowed, found):  # type: ignore[no-untyped-def]
+def clear_all(tree, shape, chords, first, stop, allowed, found):
     """Set which of chords first to stop - 1 (m, 6) go nowhere deeper into surfaces than allowed, for all that can be
     proven.
     """

@@ -14,7 +14,7 @@ _MANY, _NETS = "float64[:, ::1]", "float64[:, :, :, ::1]"
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, float64, float64)", counts=False)
-def place(control, patch, u, v):  # type: ignore[no-untyped-def]
+def place(control, patch, u, v):
     """Return the place of a patch (of n, p + 1, q + 1, 4) at its parameters, by Horner's rule for Bernstein
     polynomials.
     """
@@ -67,7 +67,7 @@ def place(control, patch, u, v):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_NETS}, int64, {_MANY}, int64, int64)", counts=False)
-def quarter(control, patch, rows, source, first):  # type: ignore[no-untyped-def]
+def quarter(control, patch, rows, source, first):
     """Set rows `first` to first + 3 to the quarters of the facet in row `source`, their corners anew on the patch.
 
     No place of the patch is farther from a quarter than a quarter of how far it may be from the whole.
@@ -90,7 +90,7 @@ def quarter(control, patch, rows, source, first):  # type: ignore[no-untyped-def
 
 
 @kernel(f"void({_MANY}, int64, int64)", counts=False)
-def copy_row(rows, source, target):  # type: ignore[no-untyped-def]
+def copy_row(rows, source, target):
     """Copy a row onto another."""
     for c in range(rows.shape[1]):
         rows[target, c] = rows[source, c]

@@ -23,8 +23,15 @@ EXTRA = (
 _ANGLE = 0.3
 """radians; triangles of one face lean no more from one to the next, whatever the tolerance."""
 _TIMES, _FINER = 6, 0.4
+"""So often triangles are asked for, each time for so much finer ones: they are measured, as what was asked for is no
+promise.
+"""
 _MOST = 3_000_000
+"""Triangles; more fill the memory."""
 _SAMPLES = ((1 / 3, 1 / 3, 1 / 3), (0.5, 0.5, 0.0), (0.0, 0.5, 0.5), (0.5, 0.0, 0.5))
+"""Where triangles are measured, as shares of their corners: in the middle, and in that of each side, where a curve is
+farthest.
+"""
 
 
 def step_triangles(name: str, data: bytes, numbers: tuple[int, ...], tolerance: float) -> Floats:

@@ -28,8 +28,11 @@ AT_OUTLINES = 3e-5
 it.
 """
 _HAIR = 1e-9
+"""mm; an outline that runs along a box may cut off so much of it by rounding."""
 _LITTLE = 1e-3
+"""Of a box: more is never taken for rounding."""
 _UPRIGHT = 1e-9
+"""Of a unit normal; a facet whose normal rises no more stands upright, and nothing is touched on it from above."""
 
 
 def trimmed_patches(

@@ -18,6 +18,7 @@ from .section_kernels import ERROR, S0, S1, U0, U1, V0, V1, Z0, Z1
 
 _R, _MANY, _NETS, _INTS = "float64[::1]", "float64[:, ::1]", "float64[:, :, :, ::1]", "int64[::1]"
 SPANS, MARKS = 5, 11
+"""How many columns both have."""
 FROM, TO, PIECE, Z_FROM, Z_TO = range(5)
 """Columns of spans: where one begins and ends along the plane, its piece, and the heights there."""
 AT, HERE, UNTIL, THERE, BEFORE, AFTER, BU, BV, AU, AV, KIND = range(11)
@@ -28,15 +29,21 @@ COUNT, MARKED, CURRENT, TIED, TIED_FROM, TIED_UNTIL = range(6)
 where to where.
 """
 _TIE = 1e-9
+"""mm; pieces are equally high."""
 _SHORT = 1e-11
+"""mm; a shorter stretch of the plane is none."""
 _SAME = 1e-8
+"""mm; ends are one place."""
 _MOST, _DEEP = 64, 48
+"""Pieces that may be topmost in one stretch, and stretches that wait while one is halved, at most."""
 _STEP = 1e-6
+"""Of a patch's parameters, by which slopes are told."""
 _ROOTS = 80
+"""Places at most that are asked for one root."""
 
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, {_MANY}, int64, {_R}, float64)", counts=False)
-def over(control, patch, pieces, k, plane, s):  # type: ignore[no-untyped-def]
+def over(control, patch, pieces, k, plane, s):
     """Return height and parameters of a piece of a section curve at a place along the plane (its place and direction,
     4).
     """
@@ -62,6 +69,7 @@ def over(control, patch, pieces, k, plane, s):  # type: ignore[no-untyped-def]
         cx, cy, _ = place(control, patch, u, v + _STEP)
         bx, by, cx, cy = (bx - ax) / _STEP, (by - ay) / _STEP, (cx - ax) / _STEP, (cy - ay) / _STEP
         base = bx * cy - by * cx
+        # Newton in the plane's x and y: seen from above an upright place has no inverse, and the best so far stays.
         if base == 0.0:
             break
         u = u + ((x - ax) * cy - (y - ay) * cx) / base
@@ -72,7 +80,7 @@ def over(control, patch, pieces, k, plane, s):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"int64({_R}, {_INTS}, int64, {_INTS}, int64)", counts=False)
-def _highest(heights, chosen, count, owner, current):  # type: ignore[no-untyped-def]
+def _highest(heights, chosen, count, owner, current):
     """Return which of some pieces is topmost: of equally high ones that of the current surface, else of the first
     one.
     """
@@ -84,21 +92,23 @@ def _highest(heights, chosen, count, owner, current):  # type: ignore[no-untyped
     for n in range(count):
         if heights[n] >= heights[best] - _TIE:
             mine, its = owner[chosen[n]], owner[chosen[found]]
+            # Surfaces that coincide would take turns at each rounding: the one that the path is on keeps it.
             if (mine == current and its != current) or (its != current and mine < its):
                 found = n
     return found
 
 
 @kernel(f"UniTuple(float64, 3)({_MANY}, int64, float64, float64)", counts=False)
-def _chord(pieces, k, a, b):  # type: ignore[no-untyped-def]
+def _chord(pieces, k, a, b):
     """Return the heights of a piece's chord at two places, and how far off it the piece may be there."""
     slope = (pieces[k, Z1] - pieces[k, Z0]) / (pieces[k, S1] - pieces[k, S0])
+    # ERROR is square to the chord, heights are upright.
     off = 2.0 * pieces[k, ERROR] * math.sqrt(1.0 + slope * slope)
     return pieces[k, Z0] + slope * (a - pieces[k, S0]), pieces[k, Z0] + slope * (b - pieces[k, S0]), off
 
 
 @kernel(f"UniTuple(int64, 2)({_MANY}, float64, float64, {_INTS}, int64, {_INTS})", counts=False)
-def _candidates(pieces, a, b, active, actives, chosen):  # type: ignore[no-untyped-def]
+def _candidates(pieces, a, b, active, actives, chosen):
     """Forget pieces that end before a; choose those that could be topmost from a to b; return how many are active, and
     chosen.
     """
@@ -113,6 +123,7 @@ def _candidates(pieces, a, b, active, actives, chosen):  # type: ignore[no-untyp
     count = 0
     for n in range(kept):
         at_a, at_b, off = _chord(pieces, active[n], a, b)
+        # Some piece is nowhere lower than `floor`: what stays below that is not topmost anywhere here.
         if max(at_a, at_b) + off + _TIE >= floor and count < _MOST:
             chosen[count] = active[n]
             count += 1
@@ -120,14 +131,14 @@ def _candidates(pieces, a, b, active, actives, chosen):  # type: ignore[no-untyp
 
 
 @kernel(f"void({_NETS}, {_MANY}, {_INTS}, {_R}, {_INTS}, int64, float64, {_R})", counts=False)
-def _rise(control, pieces, patch, plane, chosen, count, s, heights):  # type: ignore[no-untyped-def]
+def _rise(control, pieces, patch, plane, chosen, count, s, heights):
     """Set the heights of the chosen pieces at a place."""
     for n in range(count):
         heights[n] = over(control, patch[chosen[n]], pieces, chosen[n], plane, s)[0]
 
 
 @kernel(f"float64({_MANY}, {_INTS}, int64, {_INTS}, int64, int64, float64, float64)", counts=False)
-def _hidden(heights, chosen, count, owner, first, stop, a, b):  # type: ignore[no-untyped-def]
+def _hidden(heights, chosen, count, owner, first, stop, a, b):
     """Return where another surface could come up between a and b and go down again, by parabolas; NaN if nowhere."""
     split, mine = math.nan, owner[chosen[first]]
     middle = 0
@@ -139,18 +150,21 @@ def _hidden(heights, chosen, count, owner, first, stop, a, b):  # type: ignore[n
             at_a, at_b = heights[0, first] - heights[0, n], heights[2, stop] - heights[2, n]
             between = heights[1, middle] - heights[1, n]
             bend, lean = at_a - 2.0 * between + at_b, at_b - at_a
+            # The parabola through both ends and the middle, over -1 to 1: it is least at -lean / (2 bend), if that is
+            # within, and there between - lean² / (8 bend).
             if bend > 0.0 and abs(lean) < 2.0 * bend and between - lean * lean / (8.0 * bend) < -_TIE:
                 split = 0.5 * (a + b) - 0.5 * (b - a) * lean / (2.0 * bend)
     return split if split - a > _SHORT and b - split > _SHORT else math.nan
 
 
 @kernel(f"float64({_NETS}, {_MANY}, {_INTS}, {_R}, int64, int64, float64, float64, float64, float64)", counts=False)
-def _equal(control, pieces, patch, plane, i, j, low, high, at_low, at_high):  # type: ignore[no-untyped-def]
+def _equal(control, pieces, patch, plane, i, j, low, high, at_low, at_high):
     """Return where two pieces are equally high; at_low, at_high: how far i is above j at both ends."""
     at = low if at_low <= 0.0 else high
     if at_low <= 0.0 or at_high >= 0.0:
         return at
     for n in range(_ROOTS):
+        # Twice the secant, then a half: what changes its sign stays between `low` and `high`.
         at = low + (high - low) * at_low / (at_low - at_high) if n % 3 < 2 else 0.5 * (low + high)
         apart = over(control, patch[i], pieces, i, plane, at)[0] - over(control, patch[j], pieces, j, plane, at)[0]
         if abs(apart) <= 1e-13 or high - low <= 1e-14 * (1.0 + abs(high)):
@@ -163,7 +177,7 @@ def _equal(control, pieces, patch, plane, i, j, low, high, at_low, at_high):  # 
 
 
 @kernel(f"boolean({_NETS}, {_MANY}, {_INTS}, {_R}, {_INTS}, int64, int64, int64, float64)", counts=False)
-def _covered(control, pieces, patch, plane, chosen, count, i, j, s):  # type: ignore[no-untyped-def]
+def _covered(control, pieces, patch, plane, chosen, count, i, j, s):
     """Return whether a third piece is above both where two meet."""
     both = max(over(control, patch[i], pieces, i, plane, s)[0], over(control, patch[j], pieces, j, plane, s)[0])
     highest = both
@@ -173,7 +187,7 @@ def _covered(control, pieces, patch, plane, chosen, count, i, j, s):  # type: ig
 
 
 @kernel(f"boolean({_MANY}, {_INTS}, int64, float64, float64)", counts=False)
-def _ends(pieces, owner, number, s, z):  # type: ignore[no-untyped-def]
+def _ends(pieces, owner, number, s, z):
     """Return whether the section of a surface ends at a place: one of its pieces does, and no other goes on or back
     from there.
     """
@@ -182,6 +196,7 @@ def _ends(pieces, owner, number, s, z):  # type: ignore[no-untyped-def]
         if owner[k] == number:
             count += abs(pieces[k, S0] - s) <= _SAME and abs(pieces[k, Z0] - z) <= _SAME
             count += abs(pieces[k, S1] - s) <= _SAME and abs(pieces[k, Z1] - z) <= _SAME
+    # An inner end is one of two pieces of the surface, and counted twice.
     return count == 1
 
 
@@ -189,7 +204,7 @@ def _ends(pieces, owner, number, s, z):  # type: ignore[no-untyped-def]
     f"void({_NETS}, {_MANY}, {_INTS}, {_INTS}, {_R}, int64, int64, float64, float64, int64, {_MANY}, {_R})",
     counts=False,
 )
-def _mark(control, pieces, patch, owner, plane, i, j, start, stop, kind, marks, state):  # type: ignore[no-untyped-def]
+def _mark(control, pieces, patch, owner, plane, i, j, start, stop, kind, marks, state):
     """Write a mark between pieces: i until `start`, j from `stop`."""
     mark = marks[int(state[MARKED])]
     before, after = over(control, patch[i], pieces, i, plane, stop), over(control, patch[j], pieces, j, plane, stop)
@@ -206,13 +221,14 @@ def _mark(control, pieces, patch, owner, plane, i, j, start, stop, kind, marks, 
 
 
 @kernel(f"void({_NETS}, {_MANY}, {_INTS}, {_INTS}, {_R}, int64, float64, {_MANY}, {_MANY}, {_R})", counts=False)
-def _change(control, pieces, patch, owner, plane, i, a, spans, marks, state):  # type: ignore[no-untyped-def]
+def _change(control, pieces, patch, owner, plane, i, a, spans, marks, state):
     """Where piece i begins to be topmost, and the one before it, of another surface, came as far as that: mark it."""
     count = int(state[COUNT])
     if state[CURRENT] < 0.0 or count == 0 or state[CURRENT] == owner[i] or spans[count - 1, TO] < a - _SHORT:
         return
     k = int(spans[count - 1, PIECE])
     apart = over(control, patch[k], pieces, k, plane, a)[0] - over(control, patch[i], pieces, i, plane, a)[0]
+    # As high where one takes over, they cross; else the upper one ends there, and the tip falls or is lifted.
     kind, start = CROSSING if abs(apart) <= _TIE else JUMP, a
     if (
         kind == CROSSING
@@ -225,7 +241,7 @@ def _change(control, pieces, patch, owner, plane, i, a, spans, marks, state):  #
 
 
 @kernel(f"void({_MANY}, {_INTS}, int64, {_INTS}, int64, float64, float64, {_R})", counts=False)
-def _tie(heights, chosen, count, owner, first, a, at, state):  # type: ignore[no-untyped-def]
+def _tie(heights, chosen, count, owner, first, a, at, state):
     """Remember how far another surface has been lying on the topmost one."""
     tie = -1
     for n in range(count):
@@ -238,7 +254,7 @@ def _tie(heights, chosen, count, owner, first, a, at, state):  # type: ignore[no
 
 
 @kernel(f"void({_MANY}, int64, float64, float64, {_R})", counts=False)
-def _span(spans, i, a, b, state):  # type: ignore[no-untyped-def]
+def _span(spans, i, a, b, state):
     """Write that piece i is topmost from a to b."""
     if b - a <= _SHORT:
         return
@@ -255,9 +271,7 @@ def _span(spans, i, a, b, state):  # type: ignore[no-untyped-def]
     f"{_MANY}, {_R})",
     counts=False,
 )
-def _stretch(  # type: ignore[no-untyped-def]
-    control, pieces, patch, owner, plane, chosen, count, a, b, splits, heights, spans, marks, state
-):
+def _stretch(control, pieces, patch, owner, plane, chosen, count, a, b, splits, heights, spans, marks, state):
     """Write what is topmost from a to b; or return where that stretch must be split to know, if it may be; else NaN."""
     one = True
     for n in range(1, count):
@@ -282,6 +296,8 @@ def _stretch(  # type: ignore[no-untyped-def]
         if split == split:
             return split
     elif splits:
+        # Two surfaces, one topmost at each end: between them they are equally high somewhere, maybe below a third
+        # one.
         at = _equal(
             control,
             pieces,
@@ -311,7 +327,7 @@ def _stretch(  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(int64, 2)({_MANY}, {_INTS}, {_INTS}, {_NETS}, {_R}, {_MANY}, {_MANY})")
-def envelope(pieces, patch, owner, control, plane, spans, marks):  # type: ignore[no-untyped-def]
+def envelope(pieces, patch, owner, control, plane, spans, marks):
     """Set the spans of the topmost along a plane and the marks where surfaces change; return how many of both, -1 for
     no room.
 
@@ -333,6 +349,7 @@ def envelope(pieces, patch, owner, control, plane, spans, marks):  # type: ignor
         if b - a <= _SHORT:
             continue
         last = b
+        # A sweep over sorted ends: between two neighbours the active pieces stay the same.
         while upcoming < m and pieces[upcoming, S0] <= a + _SHORT:
             active[actives] = upcoming
             actives += 1

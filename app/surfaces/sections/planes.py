@@ -18,7 +18,9 @@ Stretch = tuple[float, float]
 
 MOST_PLANES = 100_000
 _NEAR = 1e-9
+"""Of a pitch: so much beyond the surfaces a plane still meets them."""
 _PART = 1 << 17
+"""Places at a time, so that no copy of all of them is made."""
 
 
 def extent_on(planes: CuttingPlanes, places: Floats) -> tuple[Stretch, Stretch]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -21,7 +22,9 @@ Ints = NDArray[np.int64]
 _PAIRS = 4_000
 """Facets on planes that one thread cuts before it asks whether to go on."""
 _GAP = 1e-9
+"""mm along a plane: ends that are farther apart are two."""
 _JUMP = 1e-8
+"""mm; a higher step from span to span is an edge."""
 
 
 _PIECE_BYTES = 300
@@ -76,37 +79,14 @@ def compound_surface(
 
 
 def _cut(facets: SurfaceFacets, planes: CuttingPlanes, near: float, progress: Progress) -> list[_Pieces]:
-    """Return the pieces on each plane."""
+    """Return the pieces on each plane, worked on by all cores."""
     from . import section_kernels as kernels
 
     facet, plane = _pairs(facets, planes)
-    triangles, corners = facets.triangles.reshape(-1, 9), facets.corners.reshape(-1, 6)
-    places = np.array([(*planes.place(n, 0.0), *planes.along) for n in range(len(planes.offsets))])
-
-    def some(first: int, stop: int) -> tuple[Floats, Ints]:
-        room = 8 * (stop - first) + 64
-        while True:
-            out, source = np.empty((room, kernels.COLUMNS)), np.empty(room, np.int64)
-            count = kernels.pieces(
-                triangles,
-                corners,
-                facets.patch,
-                facets.error,
-                facets.patches.control,
-                facet,
-                places,
-                plane,
-                near,
-                first,
-                stop,
-                out,
-                source,
-            )
-            if count <= room:
-                return out[:count], source[:count]
-            room = count
-
-    waiting = [pool().submit(some, first, min(first + _PAIRS, len(facet))) for first in range(0, len(facet), _PAIRS)]
+    some = partial(_pieces_of_pairs, facets, planes, (facet, plane), near)
+    waiting = [
+        pool().submit(some, range(first, min(first + _PAIRS, len(facet)))) for first in range(0, len(facet), _PAIRS)
+    ]
     parts = [(np.zeros((0, kernels.COLUMNS)), np.zeros(0, np.int64))]
     try:
         for n, each in enumerate(waiting):
@@ -121,6 +101,31 @@ def _cut(facets: SurfaceFacets, planes: CuttingPlanes, near: float, progress: Pr
     rows, facet, plane = rows[order], facet[source[order]], plane[source[order]]
     edges = np.searchsorted(plane, np.arange(len(planes.offsets) + 1)).tolist()
     return [_Pieces(rows[a:b], facet[a:b]) for a, b in pairwise(edges)]
+
+
+def _pieces_of_pairs(
+    facets: SurfaceFacets, planes: CuttingPlanes, pairs: tuple[Ints, Ints], near: float, span: range
+) -> tuple[Floats, Ints]:
+    """Return the pieces of some pairs of facet and plane, and the pair of each; asked again where the room was short.
+
+    Args:
+        pairs: number of the facet and of the plane, (k,) each. span: which of them.
+    """
+    from . import section_kernels as kernels
+
+    triangles, corners = facets.triangles.reshape(-1, 9), facets.corners.reshape(-1, 6)
+    patches = (facets.patch, facets.error, facets.patches.control)
+    places = np.array([_line(planes, n) for n in range(len(planes.offsets))])
+    room = 8 * len(span) + 64
+    while True:
+        out, source = np.empty((room, kernels.COLUMNS)), np.empty(room, np.int64)
+        facet, plane = pairs
+        count = kernels.pieces(
+            triangles, corners, *patches, facet, places, plane, near, span.start, span.stop, out, source
+        )
+        if count <= room:
+            return out[:count], source[:count]
+        room = count
 
 
 def _pairs(facets: SurfaceFacets, planes: CuttingPlanes) -> tuple[Ints, Ints]:

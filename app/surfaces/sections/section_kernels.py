@@ -14,18 +14,27 @@ curve is.
 """
 COLUMNS = 9
 _ROOM = 96
+"""Quarters that wait, at most, and rows to work in: one for what is quartered, four for what comes of it."""
+_QUARTERED, _QUARTERS = _ROOM - 5, _ROOM - 4
+"""Rows of `work`: what is being quartered, and the four quarters."""
+_U, _V, _OFF, _COLUMNS = 9, 10, 15, 17
+"""Columns of `work` behind a facet's corners (9): parameters of the first corner, two a corner; how far the facet is
+off what it stands for, mm.
+"""
 _SAME = 1e-12
+"""mm; a corner that is no farther from the plane lies on it."""
 _TIMES = 60
+"""Places at most that are asked for one crossing."""
 
 
 @kernel(f"float64({_R}, float64, float64)", counts=False)
-def _off(plane, x, y):  # type: ignore[no-untyped-def]
+def _off(plane, x, y):
     """Return how far a place is to the left of a plane, given by a place of it (2) and its direction (2)."""
     return (y - plane[1]) * plane[2] - (x - plane[0]) * plane[3]
 
 
 @kernel(f"UniTuple(float64, 4)({_NETS}, int64, {_R}, {_MANY}, int64, int64, int64, float64, float64)", counts=False)
-def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):  # type: ignore[no-untyped-def]
+def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):
     """Return where a plane crosses what edge a b of a facet stands for: along the plane, height, parameters."""
     if off_a == 0.0:
         b, off_b = a, 1.0
@@ -34,19 +43,20 @@ def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):  # type: ig
         x = work[row, 3 * a] + share * (work[row, 3 * b] - work[row, 3 * a])
         y = work[row, 3 * a + 1] + share * (work[row, 3 * b + 1] - work[row, 3 * a + 1])
         z = work[row, 3 * a + 2] + share * (work[row, 3 * b + 2] - work[row, 3 * a + 2])
-        u = work[row, 9 + 2 * a] + share * (work[row, 9 + 2 * b] - work[row, 9 + 2 * a])
-        v = work[row, 10 + 2 * a] + share * (work[row, 10 + 2 * b] - work[row, 10 + 2 * a])
+        u = work[row, _U + 2 * a] + share * (work[row, _U + 2 * b] - work[row, _U + 2 * a])
+        v = work[row, _V + 2 * a] + share * (work[row, _V + 2 * b] - work[row, _V + 2 * a])
         return (x - plane[0]) * plane[2] + (y - plane[1]) * plane[3], z, u, v
     # the same edge gives the same place, whichever facet asks
-    if work[row, 9 + 2 * a] > work[row, 9 + 2 * b] or (
-        work[row, 9 + 2 * a] == work[row, 9 + 2 * b] and work[row, 10 + 2 * a] > work[row, 10 + 2 * b]
+    if work[row, _U + 2 * a] > work[row, _U + 2 * b] or (
+        work[row, _U + 2 * a] == work[row, _U + 2 * b] and work[row, _V + 2 * a] > work[row, _V + 2 * b]
     ):
         a, b, off_a, off_b = b, a, off_b, off_a
-    ua, va = work[row, 9 + 2 * a], work[row, 10 + 2 * a]
-    du, dv = work[row, 9 + 2 * b] - ua, work[row, 10 + 2 * b] - va
+    ua, va = work[row, _U + 2 * a], work[row, _V + 2 * a]
+    du, dv = work[row, _U + 2 * b] - ua, work[row, _V + 2 * b] - va
     low, high, at_low, at_high = 0.0, 1.0, off_a, off_b
     x, y, z, u, v = 0.0, 0.0, 0.0, ua, va
     for n in range(_TIMES):
+        # twice the secant, then a half: what changes its sign stays between `low` and `high`
         share = low + (high - low) * at_low / (at_low - at_high) if n % 3 < 2 else 0.5 * (low + high)
         u, v = ua + share * du, va + share * dv
         x, y, z = place(control, patch, u, v)
@@ -61,7 +71,7 @@ def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):  # type: ig
 
 
 @kernel(f"boolean({_NETS}, int64, {_R}, {_MANY}, int64, {_R}, {_R})", counts=False)
-def _piece(control, patch, plane, work, row, off, piece):  # type: ignore[no-untyped-def]
+def _piece(control, patch, plane, work, row, off, piece):
     """Set the piece at which a plane cuts a facet; False where all of it lies in the plane, or it is met at a corner.
 
     Args:
@@ -70,6 +80,7 @@ def _piece(control, patch, plane, work, row, off, piece):  # type: ignore[no-unt
     found = 0
     for a in range(3):
         b = (a + 1) % 3
+        # A corner on the plane is counted with the one edge that begins there, so that it is not found twice.
         if off[a] == 0.0 or off[a] * off[b] < 0.0:
             s, z, u, v = _crossing(control, patch, plane, work, row, a, b, off[a], off[b])
             if found < 2:
@@ -80,7 +91,7 @@ def _piece(control, patch, plane, work, row, off, piece):  # type: ignore[no-unt
     if piece[S0] > piece[S1]:
         for c in range(4):
             piece[c], piece[4 + c] = piece[4 + c], piece[c]
-    piece[ERROR] = work[row, 15]
+    piece[ERROR] = work[row, _OFF]
     return True
 
 
@@ -88,9 +99,7 @@ def _piece(control, patch, plane, work, row, off, piece):  # type: ignore[no-unt
     f"int64({_MANY}, {_MANY}, {_INTS}, {_R}, {_NETS}, {_INTS}, {_MANY}, {_INTS}, float64, int64, int64, {_MANY}, "
     f"{_INTS})"
 )
-def pieces(  # type: ignore[no-untyped-def]
-    triangles, corners, patch, error, control, facet, planes, plane, near, first, stop, out, source
-):
+def pieces(triangles, corners, patch, error, control, facet, planes, plane, near, first, stop, out, source):
     """Cut pairs first to stop - 1 of facets and planes; return how many pieces that makes, more than there is room for
     if so.
 
@@ -99,35 +108,37 @@ def pieces(  # type: ignore[no-untyped-def]
         near: facets as near to their patch as this are not quartered further, mm.
         out: (n, COLUMNS) pieces. source: (n,) the pair of each.
     """
-    work, off, piece = np.empty((_ROOM, 17)), np.empty(3), np.empty(COLUMNS)
+    work, off, piece = np.empty((_ROOM, _COLUMNS)), np.empty(3), np.empty(COLUMNS)
     count = 0
     for k in range(first, stop):
         n, at = facet[k], planes[plane[k]]
         for c in range(9):
             work[0, c] = triangles[n, c]
         for c in range(6):
-            work[0, 9 + c] = corners[n, c]
-        work[0, 15] = error[n]
+            work[0, _U + c] = corners[n, c]
+        work[0, _OFF] = error[n]
         depth = 1
         while depth > 0:
             depth -= 1
-            far = work[depth, 15]
+            far = work[depth, _OFF]
             for c in range(3):
                 off[c] = _off(at, work[depth, 3 * c], work[depth, 3 * c + 1])
                 if abs(off[c]) <= _SAME:
                     off[c] = 0.0
             low, high = min(off[0], off[1], off[2]), max(off[0], off[1], off[2])
+            # The surface is no farther from its facet than `far`: here it is all on one side.
             if low > far or high < -far:
                 continue
             one_side = low > 0.0 or high < 0.0
             if patch[n] >= 0 and depth < _ROOM - 8 and (far > near or (one_side and far > _SAME)):
-                copy_row(work, depth, _ROOM - 5)
-                quarter(control, patch[n], work, _ROOM - 5, _ROOM - 4)
-                for c in range(_ROOM - 4, _ROOM):
-                    work[c, 15] = 0.25 * far
+                copy_row(work, depth, _QUARTERED)
+                quarter(control, patch[n], work, _QUARTERED, _QUARTERS)
+                for c in range(_QUARTERS, _ROOM):
+                    work[c, _OFF] = 0.25 * far
                     copy_row(work, c, depth)
                     depth += 1
                 continue
+            # on one side and not near enough to be quartered: the plane passes it by
             if one_side:
                 continue
             if _piece(control, patch[n], at, work, depth, off, piece):
@@ -140,7 +151,7 @@ def pieces(  # type: ignore[no-untyped-def]
 
 
 @kernel(f"int64({_R}, {_R}, {_INTS}, float64, {_INTS}, {_INTS})", counts=False)
-def _nodes(along, up, order, same, node, following):  # type: ignore[no-untyped-def]
+def _nodes(along, up, order, same, node, following):
     """Set the node of each of m ends, and the end after it at the same node; return how many nodes there are.
 
     Args:
@@ -161,7 +172,7 @@ def _nodes(along, up, order, same, node, following):  # type: ignore[no-untyped-
 
 
 @kernel(f"int64({_R}, {_R}, {_INTS}, float64, {_INTS}, {_INTS})")
-def chains(along, up, order, same, out, starts):  # type: ignore[no-untyped-def]
+def chains(along, up, order, same, out, starts):
     """Join m pieces whose ends meet; return how many chains that makes.
 
     Args:

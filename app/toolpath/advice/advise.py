@@ -23,6 +23,7 @@ from .reach import FITS, CentreArea, RegionReach, centres, covered, reach
 from .width import KINK, Floats, RegionWidths, Walls, widths
 
 _CHORD = 1e-3
+"""mm by which chords may leave arcs."""
 
 SERIES = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0)
 """Diameters of end mills as they are sold, mm."""

@@ -24,6 +24,7 @@ FITS = 2e-3
 """mm by which a gap may be narrower than a cutter that still counts as fitting."""
 
 _CHORD = 1e-3
+"""mm by which chords may leave arcs."""
 
 _BESIDE = 3e-3
 """mm from the edge of what is covered at which what is left begins: more than the chords' errors."""

@@ -1,8 +1,8 @@
 """How wide a region is: its narrowest passage, its largest disc, and the largest cutter that leaves nothing but sharp
 corners.
 
-All from discs that touch the walls (`advise_walls`). A passage is a pair of points of two walls between which the disc
-over their distance is free; its ends are found in closed form. A cutter leaves nothing but sharp corners if it can
+All from discs that touch the walls (`Walls`, `Discs`). A passage is a pair of points of two walls between which the
+disc over their distance is free; its ends are found in closed form. A cutter leaves nothing but sharp corners if it can
 touch all of every wall but what lies near inner corners: there the disc that touches the wall shrinks to nothing
 towards the corner, and what counts is how large it grows away from it.
 """
@@ -38,6 +38,7 @@ _FALL = 1e-6
 """Share by which discs may shrink on the way out of a corner: rounding; more where the wall has small bends."""
 
 _FALL_KINKED = 5e-3
+"""The same where it has."""
 
 _LOOKED_AT = 8
 """Walls and tips a region that are measured more closely, those first that matter most."""
@@ -46,6 +47,7 @@ _STEPS = 17
 """Places on a piece of wall, of which the best and its neighbours are looked at again."""
 
 _REPEATS = 6
+"""How often the neighbourhood of what was found is looked at anew, each time a smaller one."""
 
 
 @dataclass(frozen=True)

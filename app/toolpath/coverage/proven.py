@@ -122,15 +122,13 @@ def _undecided(target: Shape, swaths: Sequence[_Swath], progress: Progress) -> N
         if half > most_reach:
             states = _wide_states(area, centres, half, within)
         else:
-            squares = _Squares.of(centres, half, within, area)
             near = [
                 _NearestRows(each, near[doubtful], far[doubtful])
                 for (far, near), each in zip(beside, swaths, strict=True)
             ]
-            states = _states(area, near, squares)
-        centres, within, uncut, states = (
-            each[(states != OUTSIDE) & (states != COVERED)] for each in (centres, within, uncut, states)
-        )
+            states = _states(area, near, _Squares.of(centres, half, within, area))
+        open_still = (states != OUTSIDE) & (states != COVERED)
+        centres, within, uncut, states = (each[open_still] for each in (centres, within, uncut, states))
         left = (uncut >= q) | (half <= least / _SMALLEST)
         if half <= least / _FINEST:
             left |= states != OPEN
@@ -442,6 +440,7 @@ _FEW_POINTS = 1000
 """Of a ring; one of more points is cut in halves before boxes are cut out of it, until few boxes are left."""
 
 _FEW_BOXES = 4
+"""Boxes that are cut out of a ring as it is, however many points it has."""
 
 
 def cut_out(shapes: Shapes, boxes: Shapes) -> tuple[Indices, Shapes]:

@@ -5,8 +5,8 @@ at that depth yet. Of an engaged angle phi the engaged share of the diameter is 
 standing side takes with a stepover of as much; 1 = a full slot. How thick the metal is along the axis plays no part,
 and what goes straight down is not engaged.
 
-The metal is a field of heights in square cells (`engagement_field`): the job's stock box, cut by every cutting move as
-a flat cutter would, as wide as its tool is at the stock's top. The cells' centres decide, so a share may be off by
+The metal is a field of heights in square cells (`engagement_kernels`): the job's stock box, cut by every cutting move
+as a flat cutter would, as wide as its tool is at the stock's top. The cells' centres decide, so a share may be off by
 `Engagement.bounds` for each straight edge of the metal, somewhat more where it is curved as sharply as the cutter.
 """
 

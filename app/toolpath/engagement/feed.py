@@ -29,6 +29,7 @@ _GAIN = 0.05
 """Part of a piece's time that cutting it must save, and no less than a radius takes at full feed."""
 
 _SLACK = 1e-6
+"""Rounding, of a share: what comes to a whole number of steps but for that is one."""
 
 
 def followed(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Program:

@@ -37,6 +37,7 @@ MOST_PLACES = 1 << 18
 _GAP = 4.0  # radii between chains on the scale of positions: more than any lag
 _CORNER = 1e-3  # radians; where a path turns by less, the discs beside the joint cover what the one at the joint would
 _SLACK = 1e-6
+"""Rounding, of a share: what comes to a whole number of cells but for that is one."""
 
 
 @dataclass(frozen=True, eq=False)

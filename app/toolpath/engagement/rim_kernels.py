@@ -21,6 +21,7 @@ from ...geometry.sort_kernels import order_of
 _SHAPES = "float64[:, ::1]"
 _HALF, _TURN = math.pi / 2, 2 * math.pi
 _STACK = 64
+"""Stretches that wait, at most: what is halved more often is taken as it is."""
 _ROUNDING = 1e-12  # radians between stretches that end and begin at one place
 _ALIKE = 1e-3  # radians by which a bound may grow from piece to piece without a closer look
 

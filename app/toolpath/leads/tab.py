@@ -32,6 +32,7 @@ _FINE = 16
 """Places to the least distance between tabs, among which the nearest to the even one is taken."""
 
 _ROUNDING = 1e-9
+"""mm along a path: places that differ by no more are one."""
 
 _TURNS = 32
 """Directions in which is looked for where a cutter's rim is farthest from the walls."""
@@ -185,32 +186,15 @@ def tab_findings(
     It counts where a path round a part, from which it comes loose, has none at all; of one that clamps cut open, where
     no piece has any.
     """
-    findings = []
     held = {run.path.ring for run, places in zip(made, tabs, strict=True) if places and not run.path.closed}
-    few = [
-        (run.path, len(places))
-        for run, places in zip(made, tabs, strict=True)
-        if goes_round(run.path) and len(places) < shape.tabs.count
-    ]
-    for loose in (True, False):
-        which = [
-            path
-            for path, count in few
-            if (count == 0 and path.area < 0 and (path.closed or path.ring not in held)) == loose
-        ]
-        if which:
-            x, y = which[0].rows[0, :2]
-            what = "no tab though a part comes loose there" if loose else f"fewer than {shape.tabs.count} tabs"
-            who = f"of T{shape.tool.number} {shape.tool.label}"
-            text = (
-                f"1 path {who} has {what}, because it is too short for them; it begins at ({x:.3f}, {y:.3f})."
-                if len(which) == 1
-                else f"{len(which)} paths {who} have {what}, because they are too short for them; the first begins at "
-                f"({x:.3f}, {y:.3f})."
-            )
-            findings.append(
-                Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=loose, amount=float(len(which)))
-            )
+    loose: list[ContourPath] = []
+    few: list[ContourPath] = []
+    for run, places in zip(made, tabs, strict=True):
+        path = run.path
+        if goes_round(path) and len(places) < shape.tabs.count:
+            alone = not places and path.area < 0 and (path.closed or path.ring not in held)
+            (loose if alone else few).append(path)
+    findings = [_too_few(paths, shape, paths is loose) for paths in (loose, few) if paths]
     if shape.tabs.enabled and shape.tabs.height >= operation.cut.floor:
         findings.append(
             Finding(
@@ -221,6 +205,20 @@ def tab_findings(
             )
         )
     return findings
+
+
+def _too_few(paths: Sequence[ContourPath], shape: TabShape, loose: bool) -> Finding:
+    """Return what there is to say of paths with fewer tabs than asked for; `loose`: a part comes loose there."""
+    x, y = paths[0].rows[0, :2]
+    what = "no tab though a part comes loose there" if loose else f"fewer than {shape.tabs.count} tabs"
+    who = f"of T{shape.tool.number} {shape.tool.label}"
+    text = (
+        f"1 path {who} has {what}, because it is too short for them; it begins at ({x:.3f}, {y:.3f})."
+        if len(paths) == 1
+        else f"{len(paths)} paths {who} have {what}, because they are too short for them; the first begins at "
+        f"({x:.3f}, {y:.3f})."
+    )
+    return Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=loose, amount=float(len(paths)))
 
 
 def unheld_findings(tabs: Sequence[Tab], walls: DistanceField, box: StockBox) -> list[Finding]:

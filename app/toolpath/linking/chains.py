@@ -258,6 +258,7 @@ SLACK = tolerances.LEVEL / 2
 """mm; by so much a way may come nearer to a wall than asked, as rings may."""
 
 _STEPS = 20_000
+"""Places at most that one way is looked at in; a way that needs more is none."""
 
 _IN_METAL = 1.5
 """A mm of way through metal counts as so many over ground that is cut."""

@@ -29,6 +29,7 @@ do.
 """
 
 _MOST_BUCKETS = 1_000_000
+"""Squares that cells are sorted into, at most, so that far-off cells need no memory between them."""
 
 _SEEN_BYTES = 4
 """What it takes to remember that a row clears a cell."""

@@ -32,6 +32,9 @@ _KICK = 50
 """Strokes at most in each of the two runs that a kick swaps."""
 
 _WAITING, _TURNS, _WORK, _MIRRORED = 2, 3, 4, 5
+"""Numbers of `state`: strokes in the queue, turns in the log, the work done so far, whether strokes may be
+turned round.
+"""
 
 _RULES = "Tuple((int64[::1], int64[::1], int64[::1], int64[::1]))"
 _BUCKETS = "Tuple((int64[:, ::1], int64[::1], float64[::1]))"

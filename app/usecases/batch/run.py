@@ -18,6 +18,7 @@ TRIES = 4
 
 LIMIT_S = 3600.0
 _TICK_S = 0.1
+"""How long a look at what is running waits for something to be done."""
 _NAMED = 4
 """Parts that are named while they are worked on."""
 

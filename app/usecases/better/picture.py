@@ -13,6 +13,7 @@ from .area import PassArea
 _LIGHT_DEG = 12.0
 """Over the plane; so low that slopes of a tenth of a degree can be seen."""
 _CONTRAST = 6.0
+"""Times as steep as they are slopes are shown."""
 _GAP = 8
 """Pixels between the two pictures."""
 

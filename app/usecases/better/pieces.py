@@ -41,6 +41,7 @@ _SAME = 1e-9
 _SHARE = 4 * np.finfo(float).eps
 """Of a chord: so near a crossing is found."""
 _MOST_PARTS = 64
+"""Of a chord: one that needs more is no chord of a smooth surface."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ import numpy as np
 from ...core.errors import HitofudeError, InputError
 from ...core.input_file import FileBytes
 from ...core.progress import NO_PROGRESS, Progress
+from ...formats.drawing import Drawing
 from ...formats.job.toml import JobFile, StatedOrigin
 from ...gcode.interpreter.codes import ROTARY
 from ...gcode.interpreter.program import HeaderNote, OperationNote
@@ -286,24 +287,16 @@ def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], re
     from ...toolpath.machining_areas import MachiningAreas
     from ...toolpath.witness import floor_findings
 
-    assert request.against is not None
-    header, (name, data) = _header(programs), request.against
+    header = _header(programs)
     requested = _job(DrawnPart(), programs, tools, request)
-    diameters = [each.tool.diameter for each in tools.values()]
-    reading = part_reading(request.reading, header.reading, name, request.units)
-    units = (
-        request.units
-        or (request.job.units if request.job else None)
-        or (None if reading.how.pixels_per_inch else header.drawing_units)
-    )
-    drawing = read_plausible(
-        name, data, ReadingOptions(units, layers_to_read(requested), reading.how), lambda _: diameters
-    )
+    drawing, reading_findings = _drawing(requested, header, tools, request)
     job = with_layers_spelled(replace(requested, part=drawing.part)).prepared()
     parts = drawn_contours(job)
     made, lines = machined_regions(parts), followed_lines(job, parts)
     regions = made.regions
     if not regions and not lines:
+        assert request.against is not None
+        name = request.against[0]
         said = " ".join(finding.text for finding in parts.findings[:3])
         raise InputError(
             f"{name}: there is no closed contour to compare with; choose other layers, or join loose ends: "
@@ -312,8 +305,8 @@ def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], re
     proven = header.path_tolerance if request.tolerance is None else None
     tolerance = TOLERANCE if request.tolerance is None else request.tolerance
     tabs, dog_bones = _on_purpose(programs)
-    sheets = MachiningAreas(job, parts)
-    areas = sheets.areas()
+    machining_areas = MachiningAreas(job, parts)
+    areas = machining_areas.areas()
     part = FlatPart(
         job,
         regions,
@@ -327,17 +320,34 @@ def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], re
         tabs=tabs,
         dog_bones=dog_bones,
     )
-    noted = (*reading.findings, *_differing(request, header, drawing.part.units))
     found = (
-        *noted,
+        *reading_findings,
+        *_differing(request, header, drawing.part.units),
         *drawing.findings,
         *drawing_findings(job, parts, lines),
         *made.findings,
-        *sheets.findings,
+        *machining_areas.findings,
         *floor_findings(areas, CHORD),
-        *unmachined_findings(sheets, regions),
+        *unmachined_findings(machining_areas, regions),
     )
     return _PartRead(part, found)
+
+
+def _drawing(
+    requested: Job, header: HeaderNote, tools: dict[int, KnownTool], request: SetupRequest
+) -> tuple[Drawing, tuple[Finding, ...]]:
+    """Return the drawing that programs are compared with, and what there is to say of how it was read.
+
+    It is read as was asked for, else as the programs' header tells that it was read when they were made.
+    """
+    assert request.against is not None
+    name, data = request.against
+    reading = part_reading(request.reading, header.reading, name, request.units)
+    noted_units = None if reading.how.pixels_per_inch else header.drawing_units
+    units = request.units or (request.job.units if request.job else None) or noted_units
+    diameters = [each.tool.diameter for each in tools.values()]
+    options = ReadingOptions(units, layers_to_read(requested), reading.how)
+    return read_plausible(name, data, options, lambda _: diameters), reading.findings
 
 
 def _differing(request: SetupRequest, header: HeaderNote, units: Units) -> Iterator[Finding]:

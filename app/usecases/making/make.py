@@ -326,11 +326,12 @@ def finish(
 
 def _finished(program: Program, context: MakeContext, progress: Progress) -> MakeResult:
     """Return all that is made of computed moves: the text, what is proven and measured of it, the report."""
-    from ...toolpath.engagement.feed import followed  # compiled code: loaded where it is used
-
     job = context.job
     give_back()  # contours, rings and strokes were very many small things
-    program = followed(program, job, progress.part(0.0, 0.1))
+    if any(operation.engagement_limit < 1.0 for operation in job.operations):
+        from ...toolpath.engagement.feed import followed  # compiled code: loaded where it is used
+
+        program = followed(program, job, progress.part(0.0, 0.1))
     measured_first = partial(_measured, program, job)
     with beside(measured_first, progress.part(0.6, 0.85), len(program.moves) <= _MOST_BESIDE) as measuring:
         progress.step(0.1, "Writing NC")

@@ -140,18 +140,7 @@ def make_report(measured: ReportData) -> MakeReport:
     return MakeReport(
         {
             "gouge": _gouge(measured),
-            "left": {
-                "reachable_mm2": measured.coverage.reachable_left_mm2,
-                "unreachable_mm2": measured.coverage.unreachable_mm2,
-                "largest_disc_mm": measured.coverage.largest_disc_mm,
-                "floor_mm2": measured.coverage.area_mm2,
-                "floor_depth_mm": measured.coverage.floor_mm,
-                "method": COVERAGE_METHOD,
-                "places": [_place(place) for place in measured.coverage.places[:100]],
-                "places_count": len(measured.coverage.places),
-                "out_of_reach_places": sum(not place.reachable for place in measured.coverage.places),
-                **({"given_up_mm2": measured.coverage.given_up_mm2} if program.given_up_mm is not None else {}),
-            },
+            "left": _left(measured.coverage, program.given_up_mm is not None),
             "rapids_in_material": [
                 {"x": hit.x, "y": hit.y, "z": hit.z, **_line(measured, hit.move)} for hit in measured.rapids
             ],
@@ -194,6 +183,27 @@ def make_report(measured: ReportData) -> MakeReport:
             "out_units": "in" if job.out_units.value == 25.4 else "mm",
         }
     )
+
+
+_MOST_PLACES = 100
+"""Places where something is left that are listed; all of them are counted."""
+
+
+def _left(coverage: Coverage, on_pixels: bool) -> Json:
+    """Return what is left on the floor; on pixels also what was given up there."""
+    places = coverage.places
+    return {
+        "reachable_mm2": coverage.reachable_left_mm2,
+        "unreachable_mm2": coverage.unreachable_mm2,
+        "largest_disc_mm": coverage.largest_disc_mm,
+        "floor_mm2": coverage.area_mm2,
+        "floor_depth_mm": coverage.floor_mm,
+        "method": COVERAGE_METHOD,
+        "places": [_place(place) for place in places[:_MOST_PLACES]],
+        "places_count": len(places),
+        "out_of_reach_places": sum(not place.reachable for place in places),
+        **({"given_up_mm2": coverage.given_up_mm2} if on_pixels else {}),
+    }
 
 
 def _of(measured: ReportData, *kinds: FindingKind) -> list[Finding]:

@@ -250,12 +250,24 @@ def cut_job(
         Cancelled: the job was asked to stop.
     """
     box = stock_box(job, program.regions, program.lines)
-    origin = work_origin(job, box)
-    x, y, z = origin
+    x, y, z = work_origin(job, box)
     stock = BoxStock(StockBox(box.x0 - x, box.y0 - y, box.z0 - z, box.x1 - x, box.y1 - y, box.z1 - z))
+
+    def exact() -> ExactDeviations:
+        depths, coverage = measured()
+        motion = np.minimum(np.searchsorted(written.move, depths.move), len(written.move) - 1)
+        return ExactDeviations(replace(depths, move=motion), coverage)
+
+    tools = {tool.number: tool for tool in job.tools}
+    setup = CutSetup(_with_tools(written, program), tools, stock, _part_of(program, job, written, (x, y, z)))
+    return cut(setup, progress=progress, exact=exact)
+
+
+def _part_of(program: Program, job: Job, written: WrittenProgram, origin: tuple[float, float, float]) -> FlatPart:
+    """Return the part that a program makes; its walls may be off by what paths, text and drawn curves are."""
     outlines = (*(contour for region in program.regions for contour in region.contours), *program.lines)
     deviation = max((contour.deviation for contour in outlines), default=0.0)
-    part = FlatPart(
+    return FlatPart(
         job,
         program.regions,
         origin,
@@ -267,24 +279,16 @@ def cut_job(
         tabs=program.tabs,
         dog_bones=program.dog_bones,
     )
-    # where the control changes no tools, the file names none
-    programs = tuple(
-        replace(
-            read,
-            states=tuple(
-                replace(state, tool=state.tool or int(program.moves.tool[file.first])) for state in read.states
-            ),
+
+
+def _with_tools(written: WrittenProgram, program: Program) -> tuple[NcProgram, ...]:
+    """Return the programs as read back, with the tool of each file that names none: its control changes none."""
+    return tuple(
+        replace(read, states=tuple(replace(state, tool=state.tool or tool) for state in read.states))
+        for tool, read in (
+            (int(program.moves.tool[file.first]), read)
+            for file, read in zip(written.files, written.programs, strict=True)
         )
-        for file, read in zip(written.files, written.programs, strict=True)
-    )
-
-    def exact() -> ExactDeviations:
-        depths, coverage = measured()
-        motion = np.minimum(np.searchsorted(written.move, depths.move), len(written.move) - 1)
-        return ExactDeviations(replace(depths, move=motion), coverage)
-
-    return cut(
-        CutSetup(programs, {tool.number: tool for tool in job.tools}, stock, part), progress=progress, exact=exact
     )
 
 

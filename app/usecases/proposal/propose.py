@@ -46,6 +46,7 @@ WIDEST = 6.0
 """mm; no wider mill is proposed to cut a part out, for its slot is waste."""
 
 _TABS, _FEWER = 4, 3
+"""Tabs round an outline, and round one that is small."""
 _SMALL = 100.0
 """mm; an outline shorter than this has fewer and narrower tabs."""
 

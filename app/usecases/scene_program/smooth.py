@@ -38,6 +38,7 @@ Json = dict[str, Any]
 _CHORD = 2e-5
 """mm; chords that stand for a curve where it is looked at once more are nowhere farther from it."""
 _MOST_CHORDS = 4096
+"""Of one piece of a curve."""
 _DIGITS = 2.0
 """Steps of the last decimal that rounding takes: of the passes, and of the curves."""
 

@@ -149,19 +149,7 @@ def report(done: SmoothedProgram) -> Json:
             {"reason": each.reason.value, "spline_blocks": each.blocks or None, "blocks": each.instead}
             for each in done.refusals[:LISTED]
         ],
-        "tolerance": {
-            "asked_mm": done.options.tolerance,
-            "middle_mm": done.options.middle,
-            "outline": None if done.options.profile is None else done.options.profile.text,
-            "widest_mm": done.options.widest,
-            "proven_mm": done.bound,
-            "curve_to_moves_found_mm": max(
-                (piece.judgement.from_curve for piece in changed if piece.judgement), default=0.0
-            ),
-            "moves_to_curve_found_mm": max(
-                (piece.judgement.from_points for piece in changed if piece.judgement), default=0.0
-            ),
-        },
+        "tolerance": _tolerance(done),
         "blocks": {
             "before": came,
             "after": left,
@@ -179,6 +167,21 @@ def report(done: SmoothedProgram) -> Json:
             "changed": len(changed),
             "listed": [_listed(piece) for piece in listed],
         },
+    }
+
+
+def _tolerance(done: SmoothedProgram) -> Json:
+    """Return how far curves may be from the moves, how far they are proven to be at most, and were found."""
+    options = done.options
+    judged = [piece.judgement for piece in _changed(done) if piece.judgement]
+    return {
+        "asked_mm": options.tolerance,
+        "middle_mm": options.middle,
+        "outline": None if options.profile is None else options.profile.text,
+        "widest_mm": options.widest,
+        "proven_mm": done.bound,
+        "curve_to_moves_found_mm": max((each.from_curve for each in judged), default=0.0),
+        "moves_to_curve_found_mm": max((each.from_points for each in judged), default=0.0),
     }
 
 

@@ -23,7 +23,7 @@ _DARKEST = 0.62
 
 
 @kernel(f"UniTuple(float64, 3)(float64, float64, float64, {_R})")
-def seen(x, y, z, frame):  # type: ignore[no-untyped-def]
+def seen(x, y, z, frame):
     """Return px from the left, px from the top, mm towards the eye."""
     x, y, z = x - frame[TARGET], y - frame[TARGET + 1], z - frame[TARGET + 2]
     across = frame[0] * x + frame[1] * y + frame[2] * z
@@ -33,7 +33,7 @@ def seen(x, y, z, frame):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"float64({_TRIANGLES}, int64, {_R})")
-def _shade(triangles, n, frame):  # type: ignore[no-untyped-def]
+def _shade(triangles, n, frame):
     """Return how light a triangle is, from a light over the viewer's shoulder; both sides alike."""
     t = triangles[n]
     ux, uy, uz = t[1, 0] - t[0, 0], t[1, 1] - t[0, 1], t[1, 2] - t[0, 2]
@@ -44,13 +44,14 @@ def _shade(triangles, n, frame):  # type: ignore[no-untyped-def]
         return 1.0
     lit = 0.0
     for axis in range(3):
+        # The light's direction, in the camera's axes: from the left, from above, from the viewer's side.
         lean = (-0.45, 0.55, 0.70)[axis]
         lit += lean * (frame[3 * axis] * x + frame[3 * axis + 1] * y + frame[3 * axis + 2] * z) / size
     return _DARKEST + (1.0 - _DARKEST) * min(abs(lit), 1.0)
 
 
 @kernel(f"void({_TRIANGLES}, int64[::1], boolean[::1], {_R}, {_DEPTHS}, {_OWNERS}, {_LIGHTS})")
-def fill(triangles, owner, shown, frame, depths, owners, lights):  # type: ignore[no-untyped-def]
+def fill(triangles, owner, shown, frame, depths, owners, lights):
     """Draw triangles (n, 3, 3), each pixel that of the nearest.
 
     Args:
@@ -76,6 +77,8 @@ def fill(triangles, owner, shown, frame, depths, owners, lights):  # type: ignor
             y = row + 0.5
             for column in range(left, right + 1):
                 x = column + 0.5
+                # Barycentric shares of the pixel's middle; an edge's pixels are both neighbours', so that no gap
+                # shows between.
                 a = ((bx - x) * (cy - y) - (by - y) * (cx - x)) / twice
                 b = ((cx - x) * (ay - y) - (cy - y) * (ax - x)) / twice
                 if a < -1e-9 or b < -1e-9 or a + b > 1.0 + 1e-9:
@@ -86,7 +89,7 @@ def fill(triangles, owner, shown, frame, depths, owners, lights):  # type: ignor
 
 
 @kernel(f"void({_DEPTHS}, {_OWNERS}, {_LIGHTS}, {_POINTS}, float64, {_DEPTHS}, {_OWNERS}, {_PIXELS})")
-def tint(fine_depths, fine_owners, lights, inks, strength, depths, owners, image):  # type: ignore[no-untyped-def]
+def tint(fine_depths, fine_owners, lights, inks, strength, depths, owners, image):
     """Lay the colours of owners over a picture, each pixel the mean of its samples, so that outlines have no stairs.
 
     The light darkens what the colour and the picture mix to: so a shaded place keeps its hue.
@@ -131,7 +134,7 @@ def tint(fine_depths, fine_owners, lights, inks, strength, depths, owners, image
 
 
 @kernel(f"void(float64, float64, float64, float64, float64, float64, float64, {_R}, {_DEPTHS}, {_PIXELS})")
-def _stroke(ax, ay, az, bx, by, bz, along, pen, depths, image):  # type: ignore[no-untyped-def]
+def _stroke(ax, ay, az, bx, by, bz, along, pen, depths, image):
     """Draw one straight piece with soft edges; `along`: px from the line's beginning to the piece's."""
     high, wide = depths.shape
     half = 0.5 * pen[WIDTH]
@@ -149,6 +152,7 @@ def _stroke(ax, ay, az, bx, by, bz, along, pen, depths, image):  # type: ignore[
             x = column + 0.5
             share = min(max(((x - ax) * dx + (y - ay) * dy) / square, 0.0), 1.0) if square > 0.0 else 0.0
             off = math.sqrt((x - ax - share * dx) ** 2 + (y - ay - share * dy) ** 2)
+            # The edge falls from full to nothing over one pixel, half of it on either side.
             cover = min(half + 0.5 - off, 1.0)
             if cover <= 0.0:
                 continue
@@ -164,7 +168,7 @@ def _stroke(ax, ay, az, bx, by, bz, along, pen, depths, image):  # type: ignore[
 
 
 @kernel(f"int64({_POINTS}, boolean[::1], {_R}, {_R}, {_DEPTHS}, {_PIXELS})")
-def draw_lines(points, joined, frame, pen, depths, image):  # type: ignore[no-untyped-def]
+def draw_lines(points, joined, frame, pen, depths, image):
     """Draw lines over a picture; return how many straight pieces that took.
 
     Args:
@@ -178,6 +182,7 @@ def draw_lines(points, joined, frame, pen, depths, image):  # type: ignore[no-un
         bx, by, bz = seen(points[n, 0], points[n, 1], points[n, 2], frame)
         if running:
             step = math.sqrt((bx - ax) ** 2 + (by - ay) ** 2)
+            # Pieces of less than a pixel would each blend over the last one's end and darken the line.
             if step < pen[LEAST] and joined[n]:
                 continue
             inside = (

@@ -47,14 +47,16 @@ def prove(program: Program, job: Job, written: WrittenProgram, progress: Progres
     if not written.files:
         return ProgramProofs()
     motions = WrittenMotions.of(written, program, job)
-    return ProgramProofs(
-        (
-            engagement_proofs(job, motions, progress.part(0.0, 0.4)),
-            carving_proofs(program, job, motions, progress.part(0.4, 0.8)),
-            dict(_of_their_own(program, job, motions)),
-            wear_proofs(program, job, written, motions, progress.part(0.8, 1.0)),
-        )
-    )
+    enabled = [each for each in job.operations if each.cut.enabled]
+    kinds: list[Mapping[int, OperationProof]] = []
+    if any(each.proven_angle is not None for each in job.operations):
+        kinds.append(engagement_proofs(job, motions, progress.part(0.0, 0.4)))
+    if any(each.CARVES for each in enabled):
+        kinds.append(carving_proofs(program, job, motions, progress.part(0.4, 0.8)))
+    kinds.append(dict(_of_their_own(program, job, motions)))
+    if any(each.wear for each in enabled):
+        kinds.append(wear_proofs(program, job, written, motions, progress.part(0.8, 1.0)))
+    return ProgramProofs(tuple(kinds))
 
 
 def _of_their_own(program: Program, job: Job, motions: WrittenMotions) -> Iterable[tuple[int, OperationProof]]:
