@@ -405,11 +405,6 @@ def test_a_path_that_ends_where_it_began_but_for_rounding_is_closed_without_more
     assert read('<circle r="1"/><path stroke="red" d="M5 5l1e-9 0 0 1e-9"/>').findings[0].amount == 1
 
 
-def test_a_clip_is_told() -> None:
-    drawing = read('<g clip-path="url(#a)"><circle r="2"/></g><circle r="3" mask="none"/>')
-    assert len(drawing.part.entities) == 2 and drawing.findings[0].amount == 1 and "clipped" in drawing.findings[0].text
-
-
 def test_inkscapes_layers() -> None:
     body = (
         '<g inkscape:groupmode="layer" inkscape:label="Outline" id="g1" stroke="#ff0000"><circle r="1"/>'

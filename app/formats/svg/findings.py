@@ -118,10 +118,12 @@ def _of_fonts(content: SvgContent) -> Iterator[Finding]:
 
 def _clipped(content: SvgContent) -> Iterator[Finding]:
     if content.clipped:
-        yield remark(
-            f"{content.clipped} {'curve is' if content.clipped == 1 else 'curves are'} clipped or masked in the "
-            "drawing; all of it is read.",
-            float(content.clipped),
+        what = "1 shape is" if content.clipped == 1 else f"{content.clipped} shapes are"
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{what} cut by a clip, a mask or the edge of a symbol, and read whole, so that the part differs from the "
+            "picture; cut the paths themselves in the editor, or take the clip away.",
+            amount=float(content.clipped),
         )
 
 

@@ -25,7 +25,10 @@ _READ = (
     "stroke",
     "color",
     "clip-path",
+    "clip-rule",
     "mask",
+    "mask-type",
+    "overflow",
     "transform",
     "transform-origin",
     "transform-box",
@@ -66,7 +69,9 @@ class SvgStyle:
         shown: False under display: none.
         visible: False under visibility: hidden or collapse.
         fill, stroke, color: as written. fill_clear, stroke_clear: they are painted with no opacity at all.
-        clipped: something hides a part of it.
+        clips: its own clip and mask, as written. clip_evenodd: in a clip, areas are by that rule.
+        overflow: of what it draws beyond its viewport, as written. alpha_mask: a mask of what is opaque, not light.
+        faint: it is painted with some opacity between none and all, or that is not known.
         transform: the element's own, as the attribute would have it; "" for none.
         origin: what that is about, if not the origin of coordinates, as written.
         variables: by name, --x, with what elements round it have set.
@@ -85,7 +90,11 @@ class SvgStyle:
     color: str = ""
     fill_clear: bool = False
     stroke_clear: bool = False
-    clipped: bool = False
+    clips: tuple[str, ...] = ()
+    clip_evenodd: bool = False
+    overflow: str = ""
+    alpha_mask: bool = False
+    faint: bool = False
     transform: str = ""
     origin: str = ""
     variables: Mapping[str, str] = field(default_factory=dict)
@@ -103,7 +112,12 @@ class SvgStyle:
     @property
     def draws(self) -> bool:
         """True when an outline or an area is painted."""
-        return self.outlined or not (self.fill_clear or is_clear(self._resolved(self.fill)))
+        return self.outlined or self.filled
+
+    @property
+    def filled(self) -> bool:
+        """True when an area is painted."""
+        return not (self.fill_clear or is_clear(self._resolved(self.fill)))
 
     @property
     def outlined(self) -> bool:
@@ -244,7 +258,8 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
     visibility = declared.get("visibility")
     size = declared.get("font-size", "") or size_of_font(f"{declared.get('font', '')} ")
     markers = {key: value for key, value in declared.items() if key.startswith("marker")}
-    hides = any(declared.get(key, "none") != "none" for key in ("clip-path", "mask"))
+    clips = tuple(declared[key] for key in ("clip-path", "mask") if declared.get(key, "none") != "none")
+    opacities = [declared[key] for key in ("opacity", "fill-opacity") if key in declared]
     return replace(
         outer,
         shown=outer.shown and declared.get("display") != "none" and not _is_zero(declared.get("opacity")),
@@ -254,7 +269,11 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
         fill_clear=_clear(declared.get("fill-opacity"), outer.fill_clear),
         stroke_clear=_clear(declared.get("stroke-opacity"), outer.stroke_clear),
         color=declared.get("color", outer.color),
-        clipped=outer.clipped or hides,
+        clips=clips,
+        clip_evenodd=declared["clip-rule"] == "evenodd" if "clip-rule" in declared else outer.clip_evenodd,
+        overflow=declared.get("overflow", ""),
+        alpha_mask=declared.get("mask-type") == "alpha",
+        faint=outer.faint or any(opacity.strip() not in ("1", "1.0", "100%") for opacity in opacities),
         transform=_UNITS.sub("", declared.get("transform", "")),
         origin=declared.get("transform-origin", ""),
         variables=variables,

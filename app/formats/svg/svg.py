@@ -81,7 +81,8 @@ def read_svg(
 
     Zero is the page's lower left corner, as its width, height and viewBox give it; a page without a height has it at
     the top. Inkscape's layers become layers, hidden ones too; without them the named groups at the top. Text, pictures
-    and what draws nothing are counted, not read; clips and masks are not applied. Without a width or a height in mm,
+    and what draws nothing are counted, not read, and so is what a clip or a mask hides; what one cuts is read whole,
+    and a finding. Without a width or a height in mm,
     inches or points the file has no real size: it is in `units`, or in pixels, so many to the inch as `how` says, else
     as the editor had that wrote it, else 96.
 

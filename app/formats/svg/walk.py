@@ -16,11 +16,12 @@ from ...model.curves import Circle, Curve, Ellipse, Line, Point, Spline
 from ...model.part import Layer
 from ..drawing_account import MOST_CURVES, LayeredCurve
 from ..dxf.splines import MOST_POINTS
+from .clips import Clip, ClipReader, Seen, seen_of, viewport_clip
 from .generator import INKSCAPE, SODIPODI
 from .joined import beziers_joined, joined
 from .lengths import FONT_LENGTH, LengthBasis, Viewport
 from .numbers import UnreadableError, ViewBox, fitted, transform, view_box
-from .painted import bounding
+from .painted import bounding, closed_by_line
 from .path import SvgPath
 from .shapes import LENGTHS, SHAPES, measure, shape
 from .strokes import PaintedOutlines, origin
@@ -69,7 +70,7 @@ class SvgContent:
         faults: shapes whose data cannot be read to the end.
         unread: shapes that are missing, for a length of theirs cannot be read: it, and its line.
         of_font: shapes with lengths that depend on what a font is like.
-        clipped: shapes that are read whole although the drawing hides a part of them.
+        clipped: shapes that are read whole although a clip or a mask hides a part of them.
         layers: by name, in order.
         unread_rules: selectors of style sheets that are not followed.
         unfollowed: how many elements have a property that is not followed and that moves or forms them.
@@ -101,6 +102,7 @@ class InheritedState:
         layer: name of the layer, "" for none.
         depth: of elements and uses round it; 0 for the root's children.
         copied: it is drawn by a `use`, so its own layers do not count.
+        clips: what clips, masks and viewports round it leave to see.
     """
 
     to: Affine
@@ -109,6 +111,7 @@ class InheritedState:
     layer: str = ""
     depth: int = 0
     copied: bool = False
+    clips: tuple[Clip, ...] = ()
 
     @property
     def basis(self) -> LengthBasis:
@@ -129,6 +132,7 @@ class SvgWalker:
             self._ids.setdefault(node.attributes.get("id", ""), node)
             self._named_layers |= _is_layer(node)
         self._open: list[int] = []
+        self._clips: ClipReader[InheritedState] = ClipReader(self._ids, self._in_place, self._target)
 
     def content(self, to: Affine, view: Viewport) -> SvgContent:
         """Return what the file draws.
@@ -191,7 +195,15 @@ class SvgWalker:
                 self._children(_chosen(node) if node.tag == "switch" else node.children, state)
 
     def _inside(self, node: Node, outer: InheritedState) -> InheritedState:
-        """Return the state inside an element: its transform, its style, its layer."""
+        """Return the state inside an element: its transform, its style, its layer, its clips."""
+        state = self._in_place(node, outer)
+        if not state.style.clips:
+            return state
+        plain = replace(state, style=SvgStyle(em=state.style.em, rem=state.style.rem), copied=True)
+        return replace(state, clips=(*outer.clips, *self._clips.clips(state.style, plain)))
+
+    def _in_place(self, node: Node, outer: InheritedState) -> InheritedState:
+        """Return the state inside an element, without its own clips."""
         style, to, layer = self._styles.style(node, outer.style), outer.to, outer.layer
         self._sheet.unfollowed.update(style.unfollowed)
         if style.transform:
@@ -251,6 +263,9 @@ class SvgWalker:
         placed = Node(node.tag, {**node.attributes, **sizes}, node.line)
         x, y = self._measured(placed, ("x", "y"), state, (0.0, 0.0))
         width, height = self._measured(placed, ("width", "height"), state, state.view)
+        if state.style.overflow != "visible":
+            edges = viewport_clip(ViewBox(x, y, width, height), state.to)
+            state = replace(state, clips=(*state.clips, edges))
         if "viewBox" not in node.attributes:
             return replace(state, to=state.to.after(Affine(x0=x, y0=y)), view=(width, height))
         try:
@@ -280,7 +295,7 @@ class SvgWalker:
         try:
             drawn = shape(node, state.basis, MOST_CURVES)
             if drawn is not None and not style.outlined:
-                runs = [_area(run) for run in drawn.runs]
+                runs = [closed_by_line(run) for run in drawn.runs]
                 drawn.runs = runs if style.evenodd else bounding(runs)
                 content.within += len(runs) - len(drawn.runs)
             curves = self._placed(node, drawn, state.to) if drawn is not None else []
@@ -299,10 +314,14 @@ class SvgWalker:
                 )
         if not curves:
             return
+        seen = seen_of(curves, style.filled, state.clips) if state.clips else Seen.WHOLE
+        if seen is Seen.NOTHING:
+            content.left_out[f"{node.tag} (clipped away)"] += 1
+            return
         layer = state.layer or "0"
         note = content.layers.setdefault(layer, LayerNote())
         note.inks |= {style.ink or BLACK} if style.outlined else set()
-        content.clipped += style.clipped
+        content.clipped += seen is Seen.PART
         content.of_font += _of_font(node)
         pattern = self._ids.get(style.fill[5:].partition(")")[0]) if style.fill.startswith("url(#") else None
         content.painted.patterned += pattern is not None and pattern.tag == "pattern"
@@ -339,13 +358,6 @@ def _forward(curve: Curve) -> Curve:
 def _is_point(curve: Curve) -> bool:
     """True for a line between points that are one, as rounding leaves them where a path is closed."""
     return isinstance(curve, Line) and math.dist(curve.start, curve.end) < tolerances.WELD
-
-
-def _area(run: list[Curve]) -> list[Curve]:
-    """Return the outline of what a fill paints: an open run is closed by a line, unless it is but one line itself."""
-    if not run or run[0].start == run[-1].end or (len(run) == 1 and isinstance(run[0], Line)):
-        return run
-    return [*run, Line(run[-1].end, run[0].start)]
 
 
 def _moves(written: str) -> bool:
