@@ -10,11 +10,15 @@ from ..drawing_account import remark
 from .strokes import BroadOutline
 from .walk import SvgContent
 
+_QUOTED = 40
+"""Letters of a text that are told."""
+
 
 def reading_findings(content: SvgContent) -> Iterator[Finding]:
     """Say what is damaged, missing, or read by a guess."""
     yield from _faults(content)
     yield from _unread(content)
+    yield from _texts(content)
     yield from _of_fonts(content)
 
 
@@ -103,6 +107,21 @@ def _unread(content: SvgContent) -> Iterator[Finding]:
             "write it in mm, px or user units.",
             amount=float(count),
         )
+
+
+def _texts(content: SvgContent) -> Iterator[Finding]:
+    """Say which texts are missing, and how many letters."""
+    if content.texts:
+        first, count = content.texts[0], len(content.texts)
+        letters = sum(len("".join(each.words.split())) for each in content.texts)
+        words = first.words if len(first.words) <= _QUOTED else f"{first.words[:_QUOTED]}…"
+        text = (
+            f'The text "{words}" in line {first.line} is missing from the part; turn it into a path in the editor.'
+            if count == 1
+            else f'{count} texts of {letters} letters in all, the first "{words}" in line {first.line}, are missing '
+            "from the part; turn them into paths in the editor."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(count))
 
 
 def _of_fonts(content: SvgContent) -> Iterator[Finding]:

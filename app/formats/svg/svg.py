@@ -45,7 +45,7 @@ from .generator import CSS_PER_INCH, KNOWN_PER_INCH, PixelDensity, density_of
 from .lengths import LengthBasis, WrittenLength, length
 from .numbers import UnreadableError, ViewBox, fitted, numbers, view_box
 from .style import StyleSheet, SvgStyle
-from .walk import SvgContent, SvgWalker
+from .walk import TEXTS, SvgContent, SvgWalker
 from .xml import Node, read_xml
 
 HITOFUDE = "urn:hitofude:svg"
@@ -129,7 +129,7 @@ def read_svg(
         *without_length(content.nothing + found.nothing),
         *paint_findings(content),
         *switched_off(part, layers),
-        *all_left_out(content.left_out),
+        *all_left_out(Counter({kind: count for kind, count in content.left_out.items() if kind not in TEXTS})),
     ]
     own = density_of(root)
     contents = FileContents(

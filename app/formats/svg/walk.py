@@ -29,7 +29,8 @@ from .style import StyleSheet, SvgStyle
 from .xml import DEEPEST, Node
 
 _LINK = "http://www.w3.org/1999/xlink href"
-_NOT_CURVES = ("text", "image", "foreignObject", "flowRoot", "video", "audio", "iframe", "canvas")
+_NOT_CURVES = ("image", "foreignObject", "video", "audio", "iframe", "canvas")
+TEXTS = ("text", "flowRoot")
 BLACK = "#000000"
 _TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
 _ENGLISH = re.compile(r"(?:^|,)\s*en\b", re.IGNORECASE)
@@ -59,6 +60,14 @@ class SvgFault:
     what: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class UnreadWords:
+    """What a text says, which is not read, and its line in the file."""
+
+    words: str
+    line: int
+
+
 @dataclass
 class SvgContent:
     """What an SVG draws.
@@ -69,6 +78,7 @@ class SvgContent:
         nothing: places of shapes without length.
         faults: shapes whose data cannot be read to the end.
         unread: shapes that are missing, for a length of theirs cannot be read: it, and its line.
+        texts: that can be seen, and are missing too.
         of_font: shapes with lengths that depend on what a font is like.
         clipped: shapes that are read whole although a clip or a mask hides a part of them.
         layers: by name, in order.
@@ -83,6 +93,7 @@ class SvgContent:
     nothing: list[Point | None] = field(default_factory=list)
     faults: list[SvgFault] = field(default_factory=list)
     unread: list[SvgFault] = field(default_factory=list)
+    texts: list[UnreadWords] = field(default_factory=list)
     of_font: int = 0
     clipped: int = 0
     layers: dict[str, LayerNote] = field(default_factory=dict)
@@ -180,6 +191,8 @@ class SvgWalker:
     def _one(self, node: Node, outer: InheritedState) -> None:
         if node.tag in _NOT_CURVES:
             self._sheet.left_out[node.tag] += 1
+        elif node.tag in TEXTS:
+            self._text(node, self._inside(node, outer))
         elif node.tag in SHAPES or node.tag in _CONTAINERS:
             state = self._inside(node, outer)
             if state.style.geometry:
@@ -193,6 +206,15 @@ class SvgWalker:
                 self._children(node.children, self._viewport(node, state, node))
             else:
                 self._children(_chosen(node) if node.tag == "switch" else node.children, state)
+
+    def _text(self, node: Node, state: InheritedState) -> None:
+        """Note a text, which is not read; one without letters, or that nobody sees, is nothing."""
+        words, style = node.words, state.style
+        if not (style.shown and style.visible and style.draws):
+            self._sheet.left_out[f"{node.tag} (invisible)"] += 1
+        elif words:
+            self._sheet.left_out[node.tag] += 1
+            self._sheet.texts.append(UnreadWords(words, node.line))
 
     def _inside(self, node: Node, outer: InheritedState) -> InheritedState:
         """Return the state inside an element: its transform, its style, its layer, its clips."""

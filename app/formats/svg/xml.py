@@ -23,6 +23,8 @@ MOST_USES = 10_000
 """So often may entities be used: two megabytes at most come from them."""
 _USE = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos);)[^#;&\s<>]{1,200};")
 _LONGEST_COMMENTS = 4096
+_WRITTEN = ("text", "tspan", "textPath", "a", "flowRoot", "flowPara", "flowSpan", "flowDiv", "flowRegionBreak")
+_WITH_TEXT = ("style", *_WRITTEN)
 _HEAD = 1 << 16
 
 
@@ -34,7 +36,7 @@ class Node:
         tag: its name; that of an SVG element alone, any other with its namespace and a blank before it.
         attributes: by name, likewise.
         line: where it begins, 1-based.
-        text: its own text, kept for style sheets alone.
+        text: its own text, kept for style sheets and what is written alone.
         comments: those before the root, kept there alone; editors name themselves in them.
     """
 
@@ -52,6 +54,11 @@ class Node:
             node = waiting.pop()
             yield node
             waiting.extend(reversed(node.children))
+
+    @property
+    def words(self) -> str:
+        """What is written in it, with single blanks."""
+        return " ".join(" ".join(node.text for node in self.every() if node.tag in _WRITTEN).split())
 
 
 def read_xml(data: bytes, name: str) -> Node:
@@ -140,7 +147,7 @@ class _Reader:
         self._open.pop()
 
     def _characters(self, text: str) -> None:
-        if self._open[-1].tag == "style":
+        if self._open[-1].tag in _WITH_TEXT:
             self._open[-1].text += text
 
     def _comment(self, text: str) -> None:
