@@ -149,8 +149,10 @@ def _clipped(content: SvgContent) -> Iterator[Finding]:
 def _unread_rules(content: SvgContent) -> Iterator[Finding]:
     if content.unread_rules:
         count, first = len(content.unread_rules), content.unread_rules[0][:60]
-        yield remark(
+        yield Finding(
+            FindingKind.LEFT_OUT,
             f"{count} {'rule' if count == 1 else 'rules'} of the style sheet cannot be followed, the first for "
             f"{first}; check that nothing hidden is read.",
-            float(count),
+            counts=content.rules_hide,
+            amount=float(count),
         )

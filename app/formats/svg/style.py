@@ -49,6 +49,11 @@ _GEOMETRY = ("x", "y", "width", "height", "cx", "cy", "r", "rx", "ry")
 _UNFOLLOWED = ("translate", "rotate", "scale", "offset-path", "d")
 """What a style sheet may say of a shape's place and form that is not read; as attributes they are something else."""
 
+_COLOURS = ("fill", "stroke", "color")
+
+_VISIBILITY = {"visible": True, "initial": True, "hidden": False, "collapse": False}
+"""What else is said says nothing."""
+
 _VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,([^()]*))?\)", re.IGNORECASE)
 _ZERO = re.compile(r"[+-]?0*\.?0+%?")
 _DEEPEST, _LONGEST = 10, 1000
@@ -160,12 +165,14 @@ class StyleSheet:
 
     Attributes:
         unread: selectors of rules that could hide or show a shape, or place it, and that are not followed.
+        unread_hides: one of them does more than to choose a colour.
     """
 
     def __init__(self, root: Node) -> None:
         self._rules: dict[str, list[_StyleRule]] = defaultdict(list)
         self._parents: dict[int, Node] = {}
         self.unread: list[str] = []
+        self.unread_hides = False
         self._count = 0
         for node in root.every():
             if node.tag == "style" and is_on_screen(node.attributes.get("media", "")):
@@ -183,6 +190,7 @@ class StyleSheet:
                     self._rules[read.key].append(_StyleRule(read.specificity, self._count, read, declared))
                 elif not _OF_THE_MOMENT.search(written) and any(each.name not in _LETTERS for each in declared):
                     self.unread.append(" ".join(written.split()))
+                    self.unread_hides |= any(map(_hides, declared))
 
     def style(self, node: Node, outer: SvgStyle) -> SvgStyle:
         """Return the style of an element inside one of style `outer`."""
@@ -213,6 +221,12 @@ def declarations(text: str) -> Iterator[Declaration]:
         name = name if name.startswith("--") else name.lower()
         if kept and (name in _READ or name in _GEOMETRY or name in _UNFOLLOWED or name.startswith("--")):
             yield Declaration(name, kept, kept != value.strip())
+
+
+def _hides(declared: Declaration) -> bool:
+    """Tell whether a declaration may hide, show, move or form a shape; one that only paints it does not."""
+    name, value, _ = declared
+    return name not in _LETTERS and (name not in _COLOURS or is_clear(value)) and not name.startswith("marker")
 
 
 def _of_variable(found: re.Match[str], variables: Mapping[str, str]) -> str:
@@ -255,15 +269,15 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
         for key, written in declared.items()
         if key not in own and (value := _resolved(written, variables)) and value != "inherit"
     }
-    visibility = declared.get("visibility")
+    visible = _VISIBILITY.get(declared.get("visibility", "").lower(), outer.visible)
     size = declared.get("font-size", "") or size_of_font(f"{declared.get('font', '')} ")
     markers = {key: value for key, value in declared.items() if key.startswith("marker")}
     clips = tuple(declared[key] for key in ("clip-path", "mask") if declared.get(key, "none") != "none")
     opacities = [declared[key] for key in ("opacity", "fill-opacity") if key in declared]
     return replace(
         outer,
-        shown=outer.shown and declared.get("display") != "none" and not _is_zero(declared.get("opacity")),
-        visible=outer.visible if visibility is None else visibility == "visible",
+        shown=outer.shown and declared.get("display", "").lower() != "none" and not _is_zero(declared.get("opacity")),
+        visible=visible,
         fill=declared.get("fill", outer.fill),
         stroke=declared.get("stroke", outer.stroke),
         fill_clear=_clear(declared.get("fill-opacity"), outer.fill_clear),

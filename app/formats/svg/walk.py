@@ -82,7 +82,7 @@ class SvgContent:
         of_font: shapes with lengths that depend on what a font is like.
         clipped: shapes that are read whole although a clip or a mask hides a part of them.
         layers: by name, in order.
-        unread_rules: selectors of style sheets that are not followed.
+        unread_rules: selectors of style sheets that are not followed. rules_hide: one of them may hide or move a shape.
         unfollowed: how many elements have a property that is not followed and that moves or forms them.
         within: outlines within what their own path paints on both sides of them, so that nobody sees them.
         painted: what is drawn on and along outlines.
@@ -98,6 +98,7 @@ class SvgContent:
     clipped: int = 0
     layers: dict[str, LayerNote] = field(default_factory=dict)
     unread_rules: list[str] = field(default_factory=list)
+    rules_hide: bool = False
     unfollowed: Counter[str] = field(default_factory=Counter)
     within: int = 0
     painted: PaintedOutlines = field(default_factory=PaintedOutlines)
@@ -136,7 +137,7 @@ class SvgWalker:
     def __init__(self, root: Node, name: str) -> None:
         self._root, self._name = root, name
         self._styles = StyleSheet(root)
-        self._sheet = SvgContent(unread_rules=self._styles.unread)
+        self._sheet = SvgContent(unread_rules=self._styles.unread, rules_hide=self._styles.unread_hides)
         self._ids: dict[str, Node] = {}
         self._named_layers = False
         for node in root.every():
