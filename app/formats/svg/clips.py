@@ -15,7 +15,6 @@ from ...geometry.affine import Affine, transformed
 from ...geometry.sample import sample
 from ...model.curves import Curve
 from ..drawing_account import MOST_CURVES
-from .colours import colour
 from .lengths import LengthBasis
 from .numbers import ViewBox
 from .painted import bounding, closed_by_line
@@ -225,9 +224,9 @@ def _kind(node: Node, style: SvgStyle) -> _ClipKind:
 def _clip_shape(node: Node, state: ClipState, kind: _ClipKind) -> Any:
     """Return the area of one shape of a clip, mm."""
     style = state.style
-    if kind is not _ClipKind.FORM and (style.outlined or style.faint or not colour(style.fill)):
+    if kind is not _ClipKind.FORM and (style.outlined or style.faint or not style.colour_of_fill):
         raise UnknownClipError
-    if kind is _ClipKind.LIGHT and colour(style.fill) != _WHITE:
+    if kind is _ClipKind.LIGHT and style.colour_of_fill != _WHITE:
         raise UnknownClipError
     if style.geometry:
         node = Node(node.tag, {**node.attributes, **style.geometry}, node.line)

@@ -27,6 +27,7 @@ def paint_findings(content: SvgContent) -> Iterator[Finding]:
     yield from _clipped(content)
     yield from _unfollowed(content)
     yield from _within(content)
+    yield from _beyond(content)
     for layer in content.painted.layers:
         yield _broad([each for each in content.painted.broad if each.layer == layer])
     yield from _details(content)
@@ -51,6 +52,26 @@ def _within(content: SvgContent) -> Iterator[Finding]:
         yield remark(
             f"{what} within the area that the path paints (fill-rule: nonzero) and cannot be seen; left out.",
             float(content.within),
+        )
+
+
+def _beyond(content: SvgContent) -> Iterator[Finding]:
+    if content.beyond:
+        yield remark(
+            "1 shape lies wholly beyond the page, where viewers show nothing; it is read like any other."
+            if content.beyond == 1
+            else f"{content.beyond} shapes lie wholly beyond the page, where viewers show nothing; they are read like "
+            "any other.",
+            float(content.beyond),
+        )
+    if content.page_wide:
+        yield remark(
+            "1 area without an outline is as large as the page and read like any other; where it is but the ground of "
+            "the picture, delete it."
+            if content.page_wide == 1
+            else f"{content.page_wide} areas without an outline are as large as the page and read like any other; "
+            "where they are but the ground of the picture, delete them.",
+            float(content.page_wide),
         )
 
 

@@ -139,6 +139,11 @@ class SvgStyle:
         """Colour of the outline, "#rrggbb", or "" where there is none."""
         return colour(self._resolved(self.stroke))
 
+    @property
+    def colour_of_fill(self) -> str:
+        """Colour of the area, "#rrggbb", or "" where there is none."""
+        return colour(self._resolved(self.fill)) if self.filled else ""
+
     def _resolved(self, paint: str) -> str:
         return self.color if paint.lower() == "currentcolor" else paint
 

@@ -12,6 +12,7 @@ from typing import NoReturn
 from ...core import tolerances
 from ...core.errors import InputError
 from ...geometry.affine import IDENTITY, Affine, transformed
+from ...geometry.sample import Box
 from ...model.curves import Circle, Curve, Ellipse, Line, Point, Spline
 from ...model.part import Layer
 from ..drawing_account import MOST_CURVES, LayeredCurve
@@ -31,7 +32,9 @@ from .xml import DEEPEST, Node
 _LINK = "http://www.w3.org/1999/xlink href"
 _NOT_CURVES = ("image", "foreignObject", "video", "audio", "iframe", "canvas")
 TEXTS = ("text", "flowRoot")
-BLACK = "#000000"
+BLACK, WHITE = "#000000", "#ffffff"
+_GROUND = 1e-3
+"""By so much of a page its ground may be too small."""
 _TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
 _ENGLISH = re.compile(r"(?:^|,)\s*en\b", re.IGNORECASE)
 _BREAK = re.compile(r"[\x00-\x1f]+")
@@ -84,6 +87,8 @@ class SvgContent:
         layers: by name, in order.
         unread_rules: selectors of style sheets that are not followed. rules_hide: one of them may hide or move a shape.
         unfollowed: how many elements have a property that is not followed and that moves or forms them.
+        beyond: shapes that lie wholly beyond the page. ground: a white area as large as the page, under all else.
+        page_wide: how many other areas are as large, without an outline.
         within: outlines within what their own path paints on both sides of them, so that nobody sees them.
         painted: what is drawn on and along outlines.
     """
@@ -100,6 +105,9 @@ class SvgContent:
     unread_rules: list[str] = field(default_factory=list)
     rules_hide: bool = False
     unfollowed: Counter[str] = field(default_factory=Counter)
+    beyond: int = 0
+    ground: list[LayeredCurve] = field(default_factory=list)
+    page_wide: int = 0
     within: int = 0
     painted: PaintedOutlines = field(default_factory=PaintedOutlines)
 
@@ -144,6 +152,7 @@ class SvgWalker:
             self._ids.setdefault(node.attributes.get("id", ""), node)
             self._named_layers |= _is_layer(node)
         self._open: list[int] = []
+        self._page: Box | None = None
         self._clips: ClipReader[InheritedState] = ClipReader(self._ids, self._in_place, self._target)
 
     def content(self, to: Affine, view: Viewport) -> SvgContent:
@@ -159,8 +168,18 @@ class SvgWalker:
         self._size(self._root, {}, 0)
         style = self._styles.style(self._root, SvgStyle())
         self._sheet.unfollowed.update(style.unfollowed + ("a transform of the page",) * _moves(style.transform))
+        self._page = _page_box(self._root, to, view)
         self._children(self._root.children, InheritedState(to, view, replace(style, rem=style.em)))
+        self._without_ground(self._sheet)
         return self._sheet
+
+    def _without_ground(self, content: SvgContent) -> None:
+        """Leave out the ground that editors and plotting programs lay under a page, unless it is all that there is."""
+        if content.ground and content.curves:
+            content.left_out["shape (white ground of the page)"] += 1
+        elif content.ground:
+            content.curves += content.ground
+            content.layers.setdefault(content.ground[0].layer, LayerNote())
 
     def _size(self, node: Node, known: dict[int, tuple[int, int]], depth: int) -> tuple[int, int]:
         """Return how many elements an element unfolds to, with all copies, and in how many levels; a copy of itself
@@ -342,6 +361,11 @@ class SvgWalker:
             content.left_out[f"{node.tag} (clipped away)"] += 1
             return
         layer = state.layer or "0"
+        box = _box_of(curves)
+        if self._is_ground(style, box):
+            content.ground = [LayeredCurve(curve, layer) for curve in curves]
+            return
+        content.beyond += _apart(box, self._page)
         note = content.layers.setdefault(layer, LayerNote())
         note.inks |= {style.ink or BLACK} if style.outlined else set()
         content.clipped += seen is Seen.PART
@@ -352,6 +376,15 @@ class SvgWalker:
         content.curves += [LayeredCurve(curve, layer) for curve in curves]
         if len(content.curves) > MOST_CURVES:
             self._refuse(node, _TOO_MUCH)
+
+    def _is_ground(self, style: SvgStyle, box: Box | None) -> bool:
+        """Tell whether a shape without an outline covers the page, is white, and the first one of the drawing."""
+        content = self._sheet
+        if style.outlined or not _covers(box, self._page):
+            return False
+        white = style.colour_of_fill == WHITE and not (content.curves or content.ground)
+        content.page_wide += not white
+        return white
 
     def _placed(self, node: Node, drawn: SvgPath, to: Affine) -> list[Curve]:
         """Return the curves in the drawing; notes the place of a shape that draws nothing."""
@@ -376,6 +409,47 @@ def _forward(curve: Curve) -> Curve:
     if isinstance(curve, Ellipse):
         return Ellipse(curve.centre, curve.major, curve.ratio)
     return Circle(curve.centre, curve.radius) if isinstance(curve, Circle) else curve
+
+
+def _page_box(root: Node, to: Affine, view: Viewport) -> Box | None:
+    """Return what the page shows, mm; None where it has no size."""
+    given = root.attributes.get("viewBox")
+    box = view_box(given) if given else ViewBox(0.0, 0.0, *view)
+    if not (box.width > 0 and box.height > 0):
+        return None
+    (x0, y0), (x1, y1) = to.point((box.x, box.y)), to.point((box.x + box.width, box.y + box.height))
+    return (min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1))
+
+
+def _box_of(curves: list[Curve]) -> Box | None:
+    """Return a box that holds some curves, as wide as their handles and circles; None where one has no place."""
+    places: list[Point] = []
+    for curve in curves:
+        if isinstance(curve, Line):
+            places += (curve.start, curve.end)
+        elif isinstance(curve, Spline):
+            places += curve.control_points
+        else:
+            (x, y), reach = curve.centre, math.hypot(*curve.major) if isinstance(curve, Ellipse) else curve.radius
+            places += ((x - reach, y - reach), (x + reach, y + reach))
+    xs, ys = zip(*places, strict=True)
+    box = min(xs), min(ys), max(xs), max(ys)
+    return box if all(map(math.isfinite, (*box, sum(xs), sum(ys)))) else None
+
+
+def _covers(box: Box | None, page: Box | None) -> bool:
+    """Tell whether a box holds all of a page, but for a little."""
+    if box is None or page is None:
+        return False
+    spare = _GROUND * max(page[2] - page[0], page[3] - page[1])
+    return all(box[k] <= page[k] + spare and box[k + 2] >= page[k + 2] - spare for k in (0, 1))
+
+
+def _apart(box: Box | None, page: Box | None) -> bool:
+    """Tell whether a box has nothing in common with a page."""
+    if box is None or page is None:
+        return False
+    return any(box[k] > page[k + 2] or box[k + 2] < page[k] for k in (0, 1))
 
 
 def _is_point(curve: Curve) -> bool:
