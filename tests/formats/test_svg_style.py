@@ -133,6 +133,12 @@ def test_rules_that_cannot_be_followed_are_told() -> None:
     )
 
 
+def test_a_style_sheet_in_another_file_is_told() -> None:
+    data = f'<?xml version="1.0"?>\n<?xml-stylesheet href="a.css"?>\n<svg {PAGE}>{RIM}</svg>'.encode()
+    (found,) = read_drawing("a.svg", data).findings
+    assert found.counts and 'xml-stylesheet href="a.css"' in found.text
+
+
 def test_a_rule_that_only_paints_does_not_count() -> None:
     data = f"<svg {PAGE}><style>rect:nth-child(2){{fill:red}}</style>{RIM}</svg>".encode()
     (found,) = read_drawing("a.svg", data).findings

@@ -176,8 +176,8 @@ class StyleSheet:
     def __init__(self, root: Node) -> None:
         self._rules: dict[str, list[_StyleRule]] = defaultdict(list)
         self._parents: dict[int, Node] = {}
-        self.unread: list[str] = []
-        self.unread_hides = False
+        self.unread: list[str] = [" ".join(written.split()) for written in root.outer_sheets]
+        self.unread_hides = bool(self.unread)
         self._count = 0
         for node in root.every():
             if node.tag == "style" and is_on_screen(node.attributes.get("media", "")):
