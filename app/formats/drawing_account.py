@@ -32,26 +32,16 @@ MOVE = (
     "done on reading"
 )
 _GONE = {True: "is missing from the part", False: "are missing from the part"}
-_SHAPES = frozenset(
-    {
-        "INSERT of a missing block",
-        "INSERT of an external drawing",
-        "use of what is not in the file",
-        "REGION",
-        "3DSOLID",
-        "BODY",
-        "SURFACE",
-        "EXTRUDEDSURFACE",
-        "LOFTEDSURFACE",
-        "REVOLVEDSURFACE",
-        "SWEPTSURFACE",
-        "PLANESURFACE",
-        "NURBSURFACE",
-        "MPOLYGON",
-        "ACAD_PROXY_ENTITY",
-    }
-)
-"""What CAD programs show with outlines that are not read: a part of the drawing, and not of what is said about it."""
+PAPER = "paper space entity"
+_SAYING = """
+    ATTDEF ATTRIB ACAD_TABLE ARC_DIMENSION DIMENSION LARGE_RADIAL_DIMENSION LEADER MLEADER MULTILEADER TOLERANCE RTEXT
+    POINT RAY XLINE IMAGE WIPEOUT OLEFRAME OLE2FRAME PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY VIEWPORT LIGHT SUN CAMERA
+    SECTIONOBJECT GEOPOSITIONMARKER POSITIONMARKER image foreignObject video audio iframe canvas
+"""
+_NO_SHAPES = frozenset([*_SAYING.split(), PAPER])
+"""What says or shows something of the drawing, and is no part of it. All else has outlines for whoever sees it, also
+what nobody here has heard of.
+"""
 _COUNTABLE = 1e10
 """mm; beyond, neighbouring doubles are further apart than WELD, so that no shape is left to be moved."""
 
@@ -316,7 +306,7 @@ def switched_off(part: Part, requested: tuple[str, ...]) -> Iterator[Finding]:
 
 def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
     """Count what is no curve, by type, and what cannot be drawn or is elsewhere, which is missing from the part."""
-    absent = Counter({kind: count for kind, count in left_out.items() if kind in _SHAPES})
+    absent = Counter({kind: count for kind, count in left_out.items() if _is_shape(kind)})
     if absent:
         text = (
             f"{listed(absent, 'Missing from the part: ')}, whose outlines are not in the file or cannot be read; bind "
@@ -332,6 +322,13 @@ def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
         yield remark(
             f"{listed(left_out - damaged, 'Left out: ')}.{_remedy(left_out)}", float((left_out - damaged).total())
         )
+
+
+def _is_shape(kind: str) -> bool:
+    """Tell whether what is left out is a part of the drawing; kinds that end with a bracket say why they are not, or
+    that they are damaged.
+    """
+    return kind not in _NO_SHAPES and not kind.endswith(")")
 
 
 def _remedy(left_out: Counter[str]) -> str:

@@ -21,6 +21,8 @@ from . import even_odd_kernels
 
 Floats = NDArray[np.float64]
 
+Flags = NDArray[np.bool_]
+
 
 @dataclass(frozen=True)
 class EvenOddMeasure:
@@ -108,10 +110,10 @@ def _rising_arcs(arcs: Sequence[Arc | Circle], centre: Floats) -> tuple[Floats, 
     swapped = hits[:, 0] > hits[:, 1]
     hits[swapped], tops[swapped] = hits[swapped, ::-1], tops[swapped, ::-1]
     whole = np.abs(sweep)
-    there = (hits > 0) & (hits < whole[:, None])
-    angles = np.column_stack([np.zeros(len(arcs)), np.where(there, hits, whole[:, None]), whole])
-    y = np.column_stack([start[:, 1], np.where(there, tops, end[:, [1]]), end[:, 1]])
-    x = np.column_stack([start[:, 0], np.where(there, middle[:, [0]], end[:, [0]]), end[:, 0]])
+    begun, over = hits <= 0, hits >= whole[:, None]  # an arc that begins at its top is cut at its bottom alone
+    angles = np.column_stack([np.zeros(len(arcs)), np.minimum(hits, whole[:, None]), whole])
+    y = np.column_stack([start[:, 1], _where(begun, start[:, 1], over, end[:, 1], tops), end[:, 1]])
+    x = np.column_stack([start[:, 0], _where(begun, start[:, 0], over, end[:, 0], middle[:, [0]]), end[:, 0]])
     found = []
     for k in range(3):
         right = np.cos(first + turn * (angles[:, k] + angles[:, k + 1]) / 2) >= 0
@@ -119,6 +121,12 @@ def _rising_arcs(arcs: Sequence[Arc | Circle], centre: Floats) -> tuple[Floats, 
             np.column_stack([y[:, k], y[:, k + 1], x[:, k], x[:, k + 1], middle, np.where(right, radius, -radius)])
         )
     return np.concatenate(found), np.tile(np.arange(len(arcs)), 3), float((whole * radius).sum())
+
+
+def _where(begun: Flags, first: Floats, over: Flags, last: Floats, between: Floats) -> Floats:
+    """Return (n, 2) the first value (n,) where a cut lies before an arc, the last one where it lies behind it."""
+    inner: Floats = np.where(over, last[:, None], between)
+    return np.where(begun, first[:, None], inner)
 
 
 def _turning(out: Floats, back: Floats, arcs: Sequence[Arc | Circle]) -> tuple[Floats, Floats, Floats]:

@@ -244,8 +244,9 @@ def test_what_is_left_out_is_counted() -> None:
     drawing = read(draw)
     expected = {"3DFACE": 1, "LINE (invisible)": 1, "paper space entity": 1}
     assert dict(drawing.left_out) == expected
-    (found,) = drawing.findings
-    assert found.kind is FindingKind.LEFT_OUT and not found.counts and "1 3DFACE" in found.text
+    missing, found = drawing.findings
+    assert missing.kind is FindingKind.LEFT_OUT and missing.counts and "1 3DFACE" in missing.text
+    assert found.kind is FindingKind.LEFT_OUT and not found.counts and "1 LINE (invisible)" in found.text
     assert [(note.id, note.shape) for note in drawing.part.notes] == [(2, Mark((0.0, 0.0))), (3, Mark((1.0, 0.0)))]
 
 

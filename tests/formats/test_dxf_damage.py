@@ -53,6 +53,17 @@ def test_least_dxf_of_old() -> None:
         assert drawing.part.entities[0].curve.end == (5, 7) and not drawing.units_named
 
 
+def test_every_section_of_entities_is_read() -> None:
+    def section(name: str, *corners: str) -> list[str]:
+        lines = [each for y in corners for each in ("0", "LINE", "8", "0", "10", "0", "20", y, "11", "5", "21", y)]
+        return ["0", "SECTION", "2", name, *lines, "0", "ENDSEC"]
+
+    lines = [*section("ENTITIES", "1", "2"), *section("OBJECTS"), *section("ENTITIES", "3"), "0", "EOF", ""]
+    for newline in ("\n", "\r\n"):
+        part = read_dxf(newline.join(lines).encode(), "parts.dxf").part
+        assert [entity.curve.start[1] for entity in part.entities] == [1, 2, 3]
+
+
 def test_binary_dxf() -> None:
     document = ezdxf.new("R2010")
     document.header["$INSUNITS"] = 1

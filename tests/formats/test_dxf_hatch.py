@@ -46,6 +46,32 @@ def test_a_hatch_with_a_hole_is_two_outlines_and_said() -> None:
     assert not found.counts
 
 
+@pytest.mark.parametrize("kind", ["SOLID", "TRACE"])
+def test_a_solid_is_an_outline_and_said(kind: str) -> None:
+    """Its last two corners stand in each other's place; seen from below it is mirrored."""
+    document = new()
+    corners = [(0, 0), (40, 0), (0, 30), (40, 30)]
+    add = document.modelspace().add_solid if kind == "SOLID" else document.modelspace().add_trace
+    add(corners, {"layer": "fill", "extrusion": (0, 0, -1)})
+    add([(-60, 0), (-70, 0), (-60, 10), (-60, 10)])
+    drawing = read(document)
+    assert area(drawing) == pytest.approx(40 * 30 + 50)
+    assert min(entity.curve.start[0] for entity in drawing.part.entities) == -70
+    assert [entity.layer for entity in drawing.part.entities] == ["fill"] * 4 + ["0"] * 3
+    found = telling(drawing, "hatch")
+    assert found.text == (
+        f"2 boundaries of hatches are read as outlines to machine; leave them out with --skip-type {kind}."
+    )
+
+
+def test_a_solid_that_fills_what_is_drawn_is_not_taken_twice() -> None:
+    document = new()
+    document.modelspace().add_lwpolyline([(0, 0), (40, 0), (40, 30), (0, 30)], close=True)
+    document.modelspace().add_solid([(0, 0), (40, 0), (0, 30), (40, 30)])
+    drawing = read(document)
+    assert len(drawing.part.entities) == 4 and "not taken twice" in telling(drawing, "hatch").text
+
+
 def test_bulges_are_arcs() -> None:
     drawing = read(hatched([(0, 0, 1), (10, 0, 1)]))
     assert area(drawing) == pytest.approx(25 * math.pi)

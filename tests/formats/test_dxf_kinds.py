@@ -8,6 +8,7 @@ import math
 
 import pytest
 
+from app.formats.readers import read_drawing
 from app.model.curves import Line, Spline
 from tests.formats.test_dxf_foreign import new, plate, read, telling
 
@@ -58,6 +59,26 @@ def test_a_missing_block_and_a_region_are_missing_from_the_part() -> None:
     document.modelspace().add_region().sat = ["700 1 1 0", "End-of-ACIS-data"]
     found = telling(read(document), LOST)
     assert found.counts and found.text.startswith("Missing from the part: 1 INSERT of a missing block, 1 REGION,")
+
+
+@pytest.mark.parametrize("kind", ["3DFACE", "SHAPE", "line", "AECC_WALL"])
+def test_what_nobody_here_has_heard_of_is_missing_from_the_part(kind: str) -> None:
+    lines = ["0", kind, "8", "0", "10", "0", "20", "0", "11", "5", "21", "0"]
+    line = ["0", "LINE", "8", "0", "10", "0", "20", "0", "11", "5", "21", "7"]
+    data = "\n".join(["0", "SECTION", "2", "ENTITIES", *lines, *line, "0", "ENDSEC", "0", "EOF", ""]).encode()
+    drawing = read_drawing("x.dxf", data)
+    found = telling(drawing, LOST)
+    assert len(drawing.part.entities) == 1 and found.counts and f"1 {kind}," in found.text
+
+
+def test_meshes_are_missing_from_the_part_and_dimensions_are_not() -> None:
+    document = new()
+    plate(document.modelspace())
+    document.modelspace().add_polyface().append_face([(0, 0, 0), (1, 0, 0), (1, 1, 0)])
+    document.modelspace().add_linear_dim((0, 5), (0, 0), (10, 0)).render()
+    drawing = read(document)
+    assert "1 POLYLINE," in telling(drawing, LOST).text
+    assert [each.text for each in drawing.findings if not each.counts] == ["Left out: 1 DIMENSION."]
 
 
 def test_curves_in_line_types_of_centre_lines_are_told() -> None:

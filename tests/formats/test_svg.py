@@ -350,7 +350,28 @@ def test_what_is_left_out_is_counted() -> None:
         "shape of unreadable length": 1,
         "curve beyond 1 km or without a place": 1,
     }
-    assert "2 text" in drawing.findings[-1].text and not drawing.findings[-1].counts
+    assert "1 image" in drawing.findings[-1].text and not drawing.findings[-1].counts
+
+
+@pytest.mark.parametrize(
+    ("body", "told"),
+    [
+        ("<text>Ab c</text>", 'The text "Ab c" in line 1 is missing from the part; turn it into a path in the editor.'),
+        (
+            '<g><text>A<tspan>b</tspan></text>\n<text><textPath href="#p">cde</textPath></text></g>',
+            '2 texts of 5 letters in all, the first "A b" in line 1, are missing from the part; turn them into paths',
+        ),
+        (f"<text>{'x' * 50}</text>", f'The text "{"x" * 40}…" in line 1 is missing'),
+    ],
+)
+def test_texts_that_are_seen_are_missing_from_the_part(body: str, told: str) -> None:
+    (found,) = [each for each in read(body + '<circle r="2"/>').findings if "missing" in each.text]
+    assert found.counts and found.text.startswith(told)
+
+
+@pytest.mark.parametrize("text", ["<text> </text>", '<text display="none">A</text>', '<text fill="none">A</text>'])
+def test_texts_that_nobody_sees_are_not_missing(text: str) -> None:
+    assert not [each for each in read(text + '<circle r="2"/>').findings if each.counts]
 
 
 def test_style_sheets_decide_what_is_seen() -> None:
@@ -403,11 +424,6 @@ def test_a_path_that_ends_where_it_began_but_for_rounding_is_closed_without_more
     drawing = read('<path stroke="red" d="M0.1 0.2l0.1 0 0 0.1-0.1 0 0-0.1z"/>')
     assert len(drawing.part.entities) == 4 and not drawing.findings
     assert read('<circle r="1"/><path stroke="red" d="M5 5l1e-9 0 0 1e-9"/>').findings[0].amount == 1
-
-
-def test_a_clip_is_told() -> None:
-    drawing = read('<g clip-path="url(#a)"><circle r="2"/></g><circle r="3" mask="none"/>')
-    assert len(drawing.part.entities) == 2 and drawing.findings[0].amount == 1 and "clipped" in drawing.findings[0].text
 
 
 def test_inkscapes_layers() -> None:

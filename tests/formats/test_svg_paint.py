@@ -119,3 +119,37 @@ def test_transforms_about_a_named_place(origin: str, x: float, y: float) -> None
 def test_a_transform_about_the_shape_itself_is_refused() -> None:
     with pytest.raises(InputError, match="a transform about 'center' cannot be read"):
         read('<rect width="9" height="9" style="transform:scale(2);transform-origin:center;transform-box:fill-box"/>')
+
+
+MOVED = 'width="100mm" height="50mm" viewBox="-10 0 200 100" xmlns="http://www.w3.org/2000/svg"'
+GROUND = '<rect x="-10" width="100%" height="100%" fill="{}"/>'
+
+
+@pytest.mark.parametrize("fill", ["white", "#FFF", "rgb(255,255,255)"])
+def test_the_white_ground_of_a_page_is_no_outline(fill: str) -> None:
+    drawing = read(f'{GROUND.format(fill)}<circle cx="9" cy="9" r="4"/>', MOVED)
+    assert len(drawing.part.entities) == 1
+    assert dict(drawing.left_out) == {"shape (white ground of the page)": 1}
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        GROUND.format("white"),
+        GROUND.format("black") + "<g/>",
+        GROUND.format('white" stroke="red'),
+        GROUND.format('white" transform="scale(0.9)'),
+    ],
+)
+def test_other_areas_as_large_as_the_page_are_read(body: str) -> None:
+    more = '<circle cx="9" cy="9" r="4"/>' if body != GROUND.format("white") else ""
+    drawing = read(body + more, MOVED)
+    told = [each for each in drawing.findings if "as large as the page" in each.text]
+    assert len(drawing.part.entities) == 4 + bool(more) and len(told) == ("black" in body)
+
+
+def test_shapes_beyond_the_page_are_told() -> None:
+    body = '<circle cx="9" cy="9" r="4"/><circle cx="-15" cy="9" r="4"/><circle cx="9" cy="120" r="4"/>'
+    drawing = read(body + '<circle cx="190" cy="99" r="4"/>', MOVED)
+    (found,) = [each for each in drawing.findings if "beyond the page" in each.text]
+    assert len(drawing.part.entities) == 4 and found.amount == 2 and not found.counts

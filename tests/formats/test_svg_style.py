@@ -55,6 +55,22 @@ def test_what_a_variable_or_an_important_rule_hides_is_not_read(body: str) -> No
     assert curves(body + RIM) == [Circle((40, 25), 5)]
 
 
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<style>rect:not(.a):not([id]){display:none}</style><rect class="b" width="9" height="9"/>',
+        '<style>[id^="ab"]{display:none}</style><rect id="abc" width="9" height="9"/>',
+        '<style>[id$=bc]{display:none}</style><rect id="abc" width="9" height="9"/>',
+        '<style>[id*="b"]{display:none}</style><rect id="abc" width="9" height="9"/>',
+        '<style>[class~="x"]{display:none}</style><rect class="z x" width="9" height="9"/>',
+        '<style>[id|="a"]{display:none}</style><rect id="a-b" width="9" height="9"/>',
+        '<rect style="DISPLAY:None" width="9" height="9"/>',
+    ],
+)
+def test_what_closer_selectors_hide_is_not_read(body: str) -> None:
+    assert curves(body + RIM) == curves(RIM)
+
+
 @pytest.mark.parametrize("value", ["var(--not-set)", "var(--a)", "var(", "none;display:inline"])
 def test_a_variable_without_a_value_says_nothing(value: str) -> None:
     assert len(curves(f'<g style="--a:var(--a)"><rect style="display:{value}" width="9" height="9"/></g>')) == 4
@@ -94,7 +110,12 @@ def test_places_and_sizes_may_stand_in_a_style(body: str) -> None:
         '<style media="print">rect{display:none}</style><rect width="9" height="9"/>',
         '<style>@media (prefers-color-scheme: dark){rect{fill:none}}</style><rect width="9" height="9"/>',
         '<style>@keyframes a{from{opacity:0} to{opacity:1}}</style><rect width="9" height="9"/>',
+        '<style>rect:not(.a){display:none}</style><rect class="a" width="9" height="9"/>',
+        '<style>[id^="b"],[id$="b"],[id*="bb"],[class~="x"],[id|="a"]{display:none}</style>'
+        '<rect id="abc" class="xy z" width="9" height="9"/>',
         '<rect fill="rgb(0,0,0)" width="9" height="9"/>',
+        '<g visibility="hidden"><rect visibility="initial" width="9" height="9"/></g>',
+        '<rect visibility="no such word" width="9" height="9"/>',
         '<rect fill="rgba(0,0,0,0.5)" width="9" height="9"/>',
         '<rect fill="#1230" stroke="#000" width="9" height="9"/>',
     ],
@@ -106,10 +127,22 @@ def test_what_no_rule_hides_is_read(body: str) -> None:
 def test_rules_that_cannot_be_followed_are_told() -> None:
     styles = "<style>circle + rect, rect:nth-child(2){display:none} text:first-child{font-size:3px}</style>"
     data = f"<svg {PAGE}>{styles}{RIM}</svg>".encode()
-    told = [each.text for each in read_drawing("a.svg", data, None, (), DrawingOptions()).findings]
-    assert told == [
+    (found,) = read_drawing("a.svg", data, None, (), DrawingOptions()).findings
+    assert found.counts and found.text == (
         "2 rules of the style sheet cannot be followed, the first for circle + rect; check that nothing hidden is read."
-    ]
+    )
+
+
+def test_a_style_sheet_in_another_file_is_told() -> None:
+    data = f'<?xml version="1.0"?>\n<?xml-stylesheet href="a.css"?>\n<svg {PAGE}>{RIM}</svg>'.encode()
+    (found,) = read_drawing("a.svg", data).findings
+    assert found.counts and 'xml-stylesheet href="a.css"' in found.text
+
+
+def test_a_rule_that_only_paints_does_not_count() -> None:
+    data = f"<svg {PAGE}><style>rect:nth-child(2){{fill:red}}</style>{RIM}</svg>".encode()
+    (found,) = read_drawing("a.svg", data).findings
+    assert not found.counts and "rect:nth-child(2)" in found.text
 
 
 def test_a_rule_for_some_windows_alone_is_told() -> None:

@@ -108,7 +108,15 @@ def svg() -> tuple[bytes, ...]:
         b'<rect class="a" x="10%" y="1rem" height="2ex" rx="1ch"/><circle cx="50%" cy="3em" r="calc(5% + 1mm)"/>'
         b"</g></svg>"
     )
-    return (RICH.encode(), lengths, *_files(DATA / "svg", "*.svg"))
+    clips = (
+        b'<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="40mm" viewBox="0 0 40 40">'
+        b'<rect width="100%" height="100%" fill="white"/><clipPath id="c" clip-rule="evenodd"><path d="M0 0h9v9h-9z'
+        b'M2 2h3v3h-3z" transform="rotate(9)"/><use href="#d"/></clipPath><mask id="m" style="mask-type:alpha">'
+        b'<g fill="#777"><circle id="d" cx="9" cy="9" r="7"/></g></mask><style>g:not([id^="x"]){fill:red}</style>'
+        b'<g clip-path="url(#c)"><path d="M1 1h20v20z" mask="url(#m)"/></g><svg x="9" width="9" height="9">'
+        b'<rect width="20" height="5"/></svg><text>A<tspan>b</tspan></text></svg>'
+    )
+    return (RICH.encode(), lengths, clips, *_files(DATA / "svg", "*.svg"))
 
 
 @cache

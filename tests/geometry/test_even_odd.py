@@ -11,7 +11,7 @@ import shapely
 from app.geometry.even_odd import even_odd
 from app.geometry.outlines import reversed_contour
 from app.geometry.primitives import contour_rows, sample
-from app.model.curves import Arc, Line
+from app.model.curves import Arc, Line, Point
 from app.model.part import Contour
 from tests.geometry.meeting_shapes import Pose, box, disc, rounded, slot
 from tests.part_shapes import random_part
@@ -39,6 +39,17 @@ ONE = [
 @pytest.mark.parametrize("turned", [False, True])
 def test_one_shape(shape: Contour, area: float, turned: bool) -> None:
     assert even_odd([reversed_contour(shape) if turned else shape]).area == pytest.approx(area, abs=1e-11)
+
+
+@pytest.mark.parametrize("first", [(0.0, 10.0), (0.0, -10.0), (10.0, 0.0)])
+@pytest.mark.parametrize("ccw", [True, False])
+def test_an_arc_of_three_quarters_that_begins_at_the_top_or_the_bottom(first: Point, ccw: bool) -> None:
+    """A corner of a keyhole: three quarters of a disc of radius 10, and a square of 10 in the fourth."""
+    x, y = first
+    last = (y, -x) if ccw else (-y, x)
+    corner = (first[0] + last[0], first[1] + last[1])
+    keyhole = Contour((Arc(first, last, (0, 0), ccw), Line(last, corner), Line(corner, first)))
+    assert even_odd([keyhole]).area == pytest.approx(75 * math.pi + 100)
 
 
 @pytest.mark.parametrize("gap", [0.0, 1e-9, 0.3, 7.0, 11.0, 13 - 1e-9, 13.0, 13 + 1e-9, 20.0])

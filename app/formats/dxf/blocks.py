@@ -27,10 +27,12 @@ from .curves import (
     widths_of,
 )
 from .fonts import Fonts
-from .hatch import Hatch, bounding_alone, hatch_of
+from .hatch import Hatch, bounding_alone, hatch_of, solid_of
 from .letters import LeftOutError, TextCurves
 
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
+_FILLED = {"HATCH": hatch_of, "SOLID": solid_of, "TRACE": solid_of}
+"""Areas that CAD programs show filled."""
 
 DEEPEST = 64
 """Blocks nested deeper than this are refused."""
@@ -249,7 +251,7 @@ class DxfWalker:
 
     def _draw(self, entity: Any, kind: str, content: DxfContent) -> None:
         try:
-            made = self._letterings(entity, kind) if kind in _TEXTS else [hatch_of(entity)] if kind == "HATCH" else []
+            made = self._letterings(entity, kind) if kind in _TEXTS else _filled(entity, kind)
             curves = [] if made else curves_of(entity)
         except NoLengthError as nothing:
             content.without_length.append(nothing.args[0])
@@ -423,6 +425,10 @@ class DxfWalker:
             )
 
 
+def _filled(entity: Any, kind: str) -> list[Hatch]:
+    return [_FILLED[kind](entity)] if kind in _FILLED else []
+
+
 def _origins(insert: Any) -> list[Point]:
     return [place.point((0.0, 0.0)) for place in _places(insert)[:1]]
 
@@ -459,13 +465,14 @@ class DrawnCurves:
         curves: drawing units.
         strokes: so many of the last ones are strokes of letters.
         boundaries: of hatches on layers that are machined; `repeated` of them lie on drawn curves and are none of
-            these.
+            these. kinds: types of these hatches.
     """
 
     curves: tuple[LayeredCurve, ...]
     strokes: int
     boundaries: int
     repeated: int
+    kinds: tuple[str, ...] = ()
 
 
 def all_drawn(content: DxfContent, machined: Callable[[str], bool], size: float) -> DrawnCurves:
@@ -483,7 +490,8 @@ def all_drawn(content: DxfContent, machined: Callable[[str], bool], size: float)
     ]
     outlines = [LayeredCurve(curve, each.layer) for each in content.letterings for curve in each.outlines]
     strokes = [LayeredCurve(curve, each.layer) for each in content.letterings for curve in each.strokes]
-    return DrawnCurves((*content.curves, *kept, *outlines, *strokes), len(strokes), len(rings), len(rings) - sum(new))
+    curves, kinds = (*content.curves, *kept, *outlines, *strokes), tuple(dict.fromkeys(each.kind for each in shown))
+    return DrawnCurves(curves, len(strokes), len(rings), len(rings) - sum(new), kinds)
 
 
 def _all(hatch: Hatch) -> list[Curve]:

@@ -62,6 +62,8 @@ def heights_of(entity: Any) -> Iterable[float]:
         return (entity.dxf.elevation.z * entity.dxf.extrusion.z,)
     if kind in ("TEXT", "ATTRIB", "MTEXT"):
         return (entity.dxf.insert.z * (1.0 if kind == "MTEXT" else entity.dxf.extrusion.z),)
+    if kind in ("SOLID", "TRACE"):
+        return (entity.dxf.vtx0.z * entity.dxf.extrusion.z,)
     return (entity.dxf.center.z * entity.dxf.extrusion.z,) if kind in ("ARC", "CIRCLE") else (entity.dxf.center.z,)
 
 

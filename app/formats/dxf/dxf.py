@@ -22,6 +22,7 @@ from ...model.reading import ReadingOptions
 from ..drawing import Drawing, LeftOutKind
 from ..drawing_account import (
     MOVE,
+    PAPER,
     CurveHeights,
     LayeredCurve,
     UsableCurves,
@@ -59,7 +60,7 @@ from .findings import (
     text_findings,
 )
 from .letters import TextCurves
-from .load import PAPER, layout_named, load, paper
+from .load import layout_named, load, paper
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     1: (25.4, Units.INCH),

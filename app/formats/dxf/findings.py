@@ -237,4 +237,5 @@ def hatch_findings(drawn: DrawnCurves) -> Iterator[Finding]:
             how = f"{what} drawn as curves too, and not taken twice"
         else:
             how = f"{what} read as outlines to machine, but for {drawn.repeated} drawn as curves too"
-        yield remark(f"{how}; leave them out with --skip-type HATCH.", float(new))
+        out = " ".join(f"--skip-type {kind}" for kind in drawn.kinds)
+        yield remark(f"{how}; leave them out with {out}.", float(new))

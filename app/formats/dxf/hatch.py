@@ -26,10 +26,11 @@ _LINE, _ARC, _ELLIPSE = 1, 2, 3
 
 @dataclass(frozen=True, slots=True)
 class Hatch:
-    """The boundaries of a hatch, each a ring of curves, drawing units."""
+    """The boundaries of a hatch, or of another filled area, each a ring of curves, drawing units; `kind`: its type."""
 
     boundaries: tuple[tuple[Curve, ...], ...]
     layer: str = "0"
+    kind: str = "HATCH"
 
     @property
     def size(self) -> int:
@@ -63,6 +64,18 @@ def hatch_of(entity: Any) -> Hatch:
     if not any(rings):
         raise NoLengthError(None)
     return Hatch(tuple(ring for ring in rings if ring), layer)
+
+
+def solid_of(entity: Any) -> Hatch:
+    """Return the outline of a SOLID or a TRACE, a filled area whose last two corners stand in each other's place.
+
+    Raises:
+        NoLengthError: all its corners are one.
+    """
+    places = [entity.dxf.get(f"vtx{k}", entity.dxf.vtx2) for k in (0, 1, 3, 2)]
+    outline = segments_of([((float(place.x), float(place.y)), 0.0) for place in places], True)
+    ring = placed_in(entity, float(entity.dxf.vtx0.z), outline)
+    return Hatch((tuple(ring),), entity.dxf.layer, entity.dxftype())
 
 
 def _ring(path: Any) -> list[Curve]:

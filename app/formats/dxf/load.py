@@ -21,6 +21,12 @@ _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 
 _SECTION = re.compile(rb"^\s*0[ \t]*\r?[\n\r][ \t]*SECTION", re.MULTILINE)
 
+_ENTITIES = re.compile(
+    rb"^[ \t]*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n[ \t]*2[ \t]*\r?\n[ \t]*ENTITIES[ \t]*\r?\n", re.MULTILINE
+)
+_SECTION_END = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*ENDSEC[ \t]*\r?\n", re.MULTILINE)
+_FILE_END = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*EOF\b", re.MULTILINE)
+
 _CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*3[ \t]*\r?\n[ \t]*(\S+)")
 
 _VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*1[ \t]*\r?\n[ \t]*(AC\d+)")
@@ -66,6 +72,7 @@ def load(data: bytes, name: str) -> LoadedDocument:
         InputError: the data is empty, no DXF, cut short, or damaged beyond repair; or a number in it is none.
     """
     _refuse_others(data, name)
+    data = _with_one_section(data)
     try:
         return LoadedDocument(_probed(_load_sound(data)))
     except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
@@ -110,6 +117,25 @@ def _refuse_others(data: bytes, name: str) -> None:
             "again."
         )
     _refuse_endless_curves(data, name)
+
+
+def _with_one_section(data: bytes) -> bytes:
+    """Return a file with the entities of all its sections of them in the first one: the library keeps one alone."""
+    begins = list(_ENTITIES.finditer(data)) if data.count(b"ENTITIES") > 1 else []
+    if len(begins) > 1:
+        file_end = _FILE_END.search(data, begins[0].end())
+        begins = [each for each in begins if file_end is None or each.start() < file_end.start()]
+    ends = [_SECTION_END.search(data, begin.end()) for begin in begins]
+    sections = [(begin, end) for begin, end in zip(begins, ends, strict=True) if end is not None]
+    if len(sections) < 2:
+        return data
+    parts = [data[: sections[0][0].end()], *(data[begin.end() : end.start()] for begin, end in sections)]
+    first, *others = sections
+    at = first[1].start()
+    for begin, end in others:
+        parts.append(data[at : begin.start()])
+        at = end.end()
+    return b"".join([*parts, data[at:]])
 
 
 def _refuse_endless_curves(data: bytes, name: str) -> None:
@@ -240,9 +266,6 @@ def _typeface(*arguments: Any, **options: Any) -> Any:
 
 
 # Model space and the layouts of a DXF: which one is read, and what lies in the others.
-
-
-PAPER = "paper space entity"
 
 
 def layout_named(document: Any, layout: str, name: str) -> Any:

@@ -10,11 +10,15 @@ from ..drawing_account import remark
 from .strokes import BroadOutline
 from .walk import SvgContent
 
+_QUOTED = 40
+"""Letters of a text that are told."""
+
 
 def reading_findings(content: SvgContent) -> Iterator[Finding]:
     """Say what is damaged, missing, or read by a guess."""
     yield from _faults(content)
     yield from _unread(content)
+    yield from _texts(content)
     yield from _of_fonts(content)
 
 
@@ -23,6 +27,7 @@ def paint_findings(content: SvgContent) -> Iterator[Finding]:
     yield from _clipped(content)
     yield from _unfollowed(content)
     yield from _within(content)
+    yield from _beyond(content)
     for layer in content.painted.layers:
         yield _broad([each for each in content.painted.broad if each.layer == layer])
     yield from _details(content)
@@ -47,6 +52,26 @@ def _within(content: SvgContent) -> Iterator[Finding]:
         yield remark(
             f"{what} within the area that the path paints (fill-rule: nonzero) and cannot be seen; left out.",
             float(content.within),
+        )
+
+
+def _beyond(content: SvgContent) -> Iterator[Finding]:
+    if content.beyond:
+        yield remark(
+            "1 shape lies wholly beyond the page, where viewers show nothing; it is read like any other."
+            if content.beyond == 1
+            else f"{content.beyond} shapes lie wholly beyond the page, where viewers show nothing; they are read like "
+            "any other.",
+            float(content.beyond),
+        )
+    if content.page_wide:
+        yield remark(
+            "1 area without an outline is as large as the page and read like any other; where it is but the ground of "
+            "the picture, delete it."
+            if content.page_wide == 1
+            else f"{content.page_wide} areas without an outline are as large as the page and read like any other; "
+            "where they are but the ground of the picture, delete them.",
+            float(content.page_wide),
         )
 
 
@@ -105,6 +130,21 @@ def _unread(content: SvgContent) -> Iterator[Finding]:
         )
 
 
+def _texts(content: SvgContent) -> Iterator[Finding]:
+    """Say which texts are missing, and how many letters."""
+    if content.texts:
+        first, count = content.texts[0], len(content.texts)
+        letters = sum(len("".join(each.words.split())) for each in content.texts)
+        words = first.words if len(first.words) <= _QUOTED else f"{first.words[:_QUOTED]}…"
+        text = (
+            f'The text "{words}" in line {first.line} is missing from the part; turn it into a path in the editor.'
+            if count == 1
+            else f'{count} texts of {letters} letters in all, the first "{words}" in line {first.line}, are missing '
+            "from the part; turn them into paths in the editor."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(count))
+
+
 def _of_fonts(content: SvgContent) -> Iterator[Finding]:
     """Say that lengths were read that depend on a font."""
     if content.of_font:
@@ -118,18 +158,22 @@ def _of_fonts(content: SvgContent) -> Iterator[Finding]:
 
 def _clipped(content: SvgContent) -> Iterator[Finding]:
     if content.clipped:
-        yield remark(
-            f"{content.clipped} {'curve is' if content.clipped == 1 else 'curves are'} clipped or masked in the "
-            "drawing; all of it is read.",
-            float(content.clipped),
+        what = "1 shape is" if content.clipped == 1 else f"{content.clipped} shapes are"
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{what} cut by a clip, a mask or the edge of a symbol, and read whole, so that the part differs from the "
+            "picture; cut the paths themselves in the editor, or take the clip away.",
+            amount=float(content.clipped),
         )
 
 
 def _unread_rules(content: SvgContent) -> Iterator[Finding]:
     if content.unread_rules:
         count, first = len(content.unread_rules), content.unread_rules[0][:60]
-        yield remark(
+        yield Finding(
+            FindingKind.LEFT_OUT,
             f"{count} {'rule' if count == 1 else 'rules'} of the style sheet cannot be followed, the first for "
             f"{first}; check that nothing hidden is read.",
-            float(count),
+            counts=content.rules_hide,
+            amount=float(count),
         )

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.sample import sample
-from ...model.curves import Curve
+from ...model.curves import Curve, Line
 
 Floats = NDArray[np.float64]
 
@@ -21,6 +21,13 @@ _MOST_RUNS = 20_000
 """Of a path; each is compared with the boxes of all others, and of more than these all are taken for borders."""
 _BESIDE = 1e-4
 """How far beside a chord, in its length."""
+
+
+def closed_by_line(run: list[Curve]) -> list[Curve]:
+    """Return the outline of what a fill paints: an open run is closed by a line, unless it is but one line itself."""
+    if not run or run[0].start == run[-1].end or (len(run) == 1 and isinstance(run[0], Line)):
+        return run
+    return [*run, Line(run[-1].end, run[0].start)]
 
 
 def bounding(runs: list[list[Curve]]) -> list[list[Curve]]:

@@ -15,7 +15,8 @@ from .xml import Node
 
 _SIMPLE = re.compile(
     r"(?P<any>\*)|(?P<type>[\w-]+)|\.(?P<class>[\w-]+)|#(?P<id>[\w-]+)|(?P<root>:root)\b"
-    r"|\[(?P<key>[\w-]+)(?:=(?:\"(?P<a>[^\"]*)\"|'(?P<b>[^']*)'|(?P<c>[\w-]+)))?\]"
+    r"|\[(?P<key>[\w-]+)(?:(?P<how>[~|^$*]?)=(?:\"(?P<a>[^\"]*)\"|'(?P<b>[^']*)'|(?P<c>[\w-]+)))?\]"
+    r"|:not\((?P<not>[^()\s]+)\)"
 )
 _COMPOUNDS = re.compile(r"\s*(>)\s*|\s+")
 MOST_PARTS = 20
@@ -36,21 +37,41 @@ class Specificity(NamedTuple):
         return Specificity(self.ids + other.ids, self.classes + other.classes, self.types + other.types)
 
 
+class _Asked(NamedTuple):
+    """What is asked of an attribute: its name, by which sign, and the value; None = that it is there."""
+
+    key: str
+    how: str = ""
+    value: str | None = None
+
+    def holds(self, own: str | None) -> bool:
+        """Tell whether an element's attribute is as asked; None = it has none."""
+        if own is None or self.value is None:
+            return own is not None
+        if self.how in ("", "~"):
+            return own == self.value if not self.how else self.value in own.split()
+        if self.how == "|":
+            return own == self.value or own.startswith(f"{self.value}-")
+        found = {"^": own.startswith, "$": own.endswith, "*": own.__contains__}[self.how]
+        return bool(self.value) and found(self.value)
+
+
 @dataclass(frozen=True, slots=True)
 class _Compound:
     """What is asked of one element.
 
     Attributes:
         tag: its type, or "".
-        ids, classes: all of these. attributes: by name, with a value or None for any.
+        ids, classes: all of these. attributes: what is asked of them. others: compounds that it must not be.
         within: it is asked of an element anywhere round the one before; else of the very next one.
     """
 
     tag: str
     ids: frozenset[str]
     classes: frozenset[str]
-    attributes: tuple[tuple[str, str | None], ...]
+    attributes: tuple[_Asked, ...]
     within: bool = True
+    others: tuple[_Compound, ...] = ()
 
     def takes(self, node: Node) -> bool:
         own = node.attributes
@@ -58,7 +79,8 @@ class _Compound:
             self.tag in ("", node.tag)
             and all(own.get("id") == name for name in self.ids)
             and self.classes.issubset(own.get("class", "").split())
-            and all(key in own and value in (None, own[key]) for key, value in self.attributes)
+            and all(asked.holds(own.get(asked.key)) for asked in self.attributes)
+            and not any(other.takes(node) for other in self.others)
         )
 
 
@@ -143,9 +165,17 @@ def _compound(text: str, within: bool) -> tuple[_Compound, Specificity] | None:
     tag = "svg" if roots else next((word["type"] for word in words if word["type"]), "")
     ids = frozenset(word["id"] for word in words if word["id"])
     classes = frozenset(word["class"] for word in words if word["class"])
-    attributes = tuple((word["key"], _first(word["a"], word["b"], word["c"])) for word in words if word["key"])
+    attributes = tuple(
+        _Asked(word["key"], word["how"] or "", _first(word["a"], word["b"], word["c"])) for word in words if word["key"]
+    )
     counted = Specificity(len(ids), len(classes) + len(attributes) + roots, bool(tag) and not roots)
-    return (_Compound(tag, ids, classes, attributes, within), counted) if words else None
+    others = [_compound(word["not"], True) for word in words if word["not"]]
+    kept = [other for other in others if other is not None]
+    if not words or len(kept) < len(others):
+        return None
+    for _, more in kept:
+        counted = counted.plus(more)
+    return _Compound(tag, ids, classes, attributes, within, tuple(other for other, _ in kept)), counted
 
 
 def _first(*values: str | None) -> str | None:

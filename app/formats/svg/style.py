@@ -25,7 +25,10 @@ _READ = (
     "stroke",
     "color",
     "clip-path",
+    "clip-rule",
     "mask",
+    "mask-type",
+    "overflow",
     "transform",
     "transform-origin",
     "transform-box",
@@ -45,6 +48,11 @@ _GEOMETRY = ("x", "y", "width", "height", "cx", "cy", "r", "rx", "ry")
 
 _UNFOLLOWED = ("translate", "rotate", "scale", "offset-path", "d")
 """What a style sheet may say of a shape's place and form that is not read; as attributes they are something else."""
+
+_COLOURS = ("fill", "stroke", "color")
+
+_VISIBILITY = {"visible": True, "initial": True, "hidden": False, "collapse": False}
+"""What else is said says nothing."""
 
 _VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,([^()]*))?\)", re.IGNORECASE)
 _ZERO = re.compile(r"[+-]?0*\.?0+%?")
@@ -66,7 +74,9 @@ class SvgStyle:
         shown: False under display: none.
         visible: False under visibility: hidden or collapse.
         fill, stroke, color: as written. fill_clear, stroke_clear: they are painted with no opacity at all.
-        clipped: something hides a part of it.
+        clips: its own clip and mask, as written. clip_evenodd: in a clip, areas are by that rule.
+        overflow: of what it draws beyond its viewport, as written. alpha_mask: a mask of what is opaque, not light.
+        faint: it is painted with some opacity between none and all, or that is not known.
         transform: the element's own, as the attribute would have it; "" for none.
         origin: what that is about, if not the origin of coordinates, as written.
         variables: by name, --x, with what elements round it have set.
@@ -85,7 +95,11 @@ class SvgStyle:
     color: str = ""
     fill_clear: bool = False
     stroke_clear: bool = False
-    clipped: bool = False
+    clips: tuple[str, ...] = ()
+    clip_evenodd: bool = False
+    overflow: str = ""
+    alpha_mask: bool = False
+    faint: bool = False
     transform: str = ""
     origin: str = ""
     variables: Mapping[str, str] = field(default_factory=dict)
@@ -103,7 +117,12 @@ class SvgStyle:
     @property
     def draws(self) -> bool:
         """True when an outline or an area is painted."""
-        return self.outlined or not (self.fill_clear or is_clear(self._resolved(self.fill)))
+        return self.outlined or self.filled
+
+    @property
+    def filled(self) -> bool:
+        """True when an area is painted."""
+        return not (self.fill_clear or is_clear(self._resolved(self.fill)))
 
     @property
     def outlined(self) -> bool:
@@ -119,6 +138,11 @@ class SvgStyle:
     def ink(self) -> str:
         """Colour of the outline, "#rrggbb", or "" where there is none."""
         return colour(self._resolved(self.stroke))
+
+    @property
+    def colour_of_fill(self) -> str:
+        """Colour of the area, "#rrggbb", or "" where there is none."""
+        return colour(self._resolved(self.fill)) if self.filled else ""
 
     def _resolved(self, paint: str) -> str:
         return self.color if paint.lower() == "currentcolor" else paint
@@ -146,12 +170,14 @@ class StyleSheet:
 
     Attributes:
         unread: selectors of rules that could hide or show a shape, or place it, and that are not followed.
+        unread_hides: one of them does more than to choose a colour.
     """
 
     def __init__(self, root: Node) -> None:
         self._rules: dict[str, list[_StyleRule]] = defaultdict(list)
         self._parents: dict[int, Node] = {}
-        self.unread: list[str] = []
+        self.unread: list[str] = [" ".join(written.split()) for written in root.outer_sheets]
+        self.unread_hides = bool(self.unread)
         self._count = 0
         for node in root.every():
             if node.tag == "style" and is_on_screen(node.attributes.get("media", "")):
@@ -169,6 +195,7 @@ class StyleSheet:
                     self._rules[read.key].append(_StyleRule(read.specificity, self._count, read, declared))
                 elif not _OF_THE_MOMENT.search(written) and any(each.name not in _LETTERS for each in declared):
                     self.unread.append(" ".join(written.split()))
+                    self.unread_hides |= any(map(_hides, declared))
 
     def style(self, node: Node, outer: SvgStyle) -> SvgStyle:
         """Return the style of an element inside one of style `outer`."""
@@ -199,6 +226,12 @@ def declarations(text: str) -> Iterator[Declaration]:
         name = name if name.startswith("--") else name.lower()
         if kept and (name in _READ or name in _GEOMETRY or name in _UNFOLLOWED or name.startswith("--")):
             yield Declaration(name, kept, kept != value.strip())
+
+
+def _hides(declared: Declaration) -> bool:
+    """Tell whether a declaration may hide, show, move or form a shape; one that only paints it does not."""
+    name, value, _ = declared
+    return name not in _LETTERS and (name not in _COLOURS or is_clear(value)) and not name.startswith("marker")
 
 
 def _of_variable(found: re.Match[str], variables: Mapping[str, str]) -> str:
@@ -241,20 +274,25 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
         for key, written in declared.items()
         if key not in own and (value := _resolved(written, variables)) and value != "inherit"
     }
-    visibility = declared.get("visibility")
+    visible = _VISIBILITY.get(declared.get("visibility", "").lower(), outer.visible)
     size = declared.get("font-size", "") or size_of_font(f"{declared.get('font', '')} ")
     markers = {key: value for key, value in declared.items() if key.startswith("marker")}
-    hides = any(declared.get(key, "none") != "none" for key in ("clip-path", "mask"))
+    clips = tuple(declared[key] for key in ("clip-path", "mask") if declared.get(key, "none") != "none")
+    opacities = [declared[key] for key in ("opacity", "fill-opacity") if key in declared]
     return replace(
         outer,
-        shown=outer.shown and declared.get("display") != "none" and not _is_zero(declared.get("opacity")),
-        visible=outer.visible if visibility is None else visibility == "visible",
+        shown=outer.shown and declared.get("display", "").lower() != "none" and not _is_zero(declared.get("opacity")),
+        visible=visible,
         fill=declared.get("fill", outer.fill),
         stroke=declared.get("stroke", outer.stroke),
         fill_clear=_clear(declared.get("fill-opacity"), outer.fill_clear),
         stroke_clear=_clear(declared.get("stroke-opacity"), outer.stroke_clear),
         color=declared.get("color", outer.color),
-        clipped=outer.clipped or hides,
+        clips=clips,
+        clip_evenodd=declared["clip-rule"] == "evenodd" if "clip-rule" in declared else outer.clip_evenodd,
+        overflow=declared.get("overflow", ""),
+        alpha_mask=declared.get("mask-type") == "alpha",
+        faint=outer.faint or any(opacity.strip() not in ("1", "1.0", "100%") for opacity in opacities),
         transform=_UNITS.sub("", declared.get("transform", "")),
         origin=declared.get("transform-origin", ""),
         variables=variables,

@@ -45,7 +45,7 @@ from .generator import CSS_PER_INCH, KNOWN_PER_INCH, PixelDensity, density_of
 from .lengths import LengthBasis, WrittenLength, length
 from .numbers import UnreadableError, ViewBox, fitted, numbers, view_box
 from .style import StyleSheet, SvgStyle
-from .walk import SvgContent, SvgWalker
+from .walk import TEXTS, SvgContent, SvgWalker
 from .xml import Node, read_xml
 
 HITOFUDE = "urn:hitofude:svg"
@@ -81,7 +81,8 @@ def read_svg(
 
     Zero is the page's lower left corner, as its width, height and viewBox give it; a page without a height has it at
     the top. Inkscape's layers become layers, hidden ones too; without them the named groups at the top. Text, pictures
-    and what draws nothing are counted, not read; clips and masks are not applied. Without a width or a height in mm,
+    and what draws nothing are counted, not read, and so is what a clip or a mask hides; what one cuts is read whole,
+    and a finding. Without a width or a height in mm,
     inches or points the file has no real size: it is in `units`, or in pixels, so many to the inch as `how` says, else
     as the editor had that wrote it, else 96.
 
@@ -128,7 +129,7 @@ def read_svg(
         *without_length(content.nothing + found.nothing),
         *paint_findings(content),
         *switched_off(part, layers),
-        *all_left_out(content.left_out),
+        *all_left_out(Counter({kind: count for kind, count in content.left_out.items() if kind not in TEXTS})),
     ]
     own = density_of(root)
     contents = FileContents(

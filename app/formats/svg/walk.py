@@ -12,15 +12,17 @@ from typing import NoReturn
 from ...core import tolerances
 from ...core.errors import InputError
 from ...geometry.affine import IDENTITY, Affine, transformed
+from ...geometry.sample import Box
 from ...model.curves import Circle, Curve, Ellipse, Line, Point, Spline
 from ...model.part import Layer
 from ..drawing_account import MOST_CURVES, LayeredCurve
 from ..dxf.splines import MOST_POINTS
+from .clips import Clip, ClipReader, Seen, seen_of, viewport_clip
 from .generator import INKSCAPE, SODIPODI
 from .joined import beziers_joined, joined
 from .lengths import FONT_LENGTH, LengthBasis, Viewport
 from .numbers import UnreadableError, ViewBox, fitted, transform, view_box
-from .painted import bounding
+from .painted import bounding, closed_by_line
 from .path import SvgPath
 from .shapes import LENGTHS, SHAPES, measure, shape
 from .strokes import PaintedOutlines, origin
@@ -28,8 +30,11 @@ from .style import StyleSheet, SvgStyle
 from .xml import DEEPEST, Node
 
 _LINK = "http://www.w3.org/1999/xlink href"
-_NOT_CURVES = ("text", "image", "foreignObject", "flowRoot", "video", "audio", "iframe", "canvas")
-BLACK = "#000000"
+_NOT_CURVES = ("image", "foreignObject", "video", "audio", "iframe", "canvas")
+TEXTS = ("text", "flowRoot")
+BLACK, WHITE = "#000000", "#ffffff"
+_GROUND = 1e-3
+"""By so much of a page its ground may be too small."""
 _TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
 _ENGLISH = re.compile(r"(?:^|,)\s*en\b", re.IGNORECASE)
 _BREAK = re.compile(r"[\x00-\x1f]+")
@@ -58,6 +63,14 @@ class SvgFault:
     what: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class UnreadWords:
+    """What a text says, which is not read, and its line in the file."""
+
+    words: str
+    line: int
+
+
 @dataclass
 class SvgContent:
     """What an SVG draws.
@@ -68,11 +81,14 @@ class SvgContent:
         nothing: places of shapes without length.
         faults: shapes whose data cannot be read to the end.
         unread: shapes that are missing, for a length of theirs cannot be read: it, and its line.
+        texts: that can be seen, and are missing too.
         of_font: shapes with lengths that depend on what a font is like.
-        clipped: shapes that are read whole although the drawing hides a part of them.
+        clipped: shapes that are read whole although a clip or a mask hides a part of them.
         layers: by name, in order.
-        unread_rules: selectors of style sheets that are not followed.
+        unread_rules: selectors of style sheets that are not followed. rules_hide: one of them may hide or move a shape.
         unfollowed: how many elements have a property that is not followed and that moves or forms them.
+        beyond: shapes that lie wholly beyond the page. ground: a white area as large as the page, under all else.
+        page_wide: how many other areas are as large, without an outline.
         within: outlines within what their own path paints on both sides of them, so that nobody sees them.
         painted: what is drawn on and along outlines.
     """
@@ -82,11 +98,16 @@ class SvgContent:
     nothing: list[Point | None] = field(default_factory=list)
     faults: list[SvgFault] = field(default_factory=list)
     unread: list[SvgFault] = field(default_factory=list)
+    texts: list[UnreadWords] = field(default_factory=list)
     of_font: int = 0
     clipped: int = 0
     layers: dict[str, LayerNote] = field(default_factory=dict)
     unread_rules: list[str] = field(default_factory=list)
+    rules_hide: bool = False
     unfollowed: Counter[str] = field(default_factory=Counter)
+    beyond: int = 0
+    ground: list[LayeredCurve] = field(default_factory=list)
+    page_wide: int = 0
     within: int = 0
     painted: PaintedOutlines = field(default_factory=PaintedOutlines)
 
@@ -101,6 +122,7 @@ class InheritedState:
         layer: name of the layer, "" for none.
         depth: of elements and uses round it; 0 for the root's children.
         copied: it is drawn by a `use`, so its own layers do not count.
+        clips: what clips, masks and viewports round it leave to see.
     """
 
     to: Affine
@@ -109,6 +131,7 @@ class InheritedState:
     layer: str = ""
     depth: int = 0
     copied: bool = False
+    clips: tuple[Clip, ...] = ()
 
     @property
     def basis(self) -> LengthBasis:
@@ -122,13 +145,15 @@ class SvgWalker:
     def __init__(self, root: Node, name: str) -> None:
         self._root, self._name = root, name
         self._styles = StyleSheet(root)
-        self._sheet = SvgContent(unread_rules=self._styles.unread)
+        self._sheet = SvgContent(unread_rules=self._styles.unread, rules_hide=self._styles.unread_hides)
         self._ids: dict[str, Node] = {}
         self._named_layers = False
         for node in root.every():
             self._ids.setdefault(node.attributes.get("id", ""), node)
             self._named_layers |= _is_layer(node)
         self._open: list[int] = []
+        self._page: Box | None = None
+        self._clips: ClipReader[InheritedState] = ClipReader(self._ids, self._in_place, self._target)
 
     def content(self, to: Affine, view: Viewport) -> SvgContent:
         """Return what the file draws.
@@ -143,8 +168,18 @@ class SvgWalker:
         self._size(self._root, {}, 0)
         style = self._styles.style(self._root, SvgStyle())
         self._sheet.unfollowed.update(style.unfollowed + ("a transform of the page",) * _moves(style.transform))
+        self._page = _page_box(self._root, to, view)
         self._children(self._root.children, InheritedState(to, view, replace(style, rem=style.em)))
+        self._without_ground(self._sheet)
         return self._sheet
+
+    def _without_ground(self, content: SvgContent) -> None:
+        """Leave out the ground that editors and plotting programs lay under a page, unless it is all that there is."""
+        if content.ground and content.curves:
+            content.left_out["shape (white ground of the page)"] += 1
+        elif content.ground:
+            content.curves += content.ground
+            content.layers.setdefault(content.ground[0].layer, LayerNote())
 
     def _size(self, node: Node, known: dict[int, tuple[int, int]], depth: int) -> tuple[int, int]:
         """Return how many elements an element unfolds to, with all copies, and in how many levels; a copy of itself
@@ -176,6 +211,8 @@ class SvgWalker:
     def _one(self, node: Node, outer: InheritedState) -> None:
         if node.tag in _NOT_CURVES:
             self._sheet.left_out[node.tag] += 1
+        elif node.tag in TEXTS:
+            self._text(node, self._inside(node, outer))
         elif node.tag in SHAPES or node.tag in _CONTAINERS:
             state = self._inside(node, outer)
             if state.style.geometry:
@@ -190,8 +227,25 @@ class SvgWalker:
             else:
                 self._children(_chosen(node) if node.tag == "switch" else node.children, state)
 
+    def _text(self, node: Node, state: InheritedState) -> None:
+        """Note a text, which is not read; one without letters, or that nobody sees, is nothing."""
+        words, style = node.words, state.style
+        if not (style.shown and style.visible and style.draws):
+            self._sheet.left_out[f"{node.tag} (invisible)"] += 1
+        elif words:
+            self._sheet.left_out[node.tag] += 1
+            self._sheet.texts.append(UnreadWords(words, node.line))
+
     def _inside(self, node: Node, outer: InheritedState) -> InheritedState:
-        """Return the state inside an element: its transform, its style, its layer."""
+        """Return the state inside an element: its transform, its style, its layer, its clips."""
+        state = self._in_place(node, outer)
+        if not state.style.clips:
+            return state
+        plain = replace(state, style=SvgStyle(em=state.style.em, rem=state.style.rem), copied=True)
+        return replace(state, clips=(*outer.clips, *self._clips.clips(state.style, plain)))
+
+    def _in_place(self, node: Node, outer: InheritedState) -> InheritedState:
+        """Return the state inside an element, without its own clips."""
         style, to, layer = self._styles.style(node, outer.style), outer.to, outer.layer
         self._sheet.unfollowed.update(style.unfollowed)
         if style.transform:
@@ -251,6 +305,9 @@ class SvgWalker:
         placed = Node(node.tag, {**node.attributes, **sizes}, node.line)
         x, y = self._measured(placed, ("x", "y"), state, (0.0, 0.0))
         width, height = self._measured(placed, ("width", "height"), state, state.view)
+        if state.style.overflow != "visible":
+            edges = viewport_clip(ViewBox(x, y, width, height), state.to)
+            state = replace(state, clips=(*state.clips, edges))
         if "viewBox" not in node.attributes:
             return replace(state, to=state.to.after(Affine(x0=x, y0=y)), view=(width, height))
         try:
@@ -280,7 +337,7 @@ class SvgWalker:
         try:
             drawn = shape(node, state.basis, MOST_CURVES)
             if drawn is not None and not style.outlined:
-                runs = [_area(run) for run in drawn.runs]
+                runs = [closed_by_line(run) for run in drawn.runs]
                 drawn.runs = runs if style.evenodd else bounding(runs)
                 content.within += len(runs) - len(drawn.runs)
             curves = self._placed(node, drawn, state.to) if drawn is not None else []
@@ -299,10 +356,19 @@ class SvgWalker:
                 )
         if not curves:
             return
+        seen = seen_of(curves, style.filled, state.clips) if state.clips else Seen.WHOLE
+        if seen is Seen.NOTHING:
+            content.left_out[f"{node.tag} (clipped away)"] += 1
+            return
         layer = state.layer or "0"
+        box = _box_of(curves)
+        if self._is_ground(style, box):
+            content.ground = [LayeredCurve(curve, layer) for curve in curves]
+            return
+        content.beyond += _apart(box, self._page)
         note = content.layers.setdefault(layer, LayerNote())
         note.inks |= {style.ink or BLACK} if style.outlined else set()
-        content.clipped += style.clipped
+        content.clipped += seen is Seen.PART
         content.of_font += _of_font(node)
         pattern = self._ids.get(style.fill[5:].partition(")")[0]) if style.fill.startswith("url(#") else None
         content.painted.patterned += pattern is not None and pattern.tag == "pattern"
@@ -310,6 +376,15 @@ class SvgWalker:
         content.curves += [LayeredCurve(curve, layer) for curve in curves]
         if len(content.curves) > MOST_CURVES:
             self._refuse(node, _TOO_MUCH)
+
+    def _is_ground(self, style: SvgStyle, box: Box | None) -> bool:
+        """Tell whether a shape without an outline covers the page, is white, and the first one of the drawing."""
+        content = self._sheet
+        if style.outlined or not _covers(box, self._page):
+            return False
+        white = style.colour_of_fill == WHITE and not (content.curves or content.ground)
+        content.page_wide += not white
+        return white
 
     def _placed(self, node: Node, drawn: SvgPath, to: Affine) -> list[Curve]:
         """Return the curves in the drawing; notes the place of a shape that draws nothing."""
@@ -336,16 +411,50 @@ def _forward(curve: Curve) -> Curve:
     return Circle(curve.centre, curve.radius) if isinstance(curve, Circle) else curve
 
 
+def _page_box(root: Node, to: Affine, view: Viewport) -> Box | None:
+    """Return what the page shows, mm; None where it has no size."""
+    given = root.attributes.get("viewBox")
+    box = view_box(given) if given else ViewBox(0.0, 0.0, *view)
+    if not (box.width > 0 and box.height > 0):
+        return None
+    (x0, y0), (x1, y1) = to.point((box.x, box.y)), to.point((box.x + box.width, box.y + box.height))
+    return (min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1))
+
+
+def _box_of(curves: list[Curve]) -> Box | None:
+    """Return a box that holds some curves, as wide as their handles and circles; None where one has no place."""
+    places: list[Point] = []
+    for curve in curves:
+        if isinstance(curve, Line):
+            places += (curve.start, curve.end)
+        elif isinstance(curve, Spline):
+            places += curve.control_points
+        else:
+            (x, y), reach = curve.centre, math.hypot(*curve.major) if isinstance(curve, Ellipse) else curve.radius
+            places += ((x - reach, y - reach), (x + reach, y + reach))
+    xs, ys = zip(*places, strict=True)
+    box = min(xs), min(ys), max(xs), max(ys)
+    return box if all(map(math.isfinite, (*box, sum(xs), sum(ys)))) else None
+
+
+def _covers(box: Box | None, page: Box | None) -> bool:
+    """Tell whether a box holds all of a page, but for a little."""
+    if box is None or page is None:
+        return False
+    spare = _GROUND * max(page[2] - page[0], page[3] - page[1])
+    return all(box[k] <= page[k] + spare and box[k + 2] >= page[k + 2] - spare for k in (0, 1))
+
+
+def _apart(box: Box | None, page: Box | None) -> bool:
+    """Tell whether a box has nothing in common with a page."""
+    if box is None or page is None:
+        return False
+    return any(box[k] > page[k + 2] or box[k + 2] < page[k] for k in (0, 1))
+
+
 def _is_point(curve: Curve) -> bool:
     """True for a line between points that are one, as rounding leaves them where a path is closed."""
     return isinstance(curve, Line) and math.dist(curve.start, curve.end) < tolerances.WELD
-
-
-def _area(run: list[Curve]) -> list[Curve]:
-    """Return the outline of what a fill paints: an open run is closed by a line, unless it is but one line itself."""
-    if not run or run[0].start == run[-1].end or (len(run) == 1 and isinstance(run[0], Line)):
-        return run
-    return [*run, Line(run[-1].end, run[0].start)]
 
 
 def _moves(written: str) -> bool:

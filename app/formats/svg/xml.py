@@ -23,6 +23,8 @@ MOST_USES = 10_000
 """So often may entities be used: two megabytes at most come from them."""
 _USE = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos);)[^#;&\s<>]{1,200};")
 _LONGEST_COMMENTS = 4096
+_WRITTEN = ("text", "tspan", "textPath", "a", "flowRoot", "flowPara", "flowSpan", "flowDiv", "flowRegionBreak")
+_WITH_TEXT = ("style", *_WRITTEN)
 _HEAD = 1 << 16
 
 
@@ -34,8 +36,9 @@ class Node:
         tag: its name; that of an SVG element alone, any other with its namespace and a blank before it.
         attributes: by name, likewise.
         line: where it begins, 1-based.
-        text: its own text, kept for style sheets alone.
+        text: its own text, kept for style sheets and what is written alone.
         comments: those before the root, kept there alone; editors name themselves in them.
+        outer_sheets: what names style sheets in other files, kept at the root alone.
     """
 
     tag: str
@@ -44,6 +47,7 @@ class Node:
     children: list[Node] = field(default_factory=list)
     text: str = ""
     comments: str = ""
+    outer_sheets: tuple[str, ...] = ()
 
     def every(self) -> Iterator[Node]:
         """Yield this element and all that it holds, in the order of the file."""
@@ -52,6 +56,11 @@ class Node:
             node = waiting.pop()
             yield node
             waiting.extend(reversed(node.children))
+
+    @property
+    def words(self) -> str:
+        """What is written in it, with single blanks."""
+        return " ".join(" ".join(node.text for node in self.every() if node.tag in _WRITTEN).split())
 
 
 def read_xml(data: bytes, name: str) -> Node:
@@ -94,10 +103,12 @@ class _Reader:
         self._parser.EndElementHandler = self._end
         self._parser.CharacterDataHandler = self._characters
         self._parser.CommentHandler = self._comment
+        self._parser.ProcessingInstructionHandler = self._instruction
         self._parser.EntityDeclHandler = self._entity
         self._open: list[Node] = []
         self._root: Node | None = None
         self._comments = ""
+        self._sheets: list[str] = []
         self._count = self._entities = 0
 
     def read(self, data: bytes) -> Node:
@@ -133,19 +144,23 @@ class _Reader:
             self._open[-1].children.append(node)
         else:
             self._root = node
-            node.comments = self._comments
+            node.comments, node.outer_sheets = self._comments, tuple(self._sheets)
         self._open.append(node)
 
     def _end(self, _: str) -> None:
         self._open.pop()
 
     def _characters(self, text: str) -> None:
-        if self._open[-1].tag == "style":
+        if self._open[-1].tag in _WITH_TEXT:
             self._open[-1].text += text
 
     def _comment(self, text: str) -> None:
         if self._root is None and len(self._comments) < _LONGEST_COMMENTS:
             self._comments += text[:_LONGEST_COMMENTS]
+
+    def _instruction(self, target: str, text: str) -> None:
+        if target == "xml-stylesheet" and self._root is None and len(self._sheets) < _MOST_ENTITIES:
+            self._sheets.append(f"{target} {text}")
 
     def _entity(self, entity: str, parameter: bool, value: str | None, *_: str | None) -> None:
         self._entities += 1
