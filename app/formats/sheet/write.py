@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...core.errors import InputError
 from ..plot.page_pdf import pages_pdf
-from ..plot.pdf_outlines import has_letters
+from ..plot.pdf_fonts import has_letters
 from .content import SetupSheet
 from .html import sheet_html
 from .layout import sheet_pages
