@@ -46,4 +46,8 @@ COMMAND = CliCommand(
     EPILOG,
     add_batch_options,
     _run,
+    examples=(
+        "hitofude batch parts -o programs --depth 3 --sheets pdf",
+        "hitofude batch programs -o checked --check",
+    ),
 )

@@ -46,4 +46,8 @@ COMMAND = CliCommand(
     EPILOG,
     add_check_options,
     _run,
+    examples=(
+        "hitofude check program.nc --machine vmc --report found.json",
+        "hitofude check program.nc --restart-at 1234 -o rest.nc",
+    ),
 )

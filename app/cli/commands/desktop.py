@@ -53,4 +53,8 @@ COMMAND = CliCommand(
     EPILOG,
     _add_options,
     _run,
+    examples=(
+        "hitofude desktop",
+        "hitofude desktop --remove",
+    ),
 )

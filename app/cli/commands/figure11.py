@@ -38,4 +38,5 @@ COMMAND = CliCommand(
     EPILOG,
     add_figure_options,
     _run,
+    examples=("hitofude figure11 --programs A --grid 512",),
 )

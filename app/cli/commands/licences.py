@@ -36,4 +36,5 @@ COMMAND = CliCommand(
     "The list is what the packages that are installed say of themselves. Exit status 0.",
     _add_options,
     _run,
+    examples=("hitofude licences --texts",),
 )

@@ -58,4 +58,9 @@ COMMAND = CliCommand(
     EPILOG,
     add_make_options,
     _run,
+    examples=(
+        "hitofude make part.dxf -o part.ngc --pocket-tool 6 --contour-tool 3 --depth 4 --stepdown 2",
+        "hitofude make part.dxf -o part.ngc --side outside --tabs 4 --sheet part.pdf",
+        "hitofude make part.dxf -o part.ngc --propose --thickness 5 --write-job job.toml",
+    ),
 )

@@ -57,4 +57,8 @@ COMMAND = CliCommand(
     EPILOG,
     add_smooth_options,
     _run,
+    examples=(
+        "hitofude smooth part.ngc -o smooth.ngc --tolerance 0.01",
+        "hitofude smooth part.ngc -o smooth.ngc --as nurbs --post fanuc",
+    ),
 )

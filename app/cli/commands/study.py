@@ -54,4 +54,8 @@ COMMAND = CliCommand(
     EPILOG,
     add_study_options,
     _run,
+    examples=(
+        "hitofude study part.dxf -o study --vary pocket-tool=6,8 --vary stepover=40%,60% --depth 3",
+        "hitofude study part.dxf -o study --which-tool",
+    ),
 )
