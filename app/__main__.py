@@ -5,10 +5,17 @@ from __future__ import annotations
 import atexit
 import gc
 import os
+import signal
 import sys
+import threading
 from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
+
+_heard_before = signal.getsignal(signal.SIGINT)
+_is_first = threading.current_thread() is threading.main_thread() and _heard_before is signal.default_int_handler
+if _is_first:  # Ctrl+C while all this is imported ends the process, as it does any other, without a traceback
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 # bands of our own use the cores; threads of the library wait busily for small matrices
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -24,6 +31,9 @@ from .cli.main import main as command_line  # noqa: E402
 from .cli.output import say  # noqa: E402
 from .core.errors import shortened  # noqa: E402
 from .core.processor_level import lacking_here  # noqa: E402
+
+if _is_first:
+    signal.signal(signal.SIGINT, _heard_before)
 
 _LIBRARIES = (
     "libegl1 libgl1 libglib2.0-0 libfontconfig1 libdbus-1-3 libxkbcommon0 libxkbcommon-x11-0 libxcb-cursor0 "

@@ -80,6 +80,18 @@ def test_make_writes_the_program(installed: Path, tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.glob("*.ngc")) == ["fig2_1_T1.ngc", "fig2_2_T2.ngc"]
 
 
+def test_without_environment_and_network_it_makes_what_the_tree_makes(installed: Path, tmp_path: Path) -> None:
+    """No PATH, no HOME, no language; where a process may be cut off from the network, nobody answers it."""
+    shutil.copy(ROOT / "resources" / "samples" / "fig2.dxf", tmp_path)
+    alone = [shutil.which("unshare"), "--net"] if os.geteuid() == 0 and shutil.which("unshare") else []
+    command = [*alone, installed / "python", "-I", "-m", "hitofude", "make", "fig2.dxf", "-o", "alone.ngc"]
+    done = subprocess.run(command, cwd=tmp_path, env={}, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    here = [sys.executable, "-P", "-m", "app", "make", "fig2.dxf", "-o", "tree.ngc"]
+    subprocess.run(here, cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(ROOT)}, check=True, capture_output=True)
+    assert (tmp_path / "alone.ngc").read_bytes() == (tmp_path / "tree.ngc").read_bytes()
+
+
 def test_desktops_find_entry_icon_kinds_of_files_and_manual_page(installed: Path) -> None:
     share = installed.parent / "share"
     assert (share / "applications/hitofude.desktop").read_bytes() == (ROOT / DESKTOP / "hitofude.desktop").read_bytes()

@@ -71,14 +71,14 @@ def add_passed(parser: OptionParser, kinds: Iterable[BatchKind]) -> None:
             names = [name for name in action.option_strings if name not in taken]
             if names:
                 taken.update(names)
-                choices = f" ({', '.join(map(str, action.choices))})" if action.choices else ""
+                shown = f"{{{','.join(map(str, action.choices))}}}" if action.choices else action.dest.upper()
                 group.add_argument(
                     *names,
                     action=_Passed,
                     dest="passed",
                     nargs=0 if action.nargs == 0 else None,
-                    metavar=action.metavar or (None if action.nargs == 0 else action.dest.upper()),
-                    help=None if action.help is None else action.help + choices.replace("%", "%%"),
+                    metavar=action.metavar or (None if action.nargs == 0 else shown),
+                    help=action.help,
                 )
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .. import __version__
 from ..core.digest import content_digest
@@ -15,17 +16,15 @@ from ..core.input_file import read_input
 from ..core.settings import config_folder
 from ..usecases.batch.table import Files, results_csv, results_html
 from ..usecases.batch.task import BatchExtras, BatchKind, BatchRow, BatchTask, BatchVerdict
-from ..usecases.examine import ExamineOptions
-from ..usecases.job.options import MakeOptions
 from ..usecases.pixels.options import is_picture
-from ..usecases.smoothing.result import SmoothOptions
 from .batch_list import ListedPart, listed_parts, named_outputs
 from .batch_options import kind_of
 from .batch_store import BatchStore, Table
 from .files import identity
 from .program import load_command
 
-Options = MakeOptions | ExamineOptions | SmoothOptions
+if TYPE_CHECKING:
+    from ..usecases.batch.task import PartOptions
 
 
 @dataclass(frozen=True)
@@ -132,7 +131,7 @@ def _compared(
 
 
 @cache
-def _options_of(kind: BatchKind, words: tuple[str, ...], picture: bool) -> Options:
+def _options_of(kind: BatchKind, words: tuple[str, ...], picture: bool) -> PartOptions:
     """Return the options of a command, its files read.
 
     Raises:

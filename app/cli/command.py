@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import itertools
 import math
 import re
 import textwrap
@@ -39,6 +40,7 @@ class CliCommand:
             HitofudeError, and Cancelled by Ctrl+C, and then has written nothing.
         intermixed: whether files may stand between options.
         check: refuses arguments that do not go with one another.
+        examples: as they are typed, the plainest first.
     """
 
     name: str
@@ -50,6 +52,12 @@ class CliCommand:
     run: Callable[[argparse.Namespace, StopFlag], int]
     intermixed: bool = False
     check: Callable[[argparse.Namespace], None] = lambda arguments: None
+    examples: tuple[str, ...] = ()
+
+    @property
+    def below(self) -> str:
+        """What stands below the list of its options."""
+        return "\n".join((self.epilog.rstrip(), "", "Examples:", *(f"  {example}" for example in self.examples)))
 
     def parser(self) -> OptionParser:
         """Return its parser."""
@@ -84,7 +92,7 @@ class OptionParser(argparse.ArgumentParser):
         """The command, its options added."""
         if self._command is None:
             command = self._command = self._load()
-            self.description, self.epilog = command.about, command.epilog
+            self.description, self.epilog = command.about, command.below
             self.add_argument("--memory", metavar="SIZE", type=typed(read_size), help=MEMORY_HELP)
             command.add_options(self)
         return self._command
@@ -178,7 +186,14 @@ class _ValueError(argparse.ArgumentError):
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
-    """Keeps words such as lower-left whole."""
+    """Keeps words such as lower-left whole, and lines that are set in as they are; all else is as wide as a screen."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        blocks = itertools.groupby(text.splitlines(), lambda line: line[:1] in ("", " "))
+        filled = (
+            "\n".join(lines) if kept else "\n".join(self._split_lines(" ".join(lines), width)) for kept, lines in blocks
+        )
+        return textwrap.indent("\n".join(filled), indent)
 
     def _split_lines(self, text: str, width: int) -> list[str]:
         return textwrap.wrap(" ".join(text.split()), width, break_on_hyphens=False)

@@ -9,8 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..core.errors import InputError
-from ..usecases.batch.lanes import ExecutorLane, Lane, ProcessLane, Work
-from ..usecases.batch.work import work as do_part
+from ..usecases.batch.lanes import ExecutorLane, Lane, ProcessLane, Work, do_part
 from .command import OptionParser, number
 
 

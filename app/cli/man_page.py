@@ -28,6 +28,8 @@ def _lines() -> Iterator[str]:
         yield ".TP"
         yield rf"\fBhitofude {_plain(summary.usage)}\fR"
         yield _plain(load_command(name).about)
+        for example in load_command(name).examples[:1]:
+            yield from (".br", rf"Example: \fB{_plain(example)}\fR")
     yield ".SH OPTIONS"
     yield from (".TP", r"\fB\-\-help\fR", "The commands, or behind a command its options.")
     yield from (".TP", r"\fB\-\-version\fR", "The version.")

@@ -10,7 +10,7 @@ from pathlib import Path
 from ..core.atomic import write_together
 from ..core.errors import InputError
 from ..core.progress import Progress
-from .output import tell
+from .output import tell_lines
 from .signals import undisturbed
 
 
@@ -44,7 +44,7 @@ class CommandOutcome:
                     _make_folder(folder)
                 write_together(self.files)
         if not arguments.quiet:
-            tell("\n".join(self.lines))
+            tell_lines(self.lines)
         return 1 if self.counts else 0
 
 

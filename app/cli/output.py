@@ -58,6 +58,11 @@ def tell(text: str) -> None:
         )
 
 
+def tell_lines(lines: Sequence[str]) -> None:
+    """Print lines to stdout, each as one: an end of line in a file's name makes no second."""
+    tell("\n".join(printable(line, "\t") for line in lines))
+
+
 def finding_lines(findings: Sequence[Finding]) -> list[str]:
     """Return a line for each of the first few findings of a kind, and one for how many more there are."""
     lines: list[str] = []

@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from .output import tell
-from .signals import StopFlag
+from .signals import StopFlag, ended_at_once
 
 if TYPE_CHECKING:
     from .command import CliCommand
@@ -89,7 +89,8 @@ def run_command(argv: Sequence[str], stopped: StopFlag) -> int:
 
 def load_command(name: str) -> CliCommand:
     """Return a command by its name."""
-    command: CliCommand = import_module(f".commands.{name}", __package__).COMMAND
+    with ended_at_once():
+        command: CliCommand = import_module(f".commands.{name}", __package__).COMMAND
     return command
 
 

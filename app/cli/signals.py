@@ -169,6 +169,20 @@ def undisturbed() -> Iterator[None]:
 
 
 @contextmanager
+def ended_at_once() -> Iterator[None]:
+    """Let Ctrl+C and its like end the process where it stands: while modules are imported, when nothing is written yet,
+    and when some libraries print what is raised in them.
+    """
+
+    def end(number: int, frame: FrameType | None) -> NoReturn:
+        say("hitofude: cancelled; no file was written")
+        os._exit(128 + number)
+
+    with _on_interrupt(end):
+        yield
+
+
+@contextmanager
 def _on_interrupt(action: Callable[[int, FrameType | None], Any] | signal.Handlers) -> Iterator[None]:
     """Let Ctrl+C and its like do something else for a while; without effect outside the main thread, which alone hears
     them.

@@ -161,7 +161,7 @@ def write_together(files: Mapping[Path, bytes], backups: Mapping[Path, Path] = M
                 target = Path(os.path.realpath(path))
                 if target.is_dir():
                     raise IsADirectoryError("it is a folder; name a file in it")
-                if target.exists() and not target.is_file():
+                if path.exists() and not path.is_file():  # /dev/stdout leads to a pipe, whose own name leads nowhere
                     path.write_bytes(data)
                 else:
                     staged.append(_Staged(path, target, data))

@@ -27,6 +27,8 @@ logging.getLogger("fontTools").addHandler(logging.NullHandler())  # what is wron
 _KINDS = (".ttf", ".otf", ".ttc")
 _SHORT = 1e-9
 """Units of the font; a shorter line is left out."""
+_RESTRICTION, _RESTRICTED, _NO_PART_OF_IT = 0x000F, 0x0002, 0x0300
+"""Of OS/2's fsType: who may embed it, nobody without leave, and neither a part of its letters nor outlines."""
 _MOST_PARTS = 1000
 """Of one letter; in fonts that people made it has fewer than ten, and parts of parts can double with each step."""
 
@@ -56,7 +58,12 @@ def _opened(path: Path, changed_ns: int) -> Typeface:
 
 
 class Typeface:
-    """A font file, of which each letter is read once, when it is first asked for."""
+    """A font file, of which each letter is read once, when it is first asked for.
+
+    Attributes:
+        name: of the file, without its ending. units_per_em: of its letters' size.
+        embeddable: letters of it may be put into a document, by what it says of its licence.
+    """
 
     def __init__(self, path: Path) -> None:
         """Read what the file says of all its letters.
@@ -73,6 +80,8 @@ class Typeface:
             self._letters: dict[int, str] = self._font.getBestCmap() or {}
             self._shapes, self._widths = self._font.getGlyphSet(), self._font["hmtx"]
             self._capital = _capital(self._font, self._letters)
+            self.units_per_em = int(self._font["head"].unitsPerEm)
+            self.embeddable = _may_be_embedded(int(getattr(self._font.get("OS/2"), "fsType", 0) or 0))
             self._below = (
                 -float(self._font["hhea"].descent) if ord("p") not in self._letters else reach_below(self._glyph("p"))
             )
@@ -114,6 +123,11 @@ def _readable(name: str) -> Iterator[None]:
     except Exception as error:  # readers of fonts raise whatever broken bytes make them
         why = brief(str(error) or type(error).__name__)
         raise InputError(f"The font {name} cannot be read ({why}); choose another one.") from error
+
+
+def _may_be_embedded(licence: int) -> bool:
+    """Tell what the licence bits of a font mean for outlines of some of its letters in a document."""
+    return licence & _RESTRICTION != _RESTRICTED and not licence & _NO_PART_OF_IT
 
 
 def _capital(font: Any, letters: dict[int, str]) -> float:

@@ -394,7 +394,7 @@ def test_an_unexpected_exception_is_one_line(
     def broken(*_: object) -> None:
         raise RuntimeError("two\nlines")
 
-    monkeypatch.setattr("app.cli.commands.make.make", broken)
+    monkeypatch.setattr("app.usecases.making.make.make", broken)
     assert "RuntimeError: two lines" in refused(capsys, FIG2, "-o", out)
     monkeypatch.setenv("HITOFUDE_DEBUG", "1")
     assert main(["make", str(FIG2), "-o", str(out)]) == 2

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import configparser
 import re
+import shlex
 import shutil
 import subprocess
 import tomllib
@@ -16,7 +17,7 @@ import pytest
 from app import __version__
 from app.cli.main import main
 from app.cli.man_page import man_page
-from app.cli.program import SUMMARIES
+from app.cli.program import SUMMARIES, load_command
 from app.core.desktop import PLACES
 from app.core.licences import installed_licences
 
@@ -29,6 +30,29 @@ def test_the_page_is_that_of_the_commands() -> None:
     assert told == man_page(), "write it anew: python -m app.cli.man_page > resources/desktop/hitofude.1"
     assert all(f"\\fBhitofude {name}" in told for name in SUMMARIES)
     assert f"Hitofude {__version__}" in told and told.isascii()
+
+
+@pytest.mark.parametrize("name", SUMMARIES)
+def test_a_command_has_examples_that_it_takes_and_its_help_ends_with_them(name: str) -> None:
+    command = load_command(name)
+    assert command.examples
+    for example in command.examples:
+        program, called, *arguments = shlex.split(example)
+        assert (program, called) == ("hitofude", name)
+        command.arguments(arguments)
+    shown = command.parser().format_help().rstrip().splitlines()[-len(command.examples) :]
+    assert shown == [f"  {example}" for example in command.examples]
+
+
+@pytest.mark.parametrize("name", SUMMARIES)
+@pytest.mark.parametrize("columns", [80, 132])
+def test_help_is_as_wide_as_the_screen(name: str, columns: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", str(columns))
+    command = load_command(name)
+    lines = set(command.parser().format_help().splitlines()) - {f"  {example}" for example in command.examples}
+    usage = next(line for line in command.parser().format_usage().splitlines())
+    assert usage.startswith(f"usage: hitofude {name}")
+    assert [line for line in lines if len(line) > columns and " " in line.strip()] == []
 
 
 def test_man_takes_the_page() -> None:

@@ -173,7 +173,56 @@ def test_a_signal_that_a_library_turns_into_its_own_error_is_still_one(
         except Stopped as stop:
             raise SystemError("returned a result with an exception set") from stop
 
-    monkeypatch.setattr("app.cli.commands.check.examine", turned)
+    monkeypatch.setattr("app.usecases.examine.examine", turned)
     (tmp_path / "a.ngc").write_text(RING)
     assert main(["check", str(tmp_path / "a.ngc")]) == 143
     assert capsys.readouterr().err == "hitofude: cancelled; no file was written\n"
+
+
+_BEGUN = """
+import os, runpy, signal, sys
+
+class Interrupting:
+    def find_spec(self, name, *_):
+        if name == {module!r}:
+            sys.meta_path.remove(self)
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupting())
+sys.argv = ["hitofude", "tools", "none.dxf"]
+runpy.run_module("app", run_name="__main__")
+"""
+
+
+@pytest.mark.parametrize(
+    "module",
+    [
+        "app.core.quick_dataclasses",
+        "app.cli.signals",
+        "app.cli.commands.tools",
+        "numpy",
+        "numpy._core._multiarray_umath",
+    ],
+)
+def test_ended_while_it_is_imported_it_says_no_more_than_a_line(module: str) -> None:
+    run = subprocess.run(
+        [sys.executable, "-c", _BEGUN.format(module=module)], cwd=ROOT, capture_output=True, text=True, timeout=60
+    )
+    assert run.stderr in ("", "hitofude: cancelled; no file was written\n")
+    assert run.returncode in (-signal.SIGINT, 128 + signal.SIGINT)
+
+
+def test_a_pipe_is_written_by_the_name_that_the_system_has_for_it(tmp_path: Path) -> None:
+    (tmp_path / "in.ngc").write_text(RING)
+    assert shell('HITOFUDE smooth "$OUT/in.ngc" -o /dev/stdout --quiet | cat > "$OUT/out.ngc"', tmp_path) == 0
+    assert (tmp_path / "out.ngc").read_text().endswith("M2\n")
+
+
+def test_a_name_with_an_end_of_line_makes_no_second_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "in.ngc").write_text(RING)
+    assert main(["check", str(tmp_path / "in.ngc"), "--report", str(tmp_path / "r.json")]) == 0
+    plain = len(capsys.readouterr().out.splitlines())
+    (tmp_path / "a\nb.ngc").write_text(RING)
+    assert main(["check", str(tmp_path / "a\nb.ngc")]) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert len(told) == plain and told[0].startswith("a b.ngc: ")

@@ -156,7 +156,7 @@ def test_memory_that_runs_out_unasked_is_told_with_its_stage(
         args[-1].step(0.3, "Link rings")  # type: ignore[attr-defined]
         np.empty(1 << 36)  # more than anybody has
 
-    monkeypatch.setattr("app.cli.commands.make.make", greedy)
+    monkeypatch.setattr("app.usecases.making.make.make", greedy)
     if not sys.platform.startswith("linux"):
         pytest.skip("only Linux bounds the data of a process")
     assert main(["make", str(FIG2), "-o", str(tmp_path / "a.ngc"), "--memory=50M"]) == 2
@@ -170,7 +170,7 @@ def test_memory_that_runs_out_unasked_is_told_with_its_stage(
 DEAF = """
 import sys, time, threading
 import numpy as np
-import app.cli.commands.make
+import app.usecases.making.make
 from app.cli.main import main
 
 def deaf(*args, **_):
@@ -179,7 +179,7 @@ def deaf(*args, **_):
     a = np.random.default_rng(0).random((6000, 6000))
     np.linalg.svd(a)  # minutes in a library that hears nothing
 
-app.cli.commands.make.make = deaf
+app.usecases.making.make.make = deaf
 sys.exit(main(sys.argv[1:]))
 """
 

@@ -32,24 +32,59 @@ def pdf_objects(data: bytes) -> dict[int, bytes]:
     return found
 
 
+def pdf_stream(objects: dict[int, bytes], number: int) -> bytes:
+    """What is packed in an object, whose length it tells."""
+    head, _, packed = objects[number].partition(b"\nstream\n")
+    (length,) = re.findall(rb"/Length (\d+)", head)
+    assert packed[int(length) :] == b"\nendstream"
+    return zlib.decompress(packed[: int(length)])
+
+
+def font_program(objects: dict[int, bytes], font: int) -> bytes:
+    """The outlines of a font of many letters, by the way that the format has it."""
+    descendant = pointed(objects[font], b"DescendantFonts [")
+    return pdf_stream(objects, pointed(objects[pointed(objects[descendant], b"FontDescriptor ")], b"FontFile2 "))
+
+
+def pointed(body: bytes, entry: bytes) -> int:
+    """The number of the object that an entry means."""
+    (number,) = re.findall(rb"/" + re.escape(entry) + rb"(\d+) 0 R", body)
+    return int(number)
+
+
+def signs_of(objects: dict[int, bytes], font: int) -> dict[str, str]:
+    """The signs of a font by the hexadecimal digits that they are written with, by what the file tells of them."""
+    if b"/WinAnsiEncoding" in objects[font]:
+        assert b"/Helvetica" in objects[font]
+        return {f"{code:02x}": bytes([code]).decode("cp1252", "replace") for code in range(256)}
+    assert b"/Encoding /Identity-H" in objects[font]
+    table = pdf_stream(objects, pointed(objects[font], b"ToUnicode ")).decode("ascii")
+    counts = [int(each) for each in re.findall(r"(\d+) beginbfchar", table)]
+    pairs = re.findall(r"^<(\w{4})> <(\w+)>$", table.partition("endcodespacerange")[2], re.MULTILINE)
+    assert len(pairs) == sum(counts) and all(1 <= each <= 100 for each in counts)
+    return {code: bytes.fromhex(sign).decode("utf-16-be") for code, sign in pairs}
+
+
 def pdf_pages(data: bytes) -> list[list[PdfWord]]:
     """The words of each page, in the order in which they are written."""
     objects = pdf_objects(data)
-    fonts = [body for body in objects.values() if b"/Type /Font" in body]
-    assert all(b"/Helvetica" in font and b"/WinAnsiEncoding" in font for font in fonts)
     pages = []
     for body in objects.values():
         if b"/Type /Page " not in body:
             continue
-        (number,) = re.findall(rb"/Contents (\d+) 0 R", body)
-        stream = objects[int(number)].split(b"stream\n", 1)[1].rsplit(b"\nendstream", 1)[0]
-        content = zlib.decompress(stream).decode("ascii")
-        found = re.findall(r"BT .*? /F(\d) (\S+) Tf \S+ \S+ \S+ \S+ (\S+) (\S+) Tm <(.*?)> Tj ET", content)
-        assert content.count("BT") == content.count("ET") == len(found)
-        pages.append(
-            [
-                PdfWord(bytes.fromhex(text).decode("cp1252"), float(x), float(y), float(size), font == "2")
-                for font, size, x, y, text in found
-            ]
-        )
+        fonts = {name.decode(): int(place) for name, place in re.findall(rb"/F(\d+) (\d+) 0 R", body)}
+        signs = {name: signs_of(objects, place) for name, place in fonts.items()}
+        pages.append(_words(pdf_stream(objects, pointed(body, b"Contents ")).decode("ascii"), signs))
     return pages
+
+
+def _words(content: str, signs: dict[str, dict[str, str]]) -> list[PdfWord]:
+    """The words of a page's content."""
+    found = re.findall(r"(2 Tr )?BT .*? /F(\d+) (\S+) Tf \S+ \S+ \S+ \S+ (\S+) (\S+) Tm <(.*?)> Tj ET", content)
+    assert content.count("BT") == content.count("ET") == len(found)
+    words = []
+    for round_it, font, size, x, y, codes in found:
+        step = len(next(iter(signs[font])))
+        text = "".join(signs[font][codes[k : k + step]] for k in range(0, len(codes), step))
+        words.append(PdfWord(text, float(x), float(y), float(size), font == "2" or bool(round_it)))
+    return words

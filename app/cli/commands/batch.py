@@ -10,7 +10,7 @@ from ..batch_options import EPILOG, add_batch_options
 from ..batch_plan import PlannedBatch, planned
 from ..batch_run import carry_out, row_line
 from ..command import CliCommand
-from ..output import tell
+from ..output import tell_lines
 from ..signals import StopFlag
 
 
@@ -19,7 +19,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     batch = planned(arguments)
     carry_out(arguments, batch, "parts", stopped)
     if not arguments.quiet:
-        tell("\n".join(_summary(batch)))
+        tell_lines(_summary(batch))
     return 0 if all(row.verdict is BatchVerdict.CLEAN for row in batch.rows) else 1
 
 
@@ -46,4 +46,8 @@ COMMAND = CliCommand(
     EPILOG,
     add_batch_options,
     _run,
+    examples=(
+        "hitofude batch parts -o programs --depth 3 --sheets pdf",
+        "hitofude batch programs -o checked --check",
+    ),
 )

@@ -53,4 +53,5 @@ COMMAND = CliCommand(
     EPILOG,
     add_better_options,
     _run,
+    examples=("hitofude better raster.ngc -o raster-better.ngc --image metal.png --report better.json",),
 )

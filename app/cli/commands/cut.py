@@ -67,4 +67,8 @@ COMMAND = CliCommand(
     _run,
     intermixed=True,
     check=_check,
+    examples=(
+        "hitofude cut part.ngc --against part.dxf --image cut.png",
+        "hitofude cut other.nc --tool 1=ball:6 --stock 0,0,-10,80,60,0 --heights left.npy",
+    ),
 )

@@ -10,7 +10,7 @@ from ...core.atomic import write_together
 from ...core.desktop import data_folder, desktop_files, refresh
 from ...core.errors import InputError
 from ..command import CliCommand, OptionParser
-from ..output import tell
+from ..output import tell_lines
 from ..signals import StopFlag
 
 EPILOG = """\
@@ -41,7 +41,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
         write_together(files)
     refresh(folder)
     if not arguments.quiet:
-        tell("\n".join(f"{path}{': taken away' if arguments.remove else ''}" for path in files))
+        tell_lines([f"{path}{': taken away' if arguments.remove else ''}" for path in files])
     return 0
 
 
@@ -53,4 +53,8 @@ COMMAND = CliCommand(
     EPILOG,
     _add_options,
     _run,
+    examples=(
+        "hitofude desktop",
+        "hitofude desktop --remove",
+    ),
 )

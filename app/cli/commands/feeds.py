@@ -54,4 +54,5 @@ COMMAND = CliCommand(
     add_feeds_options,
     _run,
     check=check_feeds_options,
+    examples=("hitofude feeds --material aluminium --tool flat:6 --flutes 2",),
 )

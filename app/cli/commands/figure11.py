@@ -25,7 +25,9 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     names = arguments.programs if arguments.programs is not None else () if own else tuple(PROGRAMS)
     done = figure_eleven(FigureOptions(names, arguments.grid, arguments.repeat, own, arguments.facet), progress)
     report = (json.dumps(done.report(), indent=2, allow_nan=False) + "\n").encode()
-    return CommandOutcome(dict.fromkeys(outputs.values(), report), [done.text()]).delivered(arguments, progress)
+    return CommandOutcome(dict.fromkeys(outputs.values(), report), done.text().splitlines()).delivered(
+        arguments, progress
+    )
 
 
 COMMAND = CliCommand(
@@ -36,4 +38,5 @@ COMMAND = CliCommand(
     EPILOG,
     add_figure_options,
     _run,
+    examples=("hitofude figure11 --programs A --grid 512",),
 )

@@ -67,4 +67,5 @@ COMMAND = CliCommand(
     EPILOG,
     _add_options,
     _run,
+    examples=("hitofude inlay inlay.draw --job inlay.toml -o inlay",),
 )

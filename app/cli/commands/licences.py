@@ -24,7 +24,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     if arguments.texts:
         for each in packages:
             for name, text in each.files.items():
-                lines += ["", f"===== {each.name}: {name}", text.rstrip()]
+                lines += ["", f"===== {each.name}: {name}", *text.rstrip().splitlines()]
     return CommandOutcome({}, lines).delivered(arguments, NO_PROGRESS)
 
 
@@ -36,4 +36,5 @@ COMMAND = CliCommand(
     "The list is what the packages that are installed say of themselves. Exit status 0.",
     _add_options,
     _run,
+    examples=("hitofude licences --texts",),
 )

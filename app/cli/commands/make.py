@@ -10,8 +10,6 @@ from pathlib import Path
 from ...core.beside import one_after_another
 from ...core.errors import InputError
 from ...core.input_file import read_input
-from ...usecases.make_files import other_files
-from ...usecases.making.make import make
 from ..command import CliCommand
 from ..files import identity, shown_progress
 from ..make_options import EPILOG, add_make_options, make_files, read_make_options
@@ -23,6 +21,9 @@ from ..timings import StageTimes
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 with findings."""
+    from ...usecases.make_files import other_files  # not for its options alone, as a batch reads them
+    from ...usecases.making.make import make
+
     outputs, options = make_files(arguments), read_make_options(arguments)
     times = StageTimes() if arguments.timings else None
     progress = shown_progress(arguments.quiet, stopped)
@@ -58,4 +59,9 @@ COMMAND = CliCommand(
     EPILOG,
     add_make_options,
     _run,
+    examples=(
+        "hitofude make part.dxf -o part.ngc --pocket-tool 6 --contour-tool 3 --depth 4 --stepdown 2",
+        "hitofude make part.dxf -o part.ngc --side outside --tabs 4 --sheet part.pdf",
+        "hitofude make part.dxf -o part.ngc --propose --thickness 5 --write-job job.toml",
+    ),
 )

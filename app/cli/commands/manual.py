@@ -49,4 +49,5 @@ COMMAND = CliCommand(
     EPILOG,
     _add_options,
     _run,
+    examples=("hitofude manual -o site",),
 )

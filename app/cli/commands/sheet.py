@@ -86,4 +86,8 @@ COMMAND = CliCommand(
     _run,
     intermixed=True,
     check=check_cut_arguments,
+    examples=(
+        "hitofude sheet part.ngc -o sheet.pdf --against part.dxf",
+        'hitofude sheet other.nc -o other.html --clamping "two vices, jaws 8 mm high"',
+    ),
 )

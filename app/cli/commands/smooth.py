@@ -8,7 +8,6 @@ from ...core.input_file import read_input
 from ...gcode.interpreter.dialect import DIALECT_RULES
 from ...usecases.smoothing.report import certificate, findings, report_text
 from ...usecases.smoothing.result import SmoothedProgram
-from ...usecases.smoothing.smooth import smooth
 from ..command import CliCommand
 from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome
@@ -19,6 +18,8 @@ from ..smooth_options import EPILOG, add_smooth_options, smooth_options
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 done, 1 with findings."""
+    from ...usecases.smoothing.smooth import smooth  # not for its options alone, as a batch reads them
+
     outputs = named_files(arguments, "output", "report")
     check_outputs(outputs, [arguments.program])
     progress = shown_progress(arguments.quiet, stopped)
@@ -57,4 +58,8 @@ COMMAND = CliCommand(
     EPILOG,
     add_smooth_options,
     _run,
+    examples=(
+        "hitofude smooth part.ngc -o smooth.ngc --tolerance 0.01",
+        "hitofude smooth part.ngc -o smooth.ngc --as nurbs --post fanuc",
+    ),
 )

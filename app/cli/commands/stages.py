@@ -34,4 +34,8 @@ COMMAND = CliCommand(
     EPILOG,
     add_stages_options,
     _run,
+    examples=(
+        "hitofude stages part.dxf -o steps --contour-tool 2 --pocket-tool 4",
+        "hitofude stages --text E -o steps",
+    ),
 )

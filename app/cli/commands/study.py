@@ -12,7 +12,7 @@ from ..batch_plan import planned_parts
 from ..batch_run import carry_out, row_line
 from ..command import CliCommand
 from ..files import shown_progress
-from ..output import tell
+from ..output import tell_lines
 from ..signals import StopFlag
 from ..study_options import EPILOG, add_study_options, kind_of, listed, studied
 
@@ -29,11 +29,8 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     study = planned_parts(arguments, kind, listed(choices, arguments.file), BatchExtras(), table)
     carry_out(arguments, study, "combinations", stopped)
     if not arguments.quiet:
-        tell(
-            "\n".join(
-                [f"{study.store.folder / 'study.html'}: {len(choices)} combinations", *_told(choices, study.rows)]
-            )
-        )
+        head = f"{study.store.folder / 'study.html'}: {len(choices)} combinations"
+        tell_lines([head, *_told(choices, study.rows)])
     return 0 if any(row.verdict is BatchVerdict.CLEAN for row in study.rows) else 1
 
 
@@ -57,4 +54,8 @@ COMMAND = CliCommand(
     EPILOG,
     add_study_options,
     _run,
+    examples=(
+        "hitofude study part.dxf -o study --vary pocket-tool=6,8 --vary stepover=40%,60% --depth 3",
+        "hitofude study part.dxf -o study --which-tool",
+    ),
 )

@@ -45,4 +45,8 @@ COMMAND = CliCommand(
     EPILOG,
     add_surface_options,
     _run,
+    examples=(
+        "hitofude surface compound.toml -o compound.ngc --plot compound.svg",
+        "hitofude surface compound.toml -o curves.ngc --smooth 0.03",
+    ),
 )

@@ -39,4 +39,5 @@ COMMAND = CliCommand(
     EPILOG,
     add_tools_options,
     _run,
+    examples=("hitofude tools part.dxf --depth 4",),
 )

@@ -5,23 +5,20 @@ drawn, or in a font that every reader has.
 from __future__ import annotations
 
 import math
-import zlib
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import chain
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
 from .flat import FlatPolyline, flat_drawing, flat_frame
 from .page import PageContent, Pen, PlotPage, TextLine
-from .pdf_text import is_helvetica, pdf_string, runs_of, text_width
+from .pdf_stream import stream
+from .pdf_text import runs_of
+
+if TYPE_CHECKING:
+    from .pdf_fonts import PdfFonts, SetWords
 
 _POINTS_PER_MM = 72 / 25.4
-_FONTS = tuple(
-    f"<< /Type /Font /Subtype /Type1 /BaseFont /{name} /Encoding /WinAnsiEncoding >>"
-    for name in ("Helvetica", "Helvetica-Bold")
-)
 
 _BOLDER = 0.035
 """Width of the line round bold letters that are drawn, of their size."""
@@ -37,15 +34,19 @@ def pages_pdf(pages: Iterable[PlotPage], title: str, in_font: bool = False) -> b
     Raises:
         GeometryError: a spline cannot be followed.
     """
+    pages = tuple(pages)
     words = ("\ufeff" + title).encode("utf-16-be").hex()
     objects = [b"<< /Type /Catalog /Pages 2 0 R >>", b"", f"<< /Title <{words}> >>".encode()]
-    fonts = _FONTS if in_font else ()
-    objects += [font.encode() for font in fonts]
-    named = " ".join(f"/F{number} {3 + number} 0 R" for number in range(1, len(fonts) + 1))
-    resources = f"<< /Font << {named} >> >>" if fonts else "<< >>"
+    fonts = _fonts_of(pages) if in_font else None
+    resources = "<< >>"
+    if fonts is not None:
+        made, places = fonts.objects(len(objects) + 1)
+        objects += made
+        named = " ".join(f"/F{number} {place} 0 R" for number, place in places.items())
+        resources = f"<< /Font << {named} >> >>"
     kids: list[str] = []
     for page in pages:
-        content = zlib.compress("\n".join(_content(page, in_font)).encode("ascii"))
+        content = "\n".join(_content(page, fonts)).encode("ascii")
         kids.append(f"{len(objects) + 1} 0 R")
         size = f"{_n(page.width * _POINTS_PER_MM)} {_n(page.height * _POINTS_PER_MM)}"
         objects.append(
@@ -54,9 +55,7 @@ def pages_pdf(pages: Iterable[PlotPage], title: str, in_font: bool = False) -> b
                 f"/Contents {len(objects) + 2} 0 R >>"
             ).encode()
         )
-        objects.append(
-            f"<< /Length {len(content)} /Filter /FlateDecode >>\nstream\n".encode() + content + b"\nendstream"
-        )
+        objects.append(stream(content))
     objects[1] = f"<< /Type /Pages /Kids [{' '.join(kids)}] /Count {len(kids)} >>".encode()
     return _file(objects)
 
@@ -74,47 +73,47 @@ def _file(objects: list[bytes]) -> bytes:
     return b"".join(parts)
 
 
-def _content(page: PlotPage, in_font: bool) -> Iterator[str]:
+def _fonts_of(pages: Iterable[PlotPage]) -> PdfFonts:
+    """Return the fonts that the words round the drawings are written in."""
+    from .pdf_fonts import PdfFonts  # what reads fonts, where letters are asked for
+
+    return PdfFonts(words.text for page in pages for words in page.frame.words)
+
+
+def _content(page: PlotPage, fonts: PdfFonts | None) -> Iterator[str]:
     """Yield what draws a page; its unit is made 1 mm."""
     x0, y0, x1, y1 = page.window
     yield f"{_POINTS_PER_MM:.8f} 0 0 {_POINTS_PER_MM:.8f} 0 0 cm 1 J 1 j"
     yield f"q {_n(x0)} {_n(y0)} {_n(x1 - x0)} {_n(y1 - y0)} re W n"
     yield from _lines(flat_drawing(page))
     yield "Q"
-    if not in_font:
+    if fonts is None:
         yield from _lines(flat_frame(page))
         return
-    from .pdf_outlines import outlined_words  # what reads fonts, where letters are asked for
-
     frame = page.frame
     yield from _lines(flat_frame(replace(page, frame=PageContent((), frame.patches, (), frame.traces))))
     yield from _lines(flat_frame(replace(page, frame=PageContent(frame.strokes))))
     for words in chain.from_iterable(map(runs_of, frame.words)):
-        if is_helvetica(words.text):
-            yield _text(words)
-        elif (outlines := outlined_words(words)) is not None:
-            yield _filled(words, outlines)
+        run = fonts.set(words)
+        if run is not None:
+            yield _text(words, run)
         else:
             yield from _lines(flat_frame(replace(page, frame=PageContent(words=(words,)))))
 
 
-def _filled(words: TextLine, outlines: Iterable[NDArray[np.float64]]) -> str:
-    """Return what fills the contours of letters even-odd; bold ones have a line round them."""
-    runs = (" l ".join(f"{x:.4f} {y:.4f}" for x, y in points.tolist()).replace(" l ", " m ", 1) for points in outlines)
-    colour, width = _colour(words.pen), _n(_BOLDER * words.height)
-    contours = " ".join(f"{run} l h" for run in runs)
-    return f"{colour} rg {colour} RG {width} w [] 0 d {contours} B*" if words.bold else f"{colour} rg {contours} f*"
-
-
-def _text(words: TextLine) -> str:
-    """Return what writes a line of text."""
+def _text(words: TextLine, run: SetWords) -> str:
+    """Return what writes a line of text; bold letters of a font that has none have a line round them."""
     cos, sin = math.cos(words.angle), math.sin(words.angle)
-    back = words.anchor * text_width(words.text, words.height, words.bold)
+    back = words.anchor * run.width
     x = words.at[0] - words.lift * sin - back * cos
     y = words.at[1] + words.lift * cos - back * sin
-    font = f"/F{1 + words.bold} {_n(words.height)} Tf"
+    font = f"/F{run.font} {_n(run.size)} Tf"
     turn = f"{_n(cos)} {_n(sin)} {_n(-sin)} {_n(cos)} {_n(x)} {_n(y)} Tm"
-    return f"BT {_colour(words.pen)} rg {font} {turn} {pdf_string(words.text)} Tj ET"
+    colour = _colour(words.pen)
+    written = f"BT {colour} rg {font} {turn} {run.string} Tj ET"
+    if not (words.bold and run.upright):
+        return written
+    return f"q {colour} RG {_n(_BOLDER * words.height)} w [] 0 d 2 Tr {written} Q"
 
 
 def _lines(flats: Iterable[FlatPolyline]) -> Iterator[str]:

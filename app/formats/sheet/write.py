@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...core.errors import InputError
 from ..plot.page_pdf import pages_pdf
-from ..plot.pdf_outlines import has_letters
+from ..plot.pdf_fonts import has_letters
 from .content import SetupSheet
 from .html import sheet_html
 from .layout import sheet_pages
@@ -29,6 +29,6 @@ def sheet_bytes(sheet: SetupSheet, suffix: str, language: str = "en") -> bytes:
 
 
 _NO_FONT = (
-    "No font of this machine has Japanese letters, which a PDF has to hold; install one, such as Noto Sans CJK JP or "
+    "No font of this machine that may be put into a PDF has Japanese letters; install one, such as Noto Sans CJK JP or "
     "IPAGothic, or write the sheet as .html."
 )

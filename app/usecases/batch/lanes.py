@@ -16,9 +16,8 @@ from multiprocessing.connection import Connection
 from time import monotonic
 from typing import Any, Protocol
 
-from ...core.progress import Progress
-from .task import BatchResult, NamedTask
-from .work import work
+from ...core.progress import NO_PROGRESS, Progress
+from .task import BatchResult, BatchTask, NamedTask
 
 Work = Callable[[Any, Progress], BatchResult]
 
@@ -36,6 +35,13 @@ class LaneNews:
 
     fraction: float = 0.0
     text: str = ""
+
+
+def do_part(task: BatchTask, progress: Progress = NO_PROGRESS) -> BatchResult:
+    """Do a part of a batch; what it takes is imported where it is done, and not by whoever hands parts out."""
+    from .work import work
+
+    return work(task, progress)
 
 
 class Lane(Protocol):
@@ -63,7 +69,7 @@ class Lane(Protocol):
 class ProcessLane:
     """A process of this machine. Whoever kills it ends the one part that it works on."""
 
-    def __init__(self, work: Work = work) -> None:
+    def __init__(self, work: Work = do_part) -> None:
         """Make a lane; its process begins with the first part.
 
         Args:
@@ -174,7 +180,7 @@ class ExecutorLane:
     workers that die.
     """
 
-    def __init__(self, executor: Executor, work: Work = work) -> None:
+    def __init__(self, executor: Executor, work: Work = do_part) -> None:
         """Make a lane of an executor; several may share it.
 
         Args:

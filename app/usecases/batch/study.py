@@ -17,7 +17,7 @@ from urllib.parse import quote
 from ...core.errors import InputError
 from ...core.wording import minutes_words
 from ...toolpath.advice.advise import Advice
-from .table import Files, PageTable, findings_html, harmless, page_of
+from .table import Files, PageTable, findings_html, harmless, listed, page_of
 from .task import BatchRow, BatchVerdict
 
 MOST_CHOICES = 2000
@@ -161,7 +161,7 @@ def study_csv(choices: Sequence[StudyChoice], rows: Sequence[BatchRow], files: F
     writer.writerow([*head, "verdict", *(number.column for number in _NUMBERS), *_TOLD])
     for choice, row, written in zip(choices, rows, files, strict=True):
         numbers = [number.in_csv(row) for number in _NUMBERS]
-        told = (row.verdict.value, *numbers, row.counting, " | ".join(row.findings), " ".join(written))
+        told = (row.verdict.value, *numbers, row.counting, " | ".join(row.findings), listed(written))
         writer.writerow([harmless(str(cell)) for cell in (*choice.values, *told)])
     return text.getvalue().encode("utf-8", "backslashreplace")
 

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from shlex import quote as quoted
 from urllib.parse import quote
 
 from ...core.wording import minutes_words
@@ -30,9 +31,16 @@ def results_csv(rows: Sequence[BatchRow], files: Files) -> bytes:
         time, length = (
             "" if value is None else f"{value:.{digits}f}" for value, digits in ((row.time_s, 1), (row.length_mm, 3))
         )
-        told = (row.name, row.verdict.value, time, length, row.counting, " | ".join(row.findings), " ".join(written))
+        told = (row.name, row.verdict.value, time, length, row.counting, " | ".join(row.findings), listed(written))
         writer.writerow([harmless(str(cell)) for cell in told])
     return text.getvalue().encode("utf-8", "backslashreplace")
+
+
+def listed(files: Sequence[str]) -> str:
+    """Return paths as one cell, quoted as shells do it where they must be: `shlex.split` reads it, and plain names of
+    older versions, which quoted none.
+    """
+    return " ".join(f"'{each}'" if harmless(each) != each == quoted(each) else quoted(each) for each in files)
 
 
 def harmless(cell: str) -> str:

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from enum import Enum
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
-from ..examine import ExamineOptions
-from ..job.options import MakeOptions
-from ..smoothing.result import SmoothOptions
+if TYPE_CHECKING:  # who hands parts out needs nothing of what does them
+    from ..examine import ExamineOptions
+    from ..job.options import MakeOptions
+    from ..smoothing.result import SmoothOptions
+
+    PartOptions: TypeAlias = MakeOptions | ExamineOptions | SmoothOptions
 
 Json = dict[str, Any]
 
@@ -92,7 +95,7 @@ class BatchTask:
     name: str
     data: bytes
     kind: BatchKind
-    options: MakeOptions | ExamineOptions | SmoothOptions
+    options: PartOptions
     output: str
     extras: BatchExtras = BatchExtras()
     file: str = ""

@@ -4,25 +4,19 @@ from __future__ import annotations
 
 import hashlib
 import re
-import zlib
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from app.formats.job.toml import read_job
 from app.formats.job.write import job_lines
-from app.formats.plot.page import PageContent, PlotPage, TextLine
-from app.formats.plot.page_pdf import pages_pdf
-from app.formats.plot.pdf_outlines import outlined_words
 from app.formats.plot.pdf_text import text_width, wrapped
 from app.formats.readers import read_drawing
 from app.formats.sheet.content import SetupPicture, SetupSheet, SheetColumn, SheetFact, SheetProof, SheetTable
 from app.formats.sheet.layout import HEIGHT, MARGIN, WIDTH
 from app.formats.sheet.write import sheet_bytes
-from app.geometry.transform import Similarity
 from app.model.contour_operation import ContourOperation
 from app.model.curve_selectors import read_selectors
 from app.model.finding import Finding, FindingKind
@@ -35,7 +29,7 @@ from app.model.tool_kind import ToolKind
 from app.usecases.making.make import MakeResult, export
 from app.usecases.sheet.common import offset_fact
 from app.usecases.sheet.made import made_sheet
-from tests.formats.pdf_words import pdf_objects, pdf_pages
+from tests.formats.pdf_words import pdf_pages
 
 HOLDER = ((0.0, 14.0), (20.0, 14.0))
 
@@ -252,21 +246,6 @@ def test_names_are_no_markup_and_other_scripts_are_drawn() -> None:
     sheet = SetupSheet("<b>段取り", "a & b", "Proven", True, picture, facts, (), proofs, (), (), (), "h")
     assert b"<b>" not in sheet_bytes(sheet, ".html").split(b"<body>")[1].split(b"</header>")[0]
     assert "a & b" in [word.text for word in pdf_pages(sheet_bytes(sheet, ".pdf"))[0]]
-
-
-def test_words_beyond_the_font_are_outlines_of_one_that_has_them() -> None:
-    words = TextLine("Деталь 8", (20.0, 30.0), 7.0)
-    outlines = outlined_words(words)
-    if outlines is None:
-        pytest.skip("there is no font here that has these letters")
-    points = np.concatenate(outlines)
-    assert points[:, 0].min() >= 20.0 and points[:, 0].max() < 20.0 + 8 * 7.0 * 1.2
-    assert 30.0 + 4.0 < points[:, 1].max() < 30.0 + 7.0 and len(outlines) > 8  # letters with holes have two contours
-    assert all(np.allclose(each[0], each[-1], atol=1e-6) for each in outlines)
-    page = PlotPage(100.0, 100.0, (0.0, 0.0, 1.0, 1.0), Similarity(), PageContent(), PageContent(words=(words,)))
-    data = pages_pdf([page], "a", in_font=True)
-    content = zlib.decompress(pdf_objects(data)[7].split(b"stream\n", 1)[1].rsplit(b"\nendstream", 1)[0]).decode()
-    assert content.count(" m ") == content.count(" h") == len(outlines) and content.rstrip().endswith("f*")
 
 
 def test_lines_are_broken_where_they_fit() -> None:

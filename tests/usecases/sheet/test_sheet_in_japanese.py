@@ -14,8 +14,8 @@ import pytest
 from app.core.resources import resource
 from app.formats.job.toml import read_job
 from app.formats.plot.page import TextLine
-from app.formats.plot.pdf_outlines import has_letters, outlined_words
-from app.formats.plot.pdf_text import runs_of, text_width, wrapped
+from app.formats.plot.pdf_fonts import has_letters
+from app.formats.plot.pdf_text import is_wide, runs_of, text_width, wrapped
 from app.formats.readers import read_drawing
 from app.formats.sheet.content import SetupSheet
 from app.formats.sheet.layout import MARGIN, WIDTH, sheet_pages
@@ -34,6 +34,7 @@ from app.usecases.examine import ExamineOptions, examine
 from app.usecases.making.make import export
 from app.usecases.sheet.made import made_sheet
 from app.usecases.sheet.program import SheetCut, SheetNotes, program_sheet
+from tests.formats.pdf_words import pdf_pages
 
 ENGLISH = re.compile(r"[A-Za-z]{2,} [a-z]{2,}|\b(?:the|of|with|Flat|Min|Tool)\b")
 NOTE = "Two vices; jaws 8 mm high, clean."
@@ -131,12 +132,20 @@ def test_signs_of_japanese_fill_their_squares_between_other_letters() -> None:
     assert [run.text for run in runs] == ["深さ", " 3 mm", "、直径"]
     for one, two in pairwise(runs):
         assert two.at[0] == pytest.approx(one.at[0] + text_width(one.text, 4.0))
-    if not has_letters(words.text):
+
+
+def test_paper_in_japanese_is_small_and_its_words_can_be_searched() -> None:
+    sheet = clamped()
+    if not has_letters(translated(sheet, "ja").verdict):
         pytest.skip("no font is installed here that has these letters")
-    outlines = outlined_words(runs[0])
-    assert outlines is not None
-    assert max(points[:, 0].max() for points in outlines) == pytest.approx(10.0 + 2 * 4.0, abs=1.0)
-    assert b"%PDF" in sheet_bytes(clamped(), ".pdf", "ja")[:8]
+    data = sheet_bytes(sheet, ".pdf", "ja")
+    assert len(data) < 100_000 and data == sheet_bytes(sheet, ".pdf", "ja")
+    for page, read in zip(sheet_pages(translated(sheet, "ja")), pdf_pages(data), strict=True):
+        meant = [run for words in page.frame.words for run in runs_of(words)]
+        assert [(word.text, word.bold) for word in read] == [(run.text, run.bold) for run in meant]
+        for word, run in zip(read, meant, strict=True):
+            if is_wide(run.text):
+                assert word.size == pytest.approx(run.height, rel=0.02)  # a sign fills its square
 
 
 def test_japanese_is_broken_between_signs_as_its_rules_have_it() -> None:
