@@ -51,6 +51,7 @@ from .drawing.engagement_controller import EngagementController
 from .drawing.inlay_controller import InlayController
 from .drawing.owned_curves_controller import OwnedCurvesController
 from .drawing.proposal_controller import ProposalController
+from .drawing.selection_ribbon import SelectionRibbon
 from .drawing.shape_language_controller import ShapeLanguageController
 from .drawing.tab_controller import TabController
 from .drawing.template_controller import TemplateController
@@ -432,6 +433,7 @@ class WindowController(QObject):
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
         canvas.key_typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(self._on_tool)
+        self.ribbon = SelectionRibbon(canvas, self.document, window.actions_)
         self.context_menu = ContextMenu(canvas, self.document, window.actions_)
 
     def _take_tool(self, tool: CanvasTool) -> None:

@@ -6,6 +6,9 @@ from PySide6.QtCore import QObject
 
 from ....drafting.document import Document
 from ...views.canvas.canvas import Canvas
+from ...views.canvas.form_tools import FONT
+from ...views.canvas.prompt_tool import Prompt, PromptTool
+from ...views.language.completion import CompletionItem
 from .command_completion import completions
 from .command_line import CommandLine
 
@@ -16,8 +19,12 @@ class CommandLineController(QObject):
     def __init__(self, command_line: CommandLine, canvas: Canvas, document: Document) -> None:
         super().__init__(command_line)
         self._command_line, self._canvas = command_line, canvas
-        command_line.completions = lambda line: completions(line, document)
+        self._document = document
+        self._asked: Prompt | None = None
+        command_line.completions = self._completions
         command_line.value_taken = self._take_value
+        command_line.chosen.connect(self._choose)
+        command_line.edit.textChanged.connect(canvas.see_words)
         canvas.prompt_changed.connect(lambda _: self._show_options())
         canvas.tool_changed.connect(lambda _: command_line.forget())
         canvas.cancelled.connect(command_line.forget)
@@ -25,6 +32,24 @@ class CommandLineController(QObject):
     def _show_options(self) -> None:
         tool = self._canvas.runner.tool
         self._command_line.set_options(tool.options if tool is not None else ())
+        asked = tool.ask if isinstance(tool, PromptTool) else None
+        if asked is FONT and self._asked is not FONT:
+            self._command_line.offer()
+        self._asked = asked
+
+    def _choose(self, word: str) -> None:
+        """Take an option of the tool; words that are being typed go on, a number is typed at the pointer."""
+        self._canvas.choose(word)
+        if not (self._canvas.runner.wants_words and self._command_line.edit.hasFocus()):
+            self._canvas.setFocus()
+
+    def _completions(self, line: str) -> tuple[str, list[CompletionItem]]:
+        """Return what a line could go on with: fonts where the tool asks for one, nothing where it asks for words."""
+        tool = self._canvas.runner.tool
+        if not self._canvas.runner.wants_words or not isinstance(tool, PromptTool):
+            return completions(line, self._document)
+        begun = line.strip()
+        return begun, _fonts(begun) if tool.ask is FONT else []
 
     def _take_value(self, text: str) -> bool:
         """Have a number that Tab ends go into the first box at the pointer, and the keys into the next one."""
@@ -33,3 +58,10 @@ class CommandLineController(QObject):
             return False
         canvas.setFocus()
         return True
+
+
+def _fonts(begun: str) -> list[CompletionItem]:
+    """Return the fonts of this machine in whose names something stands."""
+    from ....geometry.typeface import installed_names  # reads fonts: not before one is asked for
+
+    return [CompletionItem(name, "font") for name in installed_names() if begun.casefold() in name.casefold()]

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 NOTHING_DRAWN = "Nothing is drawn yet; draw a closed curve or open a drawing first."
 NOTHING_SELECTED = "Nothing is selected; click a line first."
-WAYS = ("pocket", "outside", "inside", "on", "slot", "drill", "bore", "countersink", "chamfer", "engrave")
+WAYS = ("pocket", "outside", "inside", "on", "slot", "drill", "bore", "countersink", "chamfer", "engrave", "vcarve")
 """What a selection can become, as the commands name it: `machine_pocket`, …"""
 A_PICTURE = "All of a picture's pixels is pockets; trace it first to have operations proposed."
 
