@@ -14,6 +14,8 @@ from ..views.surfaces.controller import SAMPLES, SceneController, SceneProgram
 from .display_controller import DisplayController
 from .main_window import MainWindow
 
+_PROGRAM_VIEWS = (View.CUT, View.NC)
+
 
 class SceneCoordinator(QObject):
     """Connects the scene's controller with the window and with the views that show its program."""
@@ -27,7 +29,11 @@ class SceneCoordinator(QObject):
         cuts: CutController,
     ) -> None:
         super().__init__(window)
-        self._window, self._display, self._scenes, self._cuts = window, display, scenes, cuts
+        self._window, self._display, self._scenes = window, display, scenes
+        self._nc, self._cuts = nc, cuts
+        display.on_scene = lambda: self.at_front
+        display.view_changed.connect(self._go_on)
+        scenes.changed.connect(lambda: self._go_on(display.view))
         actions = window.actions_
         on_trigger(actions, "scene_new", scenes.new)
         for name in SAMPLES:
@@ -45,8 +51,30 @@ class SceneCoordinator(QObject):
 
     @property
     def at_front(self) -> bool:
-        """Whether the scene is worked on rather than the drawing."""
-        return self._display.view is View.SURFACES and self._window.scene.open
+        """Whether the scene is worked on rather than the drawing: it, or its program where nothing is drawn."""
+        view, scene = self._display.view, self._window.scene
+        return scene.open and (view is View.SURFACES or (self._alone and view in _PROGRAM_VIEWS))
+
+    @property
+    def _alone(self) -> bool:
+        """Whether a scene is all that there is: nothing is drawn, and no program of a file is looked at."""
+        opened = self._nc.source.path if self._nc.foreign and self._nc.source is not None else None
+        cut = self._cuts.source
+        return (
+            self._window.scene.open
+            and not self._window.document.part.entities
+            and opened is None
+            and (cut is None or self._cuts.of_scene)
+        )
+
+    def _go_on(self, view: View) -> None:
+        """Show the scene's program, as it is now, where nothing else is there to be shown."""
+        program = self._scenes.program() if view in _PROGRAM_VIEWS and self._alone else None
+        if program is None:
+            return
+        shown = self._cuts.source if view is View.CUT else self._nc.source
+        if shown is None or shown.data != program.source.data:
+            (self._scenes.show_cut if view is View.CUT else self._scenes.show_nc)()
 
     def _ask(self) -> None:
         """Keep the window open while the scene's changes are asked about; those of the drawing come first."""
@@ -54,5 +82,6 @@ class SceneCoordinator(QObject):
 
     def _show_cut(self, program: SceneProgram) -> None:
         """Show what a scene's program leaves of its stock, beside the scene's surfaces."""
-        self._display.show_view(View.CUT)
+        if self._display.view is not View.CUT:
+            self._display.show_view(View.CUT)
         self._cuts.show_program(program.source, program.dialect, program.part)

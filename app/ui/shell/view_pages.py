@@ -33,6 +33,9 @@ WRONG_SCENE = MissingHint("The scene's text is wrong; the line is marked at the 
 SCENE_FAILED = MissingHint("The scene could not be computed; the badge below tells why.", "Compute  F5", "compute")
 SCENE_WAITS = MissingHint("The scene is not computed yet.", "Compute  F5", "compute")
 SCENE_COMPUTING = MissingHint("The scene is being computed.", "Cancel  Shift+F5", "cancel")
+SCENE_UNPROVEN = MissingHint(
+    "The scene's program is shown here when it is computed and proven.", "Show the scene", View.SURFACES.value
+)
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 CUT_PROMPT = (
     "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click marks "
@@ -95,7 +98,7 @@ def _drawing_pages(window: MainWindow, told: WindowState) -> dict[View, ViewPage
         shows = window.views.cut.model.picture is not None or bool(window.views.cut.sentence.text())
         if asked is not None and not shows:
             return MissingHint(f"{asked.foreign.source.name} is not cut yet: say at the right what cuts, and of what.")
-        return _of_job(window, shows, lambda: NO_PART, NO_CUT)
+        return _of_job(window, shows, lambda: SCENE_UNPROVEN if window.scene.open else NO_PART, NO_CUT)
 
     def beside_cut() -> QWidget | None:
         if window.cut_form.asked is not None:
@@ -118,7 +121,7 @@ def _program_pages(window: MainWindow) -> dict[View, ViewPage]:
 
     def missing() -> MissingHint:
         shows = window.computation.made is not None or len(nc.pane.text.text) > 0
-        return _of_job(window, shows, lambda: NO_PROGRAM, NO_NC)
+        return _of_job(window, shows, lambda: SCENE_UNPROVEN if window.scene.open else NO_PROGRAM, NO_NC)
 
     return {
         View.CURVES: ViewPage(
