@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
@@ -62,7 +63,7 @@ class DisplayController(QObject):
 
     Attributes:
         view: the one at the front. stages_missing, film_missing: what the stages lack.
-        pages: of every view.
+        pages: of every view. on_scene: tells whether a scene is worked on at the front rather than the drawing.
         writing: the drawing is being written as a text, so that nothing need be said of an empty one.
         opening: name of the file that is being read, "" = none is.
     """
