@@ -151,9 +151,11 @@ def test_where_there_is_a_choice_it_is_offered(qtbot, knowing):
 
 
 def test_words_of_the_tool_are_buttons(qtbot, line, entered):
+    chosen = []
+    line.chosen.connect(chosen.append)
     line.set_options(("copy", "radius"))
     qtbot.mouseClick(line.options["radius"], Qt.MouseButton.LeftButton)
-    assert entered == ["radius"]
+    assert chosen == ["radius"] and entered == []
     line.set_options(())
     assert not line.options
 

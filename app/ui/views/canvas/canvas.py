@@ -254,12 +254,9 @@ class Canvas(InteractiveViewport):
 
     @property
     def _in_display(self) -> bool:
-        """Whether the display is seen whole with all that is drawn in it: a corner alone would be a riddle."""
-        x0, y0, x1, y1 = self.frame.extent
-        box = self.picture.box
-        if box is not None and not (x0 <= box[0] and y0 <= box[1] and box[2] <= x1 and box[3] <= y1):
-            return False
-        return self.area.contains(self.view.to_screen((x0, y0))) and self.area.contains(self.view.to_screen((x1, y1)))
+        """Whether all that is drawn lies in the display: the corners of one that it does not fit would be a riddle."""
+        (x0, y0, x1, y1), box = self.frame.extent, self.picture.box
+        return box is None or (x0 <= box[0] and y0 <= box[1] and box[2] <= x1 and box[3] <= y1)
 
     def _paint_margins(self, painter: QPainter) -> None:
         """Paint the rulers."""
@@ -394,6 +391,7 @@ class Canvas(InteractiveViewport):
 
     def _follow(self, change: DocumentChange) -> None:
         places: list[Box] | None = []
+        in_display = self._in_display
         if DocumentChange.PART in change:
             places = self.picture.update(self.document.part)
             self.look_at(None)
@@ -404,8 +402,9 @@ class Canvas(InteractiveViewport):
             selected = self.picture.select(self.document.selection)
             self.grips.update(self.document, self._mode is CanvasMode.DRAW)
             places = places + selected if places is not None and selected is not None else None
-        finer = (self.picture.count(self.view.world_box(self.area)) > MANY) != self.picture.fine
-        if around or places is None or finer or self.document.job.copies.shifts[1:]:
+        other = (self.picture.count(self.view.world_box(self.area)) > MANY) != self.picture.fine
+        other |= in_display != self._in_display
+        if around or places is None or other or self.document.job.copies.shifts[1:]:
             self.repaint_scene()
         elif places:
             self.repaint_places(places, _BLEED_PX)
