@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt
+from PySide6.QtWidgets import QWidget
 
 from ...core.resources import resource
 from ...core.settings import ThemeChoice
@@ -285,6 +287,18 @@ class WindowController(QObject):
             self.display_controller.show_view(View.DRAW)
         self.window_.side.show_page(name)
 
+    def _beside_job(self, act: Callable[[], object]) -> None:
+        """Do something in the job's panel, which is brought to the front, so that it is seen."""
+        self._show_side_page(JOB_PAGE)
+        act()
+
+    def _switch(self, section: QWidget, switch: Callable[[], None]) -> None:
+        """Open a section of the job's panel, or close it where it is seen; one that is covered comes to the front."""
+        seen = section.isVisible()
+        self._show_side_page(JOB_PAGE)
+        if seen or section.isHidden():
+            switch()
+
     def _connect_files(self) -> None:
         files = self.files
         self._on("new", files.ask_new)
@@ -404,14 +418,14 @@ class WindowController(QObject):
 
     def _connect_job(self) -> None:
         panel, computation = self.window_.panel, self.computation
-        self._on("job_properties", lambda: panel.choose(Subject(SubjectKind.JOB)))
-        self._on("add_tool", panel.tools.added.emit)
-        self._on("tool_library", panel.switch_library)
-        self._on("which_tool", panel.switch_advice)
+        self._on("job_properties", partial(self._beside_job, lambda: panel.choose(Subject(SubjectKind.JOB))))
+        self._on("add_tool", partial(self._beside_job, panel.tools.added.emit))
+        self._on("tool_library", partial(self._switch, panel.library, panel.switch_library))
+        self._on("which_tool", partial(self._switch, panel.advice, panel.switch_advice))
         self._on("import_tools", self.tools.choose_file)
         self._on("export_tools", self.tools.choose_place)
         for word, kind in OPERATION_KINDS.items():
-            self._on(f"add_{word}", partial(panel.operations.added.emit, kind))
+            self._on(f"add_{word}", partial(self._beside_job, partial(panel.operations.added.emit, kind)))
         self._on("compute", self.compute)
         self._on("cancel", self.cancel)
         self._on("findings", self.display_controller.open_findings)
