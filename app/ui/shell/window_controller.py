@@ -187,7 +187,7 @@ class WindowController(QObject):
         self.cleanup_controller = CleanUpController(window.drawing_page.cleanup, canvas, workspace)
         self.engagement_controller = EngagementController(canvas, window.views.legend, workspace)
         self.announcing = Announcing(workspace, self)
-        self.command_line_controller = CommandLineController(window.command_line, canvas, self.document)
+        self.command_line_controller = CommandLineController(window.command_line, canvas, workspace)
         self.focus_keeper = FocusKeeper(window, window.views.take_focus)
         self.start_controller = StartController(window.views.start, workspace)
 
