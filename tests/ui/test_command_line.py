@@ -292,6 +292,17 @@ def test_what_was_begun_goes_when_a_tool_is_taken_or_esc_is_pressed_on_the_canva
     assert edit.text() == ""
 
 
+def test_escape_gives_up_what_is_typed_before_the_tool(qtbot, wiring):
+    canvas, edit = wiring.window_.canvas, wiring.window_.command_line.edit
+    wiring.window_.actions_["tool_text"].trigger()
+    canvas.type_text("5,5")
+    qtbot.keyClicks(edit, "Mt Fuij")
+    qtbot.keyClick(edit, Qt.Key.Key_Escape)
+    assert edit.text() == "" and "type the words" in canvas.prompt
+    qtbot.keyClick(edit, Qt.Key.Key_Escape)
+    assert "lower left of the words" in canvas.prompt
+
+
 def test_fonts_are_offered_when_one_is_asked_for(qtbot, wiring):
     canvas, line = wiring.window_.canvas, wiring.window_.command_line
     wiring.window_.actions_["tool_text"].trigger()

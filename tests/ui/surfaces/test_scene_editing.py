@@ -383,6 +383,11 @@ def test_where_nothing_is_drawn_a_scene_goes_on_to_its_program_and_its_cut(qtbot
     assert window.file_label.text() == "mine.ngc" and window.actions_["export"].isEnabled()
     assert window.cut_panel.back.text() == "Close it", "there is no job's cut to go back to"
     assert window.status.message.toolTip() == "", "and nothing that was not computed"
+    window.cut_panel.back.click()
+    assert window.views.cut.model.picture is None, "it can be closed"
+    display.show_view(View.SURFACES)
+    display.show_view(View.CUT)
+    assert display.page.missing().action == "scene_cut", "and is not shown against one's will"
 
 
 def test_a_drawing_beside_a_scene_keeps_its_own_cut(opened):

@@ -33,7 +33,7 @@ class CommandLine(Themed, QWidget):
 
     Signals:
         entered(text): Enter with text in the line, or a whole block. accepted(): Enter in the empty line. cancelled():
-        Escape. chosen(word): the button of an option.
+        Escape with nothing typed. chosen(word): the button of an option.
 
     Attributes:
         completions: what the end of a line could become, and how much of it there is.
@@ -152,9 +152,12 @@ class CommandLine(Themed, QWidget):
         return True
 
     def _give_up(self) -> None:
+        """Give up what is typed; where nothing is, the tool in hand has the key."""
+        typed = bool(self._block or self.edit.text())
         self._set_block([])
         self.edit.clear()
-        self.cancelled.emit()
+        if not typed:
+            self.cancelled.emit()
 
     def _enter(self) -> None:
         text = self.edit.text().strip()
