@@ -379,10 +379,16 @@ def test_where_nothing_is_drawn_a_scene_goes_on_to_its_program_and_its_cut(qtbot
     assert window.file_label.text() == "mine.ngc *" and window.actions_["export"].isEnabled()
     display.show_view(View.CUT)
     assert opened.cut_controller.of_scene
-    qtbot.waitUntil(lambda: window.views.cut.model.picture is not None, timeout=WAIT_MS)
     assert window.file_label.text() == "mine.ngc" and window.actions_["export"].isEnabled()
     assert window.cut_panel.back.text() == "Close it", "there is no job's cut to go back to"
     assert window.status.message.toolTip() == "", "and nothing that was not computed"
+
+
+@pytest.mark.exhaustive
+def test_a_scene_s_cut_that_was_closed_comes_back_when_it_is_asked_for(qtbot, opened):
+    window, display = opened.window_, opened.display_controller
+    display.show_view(View.CUT)
+    qtbot.waitUntil(lambda: window.views.cut.model.picture is not None, timeout=WAIT_MS)
     window.cut_panel.back.click()
     assert window.views.cut.model.picture is None, "it can be closed"
     display.show_view(View.SURFACES)
