@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from fontTools.pens.basePen import BasePen
 from fontTools.ttLib import TTFont
@@ -25,6 +25,7 @@ from .stroke_font import Glyph, StrokeFont, reach_below
 
 logging.getLogger("fontTools").addHandler(logging.NullHandler())  # what is wrong with a font is in our own sentence
 _KINDS = (".ttf", ".otf", ".ttc")
+_UPRIGHT = frozenset({"regular", "book", "roman", "normal", "medium", ""})
 _SHORT = 1e-9
 """Units of the font; a shorter line is left out."""
 _RESTRICTION, _RESTRICTED, _NO_PART_OF_IT = 0x000F, 0x0002, 0x0300
@@ -244,21 +245,42 @@ def _paths() -> list[Path]:
     )
 
 
+def installed_names() -> tuple[str, ...]:
+    """Return the names of the fonts of this machine as a user knows them, sorted: families, and their styles."""
+    named = {each.family if _plain(each.style) in _UPRIGHT else f"{each.family} {each.style}" for each in _faces()}
+    return tuple(sorted(named, key=str.casefold))
+
+
+class _Face(NamedTuple):
+    """A font file of this machine with the names it goes by."""
+
+    path: Path
+    family: str
+    style: str
+
+
+@lru_cache(1)
+def _faces() -> tuple[_Face, ...]:
+    found = []
+    for path in _paths():
+        try:
+            with TTFont(path, fontNumber=0, lazy=True) as font:
+                names = font["name"]
+                found.append(_Face(path, names.getBestFamilyName() or path.stem, names.getBestSubFamilyName() or ""))
+        except Exception:  # a broken font among those installed is none to choose, whatever its bytes raise
+            continue
+    return tuple(found)
+
+
 @lru_cache(1)
 def _installed() -> dict[str, Path]:
     """Return the fonts of this machine by every name they go by, without blanks and in lower case."""
     found: dict[str, Path] = {}
     plain: dict[str, Path] = {}
-    for path in _paths():
-        try:
-            with TTFont(path, fontNumber=0, lazy=True) as font:
-                names = font["name"]
-                family, style = names.getBestFamilyName() or path.stem, names.getBestSubFamilyName() or ""
-        except Exception:  # a broken font among those installed is none to choose, whatever its bytes raise
-            continue
+    for path, family, style in _faces():
         found.setdefault(_plain(path.stem), path)
         found.setdefault(_plain(family + style), path)
-        if _plain(style) in ("regular", "book", "roman", "normal", "medium", "") or _plain(family) not in plain:
+        if _plain(style) in _UPRIGHT or _plain(family) not in plain:
             plain[_plain(family)] = path
     return plain | {name: path for name, path in found.items() if name not in plain}
 

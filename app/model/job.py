@@ -283,7 +283,7 @@ class Job:
             either = " or a ball" if operation.CARVES_ROUND else ""
             raise ParameterError(
                 f"T{tool.number} {tool.label} is a {tool.kind.value} cutter; a {operation.WORD} operation needs a V "
-                f"cutter with its angle{either}: choose another tool, or give it kind and tip_angle."
+                f"cutter with its angle{either}: choose another tool, or make this one a V cutter."
             )
         return tool
 

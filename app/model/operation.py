@@ -259,6 +259,7 @@ class Operation:
 
     Attributes:
         WORD: the kind in job files, reports, NC headers, and in words.
+        NAME: what it is called in the window where that is not its word; "" = its word.
         TOOL: the word of the one kind of tool that can do it; "" = any that mills, or drills where it does.
         UNUSED: keys of parameters of the parts that have no effect on this kind.
         HOLES: whether it works on circles, each by itself, and on nothing else.
@@ -276,6 +277,7 @@ class Operation:
     cut: CutParameters = required_part(CutParameters)
 
     WORD: ClassVar[str]
+    NAME: ClassVar[str] = ""
     TOOL: ClassVar[str] = ""
     UNUSED: ClassVar[frozenset[str]] = frozenset()
     HOLES: ClassVar[bool] = False

@@ -27,6 +27,7 @@ class VcarveOperation(Operation):
     )
 
     WORD = "vcarve"
+    NAME = "V-carve"
     CARVES = True
     LEVELS = False
     UNUSED = frozenset({"stock_to_leave", "direction", "finish_depth", "floor_to_leave", "entry", "entry_angle"})

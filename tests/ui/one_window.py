@@ -195,7 +195,7 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     window.panel.choose(Subject(SubjectKind.OPERATION, 0))
     window.views.fade._run.setCurrentTime(FADE_MS)
     window.resize(*SIZE)
-    window.status.show_message("Not computed")
+    window.status.show_message("")
     _empty_what_is_hidden(wiring)
     _end_jobs(workers)
     _settle()

@@ -407,3 +407,19 @@ def test_every_click_sequence_replays(plate: Hand) -> None:
     assert again.part == plate.document.part
     (arc,) = [c for c in plate.curves() if isinstance(c, Arc)]
     assert math.dist(arc.start, arc.centre) == pytest.approx(math.dist(arc.end, arc.centre), abs=1e-9)
+
+
+def test_marks_of_the_display_are_no_riddle_in_a_drawing_that_does_not_fit_it(qtbot):
+    hand = Hand(qtbot, ("rect 0,0 80,50",))
+    hand.canvas.show()
+    hand.canvas.fit_to((-5.0, -5.0, 125.0, 45.0))
+    x, y = hand.canvas.view.to_screen((100.0, 0.0)).toTuple()
+
+    def marked() -> bool:
+        picture = hand.canvas.grab().toImage()
+        along = [picture.pixelColor(round(x), round(y) - px).lightness() for px in range(2, 8)]
+        return max(along) < 200
+
+    assert marked(), "its lower right corner"
+    hand.document.run("rect 0,0 120,40")
+    assert not marked()

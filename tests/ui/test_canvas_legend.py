@@ -7,7 +7,9 @@ from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from app.model.job import Job
+from app.model.operation import CutParameters, RestOperation
 from app.model.tool import Tool
+from app.model.vcarve_operation import VcarveOperation
 from app.ui.framework.give_way import give_way
 from app.ui.framework.legend import LegendSheet
 from app.ui.framework.samples import PathLineKind
@@ -28,6 +30,15 @@ def test_a_long_list_of_tools_is_read_whole_in_the_legend(wiring, count):
     row = legend.rows[PathLineKind.POCKET]
     assert row.label.fontMetrics().horizontalAdvance(row.label.text()) <= row.label.width(), row.label.text()
     assert all(f"T{tool.number}" in row.toolTip() for tool in tools)
+
+
+def test_a_line_is_named_after_the_one_kind_that_is_drawn_with_it(wiring):
+    legend, job = wiring.window_.views.legend, wiring.document.job
+    legend.show_job(replace(job, operations=(VcarveOperation(CutParameters(1)),)))
+    assert legend.rows[PathLineKind.REST].label.text() == "V-carve T1"
+    both = (VcarveOperation(CutParameters(1)), RestOperation(CutParameters(2)))
+    legend.show_job(replace(job, operations=both))
+    assert legend.rows[PathLineKind.REST].label.text() == "Rest T1 T2"
 
 
 def test_a_legend_folds_where_it_would_hide_the_picture_and_may_be_unfolded_there(qtbot):

@@ -151,9 +151,11 @@ def test_where_there_is_a_choice_it_is_offered(qtbot, knowing):
 
 
 def test_words_of_the_tool_are_buttons(qtbot, line, entered):
+    chosen = []
+    line.chosen.connect(chosen.append)
     line.set_options(("copy", "radius"))
     qtbot.mouseClick(line.options["radius"], Qt.MouseButton.LeftButton)
-    assert entered == ["radius"]
+    assert chosen == ["radius"] and entered == []
     line.set_options(())
     assert not line.options
 
@@ -288,3 +290,32 @@ def test_what_was_begun_goes_when_a_tool_is_taken_or_esc_is_pressed_on_the_canva
     qtbot.keyClicks(edit, "12,")
     qtbot.keyClick(canvas, Qt.Key.Key_Escape)
     assert edit.text() == ""
+
+
+def test_escape_gives_up_what_is_typed_before_the_tool(qtbot, wiring):
+    canvas, edit = wiring.window_.canvas, wiring.window_.command_line.edit
+    wiring.window_.actions_["tool_text"].trigger()
+    canvas.type_text("5,5")
+    qtbot.keyClicks(edit, "Mt Fuij")
+    qtbot.keyClick(edit, Qt.Key.Key_Escape)
+    assert edit.text() == "" and "type the words" in canvas.prompt
+    qtbot.keyClick(edit, Qt.Key.Key_Escape)
+    assert "lower left of the words" in canvas.prompt
+
+
+def test_fonts_are_offered_when_one_is_asked_for(qtbot, wiring):
+    canvas, line = wiring.window_.canvas, wiring.window_.command_line
+    wiring.window_.actions_["tool_text"].trigger()
+    qtbot.mouseClick(line.options["font"], Qt.MouseButton.LeftButton)
+    worker = wiring.command_line_controller.worker
+    qtbot.waitUntil(lambda: not worker.busy, timeout=20_000)
+    canvas.type_text("5,5")
+    assert line.offers is None or line.offers.isHidden(), "words are asked for"
+    line.entered.emit("Mt Fuji")
+    assert line.offers.isVisible() and line.offers.current is not None
+    line._answer_offers(Qt.Key.Key_Return)
+    line.edit.setText("")
+    begun, found = line.completions("serif bold it")
+    assert begun == "serif bold it" and [offer.word for offer in found] == ["DejaVu Serif Bold Italic"]
+    line.entered.emit("DejaVu Serif Bold Italic")
+    assert wiring.log.lines[-1].command == 'text 5,5 10 "Mt Fuji" font "DejaVu Serif Bold Italic"'

@@ -304,3 +304,44 @@ def test_a_large_selection_is_shown_by_some_of_it_and_moved_whole(qtbot: QtBot) 
     assert 100 < len(hand.canvas.runner.preview(hand.canvas.aim.point).trial.added) <= 400
     hand.click((5, 25))
     assert all(isinstance(c, Circle) and c.centre[1] == 70 for c in hand.curves())
+
+
+def test_an_option_is_no_words_while_words_are_asked_for(qtbot: QtBot) -> None:
+    hand = Hand(qtbot)
+    hand.canvas.set_tool(CanvasTool.TEXT)
+    hand.click((10, 10))
+    hand.canvas.choose("font")
+    hand.canvas.choose("height")
+    assert hand.canvas.type_text("5")
+    assert "type the words" in hand.canvas.prompt and "font on, height 5" in hand.canvas.prompt
+    assert hand.canvas.type_text("font") and "name of a font" in hand.canvas.prompt
+    assert hand.canvas.type_text("DejaVu Sans")
+    assert hand.said() == ['text 10,10 5 "font" font "DejaVu Sans"'] and hand.messages == []
+
+
+def test_a_font_that_is_not_there_loses_no_words(qtbot: QtBot) -> None:
+    hand = Hand(qtbot)
+    hand.canvas.set_tool(CanvasTool.TEXT)
+    hand.canvas.choose("font")
+    hand.click((10, 10))
+    assert hand.canvas.type_text("Mt Fuji") and hand.canvas.type_text("No such font")
+    assert "There is no font" in hand.messages[-1] and "name of a font" in hand.canvas.prompt
+    assert hand.canvas.type_text("DejaVu Serif")
+    assert hand.said()[-1] == 'text 10,10 10 "Mt Fuji" font "DejaVu Serif"'
+
+
+def test_words_are_seen_while_they_are_typed(qtbot: QtBot) -> None:
+    hand = Hand(qtbot)
+    hand.canvas.set_tool(CanvasTool.TEXT)
+    hand.canvas.choose("font")
+    hand.click((10, 10))
+    assert hand.canvas.runner.preview((10.0, 10.0)).label == "type the words"
+    hand.canvas.see_words("HI")
+    strokes = hand.canvas.runner.preview((10.0, 10.0)).trial.added
+    assert strokes and hand.document.part.entities == ()
+    hand.canvas.type_text("HI")
+    hand.canvas.see_words("DejaVu Sans")
+    outlines = hand.canvas.runner.preview((10.0, 10.0)).trial.added
+    assert len(outlines) > len(strokes), "in the font"
+    hand.canvas.see_words("")
+    assert len(hand.canvas.runner.preview((10.0, 10.0)).trial.added) == len(strokes), "until one is named"

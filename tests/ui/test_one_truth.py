@@ -165,3 +165,28 @@ def test_a_scene_that_opens_shows_nothing_of_the_one_before_and_its_surfaces_fir
     assert moves[0] == 0 and view.shown.computed.scene.name == "spheres"
     qtbot.waitUntil(lambda: work.state is SceneState.PROVEN, timeout=60_000)
     assert moves[-1] > 0
+
+
+@pytest.mark.parametrize("name", ["tool_library", "which_tool"])
+def test_what_is_opened_in_the_panel_of_the_job_is_seen(wiring, name):
+    window = wiring.window_
+    section = {"tool_library": window.panel.library, "which_tool": window.panel.advice}[name]
+    wiring.document.run("rectangle 0,0 20,20")
+    wiring.display_controller.show_view(View.DRAW)
+    window.side.show_page("Drawing")
+    window.actions_[name].trigger()
+    assert section.isVisible() and window.side.page == "Job"
+    window.side.show_page("Drawing")
+    window.actions_[name].trigger()
+    assert section.isVisible(), "what is covered comes to the front, and is not closed unseen"
+    window.actions_[name].trigger()
+    assert section.isHidden()
+
+
+@pytest.mark.parametrize("name", ["job_properties", "add_tool", "add_pocket"])
+def test_what_is_added_to_the_job_is_seen(wiring, name):
+    wiring.document.run("rectangle 0,0 20,20")
+    wiring.display_controller.show_view(View.DRAW)
+    wiring.window_.side.show_page("Drawing")
+    wiring.window_.actions_[name].trigger()
+    assert wiring.window_.side.page == "Job"

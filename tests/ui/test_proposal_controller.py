@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import pytest
+from PySide6.QtCore import QPoint, QRect, QSize, Qt
 
 from app.model.chamfer_operation import ChamferOperation
 from app.model.contour_operation import ContourOperation
 from app.model.hole_operations import BoreOperation, CountersinkOperation, DrillOperation
 from app.model.operation import PocketOperation, Side
 from app.model.slot_operation import SlotOperation
+from app.model.vcarve_operation import VcarveOperation
 from app.ui.framework.computation import ComputationState
+from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.drawing.proposal_controller import NOTHING_DRAWN, NOTHING_SELECTED
+from app.ui.shell.drawing.selection_ribbon import place_beside
 
 WAIT_MS = 20_000
 PLATE = ("rectangle 0,0 80,50", "rectangle 25,15 55,35", "circle 12,25 3", "circle 68,25 3")
@@ -203,6 +207,7 @@ WAYS = {
     "countersink": (CountersinkOperation, None, 2),
     "chamfer": (ChamferOperation, Side.INSIDE, 1),
     "engrave": (ContourOperation, Side.ON, 1),
+    "vcarve": (VcarveOperation, None, 1),
 }
 
 
@@ -217,7 +222,7 @@ def test_a_selection_becomes_an_operation_of_its_own_curves(qtbot, plate, number
     assert side is None or new.side is side
     wanted = numbers[which] if which == 2 else numbers[which][:1]
     assert [each.text for each in new.cut.curves] == [f"#{number}" for number in wanted]
-    assert len(job.operations) == len(before.operations) + 1
+    assert job.operations == (new,), "those that a job begins with, which nobody chose, are gone"
     assert job.tool(new.cut.tool) in job.tools
     plate.window_.actions_["undo"].trigger()
     assert plate.document.job == before
@@ -226,7 +231,6 @@ def test_a_selection_becomes_an_operation_of_its_own_curves(qtbot, plate, number
 def test_saying_what_each_curve_is_makes_a_plate_that_is_right_at_once(qtbot, plate, numbers):
     outline, inner, holes = numbers
     machined(qtbot, plate, "outside", *outline)
-    plate.window_.notice.buttons[0].click()
     machined(qtbot, plate, "pocket", *inner)
     plate.document.select(holes)
     job = machined(qtbot, plate, "drill", *holes)
@@ -236,6 +240,47 @@ def test_saying_what_each_curve_is_makes_a_plate_that_is_right_at_once(qtbot, pl
     qtbot.waitUntil(lambda: plate.computation.state is not ComputationState.RUNNING, timeout=WAIT_MS)
     assert plate.computation.state is ComputationState.CURRENT, plate.computation.error
     assert [each.kind for each in plate.computation.made.findings if each.counts] == []
+
+
+def test_operations_that_somebody_chose_stay_and_can_be_switched_off(qtbot, plate, numbers):
+    plate.window_.panel.operations.added.emit(PocketOperation)
+    job = machined(qtbot, plate, "pocket", *numbers[1])
+    assert len(job.operations) == 5 and all(each.cut.enabled for each in job.operations)
+    own = job.operations[plate.window_.panel.subject.key]
+    plate.window_.notice.buttons[0].click()
+    assert own.cut.curves and [each for each in plate.document.job.operations if each.cut.enabled] == [own]
+
+
+def test_the_ribbon_over_a_selection_says_what_it_is_to_become(qtbot, plate, numbers):
+    ribbon, canvas = plate.ribbon, plate.window_.canvas
+    plate.document.select(())
+    assert ribbon.isHidden()
+    plate.document.select(numbers[2])
+    assert not ribbon.isHidden() and canvas.area.contains(ribbon.geometry())
+    plate.window_.actions_["tool_line"].trigger()
+    assert ribbon.isHidden(), "no tool is in its way"
+    plate.window_.actions_["tool_select"].trigger()
+    plate.document.select(numbers[2])
+    with qtbot.waitSignal(plate.proposal_controller.worker.done, timeout=WAIT_MS):
+        qtbot.mouseClick(ribbon.buttons["drill"], Qt.MouseButton.LeftButton)
+    assert [type(each) for each in plate.document.job.operations] == [DrillOperation]
+    plate.display_controller.show_view(View.PATHS)
+    assert ribbon.isHidden()
+
+
+@pytest.mark.parametrize(
+    ("selection", "at"),
+    [
+        (QRect(100, 200, 50, 40), QPoint(74, 156)),
+        (QRect(100, 20, 50, 40), QPoint(74, 73)),
+        (QRect(0, 200, 10, 10), QPoint(7, 156)),
+        (QRect(-50, -50, 900, 900), QPoint(349, 7)),
+        (QRect(), QPoint(349, 7)),
+        (QRect(100, 2000, 50, 40), QPoint(74, 562)),
+    ],
+)
+def test_the_ribbon_stands_where_it_is_seen(selection, at):
+    assert place_beside(selection, QSize(100, 30), QRect(0, 0, 800, 600)) == at
 
 
 def test_an_empty_selection_is_said(plate):
@@ -266,6 +311,7 @@ def test_the_menu_at_the_mouse_offers_it_for_a_selection_alone(plate, numbers):
 
 def test_the_curves_of_the_chosen_operation_are_marked(qtbot, plate, numbers):
     panel, canvas = plate.window_.panel, plate.window_.canvas
+    panel.operations.added.emit(PocketOperation)
     machined(qtbot, plate, "pocket", *numbers[1])
     qtbot.waitUntil(lambda: not canvas.owned.isEmpty(), timeout=WAIT_MS)
     box = canvas.owned.boundingRect()

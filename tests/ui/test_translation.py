@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, 
 
 from app.core.catalogue import Catalogue, catalogue, catalogue_files
 from app.core.settings import Language, load_settings
+from app.drafting.document import Document
 from app.ui.framework.catalogue import set_language, tr
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
 from app.ui.framework.legend import LegendRow
@@ -313,6 +314,29 @@ def test_the_log_and_the_mouse_speak_japanese(qtbot, japanese) -> None:
         for row in range(len(log.lines))
     ]
     assert [JAPANESE.search(text) is not None for text in shown] == [True] * 5, shown
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "line 0,0 9,0",
+        "polyline 0,0 9,0 9,9",
+        "arc 0,0 4,4 9,0",
+        "circle 0,0 5",
+        "polygon 6 0,0 5,0",
+        "slot 0,0 9,0 2",
+        "ellipse 0,0 9,0 3",
+        "rect 0,0 9,9",
+        "spline 0,0 4,4 9,0",
+        'text 0,0 5 "Hi"',
+        'text 0,0 5 "I"',
+    ],
+)
+def test_what_is_drawn_is_answered_in_japanese(line: str) -> None:
+    document = Document()
+    document.run(line)
+    set_language("ja")
+    assert not re.search(r"[A-Za-z]{3}", tr(document.log[-1].reply)), document.log[-1].reply
 
 
 def test_a_chosen_item_stays_chosen_when_its_name_changes(qtbot) -> None:

@@ -19,7 +19,7 @@ from .display_unit import clean, display_unit_name, display_unit_size
 from .labels import Elided, muted, restyle, show_words
 
 LABEL_WIDTH = 92
-VALUE_WIDTH = 84
+VALUE_WIDTH = 76
 ROW_HEIGHT = 24
 _COUNTED = ("", "px")  # units of what comes in whole numbers where no decimals are shown
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from enum import Enum
 from typing import NamedTuple
@@ -11,6 +13,9 @@ from ...model.fields import parameters_of
 from ...model.job import Job
 from ...model.operation import CutParameters, Operation, Order, Side
 from ...model.tool import FeedRow, Tool
+
+_CARVING_ANGLE = math.radians(60)
+"""The usual V cutter for letters."""
 
 
 class SubjectKind(Enum):
@@ -39,9 +44,14 @@ class Subject:
         return self
 
 
+def kind_name(kind: type[Operation]) -> str:
+    """Return the trade's name of a kind of operation."""
+    return kind.NAME or kind.WORD.capitalize()
+
+
 def operation_name(operation: Operation) -> str:
     """Return the trade's name of an operation, with its side where it may have another and does not go inside."""
-    name = operation.WORD.capitalize()
+    name = kind_name(type(operation))
     if "side" not in parameters_of(type(operation)):
         return name
     return name + {Side.OUTSIDE: " outside", Side.ON: " on line"}.get(operation.wall_side or Side.INSIDE, "")
@@ -168,25 +178,69 @@ def with_moved_operation(job: Job, index: int, place: int) -> JobWithOperation:
     return JobWithOperation(replace(job, operations=tuple(operations), order=Order.POCKET_FIRST), place)
 
 
-def with_new_operation(job: Job, kind: type[Operation]) -> JobWithOperation:
+def with_new_operation(
+    job: Job, kind: type[Operation], library: Callable[[], Iterable[Tool]] = tuple
+) -> JobWithOperation:
     """Return the job with one more operation, as deep as the last one of its kind or the last of all, and its index.
 
-    Pockets and rest machining go before the contours, so that a small cutter follows walls where a large one has been.
+    A V cutter carves as deep as it does by default: what is carved is rarely as deep as what is cleared or cut out.
+
+    Args:
+        job: to add to. kind: of the operation.
+        library: tools to add one from where none of the job's can do it.
 
     Raises:
         ParameterError: the job has no tool.
     """
     if not job.tools:
         raise ParameterError("The job has no tool yet; add one first.")
-    alike = [operation for operation in job.operations if isinstance(operation, kind)] or list(job.operations)
+    own = [operation for operation in job.operations if isinstance(operation, kind)]
+    alike = own or list(job.operations)
     like = alike[-1].cut if alike else CutParameters(tool=job.tools[0].number)
-    contours = [k for k, operation in enumerate(job.operations) if operation.FOLLOWS_WALLS]
-    early = kind.CLEARS and contours and job.order is Order.POCKET_FIRST
-    late = len(contours) if kind.FOLLOWS_WALLS and job.order is Order.PATENT_1986 else len(job.operations)
-    place = contours[0] if early else late
+    if kind.CARVES and not own:
+        like = CutParameters(like.tool, min(CutParameters(like.tool).depth, job.stock.thickness))
+    job, number = with_fitting_tool(job, kind(like), library)
+    place = _place_of_new(job, kind)
     operations = list(job.operations)
-    operations.insert(place, kind(replace(like, enabled=True, curves=())))
+    operations.insert(place, kind(replace(like, tool=number, enabled=True, curves=())))
     return JobWithOperation(replace(job, operations=tuple(operations)), place)
+
+
+def _place_of_new(job: Job, kind: type[Operation]) -> int:
+    """Return where in the list an operation goes: pockets and rest machining before the contours, so that a small
+    cutter follows walls where a large one has been; nothing but contours behind what cuts parts out.
+    """
+    contours = [k for k, operation in enumerate(job.operations) if operation.FOLLOWS_WALLS]
+    if kind.FOLLOWS_WALLS:
+        return len(contours) if job.order is Order.PATENT_1986 else len(job.operations)
+    if job.order is not Order.POCKET_FIRST:
+        return len(job.operations)
+    outlines = [k for k in contours if job.operations[k].wall_side is Side.OUTSIDE]
+    first = contours if kind.CLEARS else outlines
+    return first[0] if first else len(job.operations)
+
+
+def with_fitting_tool(job: Job, operation: Operation, library: Callable[[], Iterable[Tool]]) -> JobWithTool:
+    """Return the job with a tool that can do an operation, and its number: the operation's own, another one of the job,
+    or one of a library, which is added; the operation's own where there is none.
+    """
+    fitting = [tool for tool in job.tools if not _refused_with(job, operation, tool)]
+    own = operation.cut.tool
+    if any(tool.number == own for tool in fitting):
+        return JobWithTool(job, own)
+    if fitting:
+        return JobWithTool(job, fitting[0].number)
+    found = [tool for tool in library() if not _refused_with(job, operation, tool)]
+    if not found:
+        return JobWithTool(job, own)
+    tool = min(found, key=lambda tool: abs(tool.tip_angle - _CARVING_ANGLE)) if operation.CARVES else found[0]
+    return with_library_tool(job, for_material(tool, material_of(job.tools[0])))
+
+
+def _refused_with(job: Job, operation: Operation, tool: Tool) -> str:
+    """Return why a tool, of the job or not, cannot do an operation, or ""."""
+    only = replace(job, tools=(tool,), operations=())
+    return refusal(only, replace(operation, cut=replace(operation.cut, tool=tool.number)))
 
 
 def with_copied_operation(job: Job, index: int) -> JobWithOperation:

@@ -22,7 +22,7 @@ from ..framework.labels import Elided, muted
 from ..framework.samples import LineSample, Switch, sample_of
 from ..framework.section import EDGE, ListRow, PanelSection, theme_children
 from ..framework.themed import Themed
-from .changes import Subject, SubjectKind, operation_name, refusal
+from .changes import Subject, SubjectKind, kind_name, operation_name, refusal
 from .tool_kinds import icon_of
 
 
@@ -219,8 +219,8 @@ class OperationSection(ListSection):
         super().__init__("Operations")
         self.add_button = IconButton("add", "Add an operation")
         menu = QMenu(self.add_button)
-        for word, kind in OPERATION_KINDS.items():
-            action = QAction(word.capitalize(), menu)
+        for kind in OPERATION_KINDS.values():
+            action = QAction(kind_name(kind), menu)
             action.triggered.connect(lambda _=False, k=kind: self.added.emit(k))
             menu.addAction(action)
         menu.addSeparator()

@@ -245,7 +245,7 @@ class SidePanel(SideScroll):
 
     def _add_operation(self, kind: type) -> None:
         def make(job: Job) -> Job:
-            new, index = changes.with_new_operation(job, kind)
+            new, index = changes.with_new_operation(job, kind, _library)
             self.subject = Subject(SubjectKind.OPERATION, index)
             return new
 
@@ -271,3 +271,8 @@ class SidePanel(SideScroll):
     def _switch(self, index: int, on: bool) -> None:
         name = "Switch operation on" if on else "Switch operation off"
         self.change(name, lambda job: changes.with_cut(job, index, replace(job.operations[index].cut, enabled=on)))
+
+
+def _library() -> list[Tool]:
+    """Return the tools of all libraries as their files are now."""
+    return [tool for library in load_libraries().libraries.values() for tool in library.tools]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
@@ -62,7 +63,7 @@ class DisplayController(QObject):
 
     Attributes:
         view: the one at the front. stages_missing, film_missing: what the stages lack.
-        pages: of every view.
+        pages: of every view. on_scene: tells whether a scene is worked on at the front rather than the drawing.
         writing: the drawing is being written as a text, so that nothing need be said of an empty one.
         opening: name of the file that is being read, "" = none is.
     """
@@ -74,6 +75,7 @@ class DisplayController(QObject):
         self._window = window
         self._document, self._computation = window.document, window.computation
         self.view = View.DRAW
+        self.on_scene: Callable[[], bool] = lambda: False
         self.stages_missing, self.film_missing, self.writing, self.opening = NOTHING, NOTHING, False, ""
         self.pages = pages_of(window, self)
         window.take_pages(self.pages)
@@ -170,7 +172,7 @@ class DisplayController(QObject):
     def show_titles(self) -> None:
         """Name what is looked at, and what can be undone: in the drawing, or in the scene in its view."""
         document, scene, actions = self._document, self._window.scene, self._window.actions_
-        on_scene, other = self.view is View.SURFACES and scene.open, self.shown_document
+        on_scene, other = self.on_scene(), self.shown_document
         drawing = document.path.name if document.path else document.part.name
         name, modified = (other.name, other.modified) if other is not None else (drawing, document.modified)
         if self._window.views.starting:
@@ -242,8 +244,10 @@ class DisplayController(QObject):
 
     def _show_standing(self) -> None:
         """Show what the status bar says when nothing else is to be said; why a run failed is said above the view."""
-        standing = "" if self._window.views.starting else self.page.summary() or self._computation.state.value
-        self._window.status.show_message(standing)
+        state = self._computation.state
+        own = self.shown_document is None and state is not ComputationState.NONE  # that is what the badge says already
+        standing = self.page.summary() or (state.value if own else "")
+        self._window.status.show_message("" if self._window.views.starting else standing)
 
     def _on_computation(self) -> None:
         made, state = self._computation.made, self._computation.state
@@ -262,7 +266,7 @@ class DisplayController(QObject):
         )
         self._show_badge()
         self.show_missing()
-        self._window.status.show_message(state.value)
+        self._show_standing()
 
     def _show_badge(self) -> None:
         badge, state, made = self._window.status.badge, self._computation.state, self._computation.made

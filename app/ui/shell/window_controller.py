@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt
+from PySide6.QtWidgets import QWidget
 
 from ...core.resources import resource
 from ...core.settings import ThemeChoice
@@ -51,6 +53,7 @@ from .drawing.engagement_controller import EngagementController
 from .drawing.inlay_controller import InlayController
 from .drawing.owned_curves_controller import OwnedCurvesController
 from .drawing.proposal_controller import ProposalController
+from .drawing.selection_ribbon import SelectionRibbon
 from .drawing.shape_language_controller import ShapeLanguageController
 from .drawing.tab_controller import TabController
 from .drawing.template_controller import TemplateController
@@ -184,7 +187,7 @@ class WindowController(QObject):
         self.cleanup_controller = CleanUpController(window.drawing_page.cleanup, canvas, workspace)
         self.engagement_controller = EngagementController(canvas, window.views.legend, workspace)
         self.announcing = Announcing(workspace, self)
-        self.command_line_controller = CommandLineController(window.command_line, canvas, self.document)
+        self.command_line_controller = CommandLineController(window.command_line, canvas, workspace)
         self.focus_keeper = FocusKeeper(window, window.views.take_focus)
         self.start_controller = StartController(window.views.start, workspace)
 
@@ -283,6 +286,18 @@ class WindowController(QObject):
         if self.window_.side.isHidden():
             self.display_controller.show_view(View.DRAW)
         self.window_.side.show_page(name)
+
+    def _beside_job(self, act: Callable[[], object]) -> None:
+        """Do something in the job's panel, which is brought to the front, so that it is seen."""
+        self._show_side_page(JOB_PAGE)
+        act()
+
+    def _switch(self, section: QWidget, switch: Callable[[], None]) -> None:
+        """Open a section of the job's panel, or close it where it is seen; one that is covered comes to the front."""
+        seen = section.isVisible()
+        self._show_side_page(JOB_PAGE)
+        if seen or section.isHidden():
+            switch()
 
     def _connect_files(self) -> None:
         files = self.files
@@ -403,14 +418,14 @@ class WindowController(QObject):
 
     def _connect_job(self) -> None:
         panel, computation = self.window_.panel, self.computation
-        self._on("job_properties", lambda: panel.choose(Subject(SubjectKind.JOB)))
-        self._on("add_tool", panel.tools.added.emit)
-        self._on("tool_library", panel.switch_library)
-        self._on("which_tool", panel.switch_advice)
+        self._on("job_properties", partial(self._beside_job, lambda: panel.choose(Subject(SubjectKind.JOB))))
+        self._on("add_tool", partial(self._beside_job, panel.tools.added.emit))
+        self._on("tool_library", partial(self._switch, panel.library, panel.switch_library))
+        self._on("which_tool", partial(self._switch, panel.advice, panel.switch_advice))
         self._on("import_tools", self.tools.choose_file)
         self._on("export_tools", self.tools.choose_place)
         for word, kind in OPERATION_KINDS.items():
-            self._on(f"add_{word}", partial(panel.operations.added.emit, kind))
+            self._on(f"add_{word}", partial(self._beside_job, partial(panel.operations.added.emit, kind)))
         self._on("compute", self.compute)
         self._on("cancel", self.cancel)
         self._on("findings", self.display_controller.open_findings)
@@ -432,6 +447,7 @@ class WindowController(QObject):
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
         canvas.key_typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(self._on_tool)
+        self.ribbon = SelectionRibbon(canvas, self.document, window.actions_)
         self.context_menu = ContextMenu(canvas, self.document, window.actions_)
 
     def _take_tool(self, tool: CanvasTool) -> None:

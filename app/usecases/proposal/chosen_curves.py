@@ -21,6 +21,8 @@ from ...model.operation import CutParameters, Operation, Order, Side
 from ...model.part import Contour
 from ...model.slot_operation import SlotOperation
 from ...model.tool import Tool
+from ...model.tool_kind import ToolKind
+from ...model.vcarve_operation import VcarveOperation
 from ...toolpath.drawn_contours import drawn_contours
 from .contour_sorts import SortedContours, by_diameter
 from .propose import WIDEST, ProposalWork, ProposedOperation, regions_within, shipped_tools, tabs_for
@@ -43,6 +45,7 @@ class CurvePurpose(Enum):
     COUNTERSINK = "countersink"
     CHAMFER = "chamfer"
     ENGRAVE = "engrave"
+    VCARVE = "V-carve"
 
 
 _OF_CIRCLES = (CurvePurpose.DRILL, CurvePurpose.BORE, CurvePurpose.COUNTERSINK)
@@ -211,6 +214,8 @@ def _made(
             return made
         case CurvePurpose.INSIDE:
             return [_inside(work, mine)]
+        case CurvePurpose.VCARVE:
+            return [_carved(work)]
         case CurvePurpose.BORE:
             return [_bored(work, mine)]
         case CurvePurpose.COUNTERSINK | CurvePurpose.CHAMFER:
@@ -221,6 +226,21 @@ def _made(
             if way is CurvePurpose.SLOT:
                 return [ProposedOperation(SlotOperation(cut), f"a slot along the lines, {work.depth:g} mm deep")]
             return [ProposedOperation(ContourOperation(cut, Side.ON), f"along the lines, {work.depth:g} mm deep")]
+
+
+def _carved(work: ProposalWork) -> ProposedOperation:
+    """Return what carves the area between contours with a V cutter, no deeper than its cone is high."""
+    pointed = [tool for tool in work.rack.tools if tool.kind is ToolKind.V and tool.tip_angle]
+    if not pointed:
+        raise GeometryError("There is no V cutter among the tools, which carving needs; add one to the library.")
+    used = [tool for tool in pointed if tool in work.rack.taken]
+    tool = used[0] if used else work.rack.engraver()
+    cone = (tool.diameter - tool.tip_diameter) / 2 / math.tan(tool.tip_angle / 2)
+    depth = min(work.depth, cone)
+    cut = CutParameters(work.rack.take(tool).number, depth, depth)
+    return ProposedOperation(
+        VcarveOperation(cut), f"carved from wall to wall, {depth:g} mm at the deepest, with {tool.label}"
+    )
 
 
 def _bored(work: ProposalWork, contours: Sequence[Contour]) -> ProposedOperation:

@@ -80,4 +80,5 @@ def test_the_heading_is_the_badges_verdict(shown):
 
 def test_a_bound_as_large_as_the_depth_is_no_bound():
     assert "No point" not in certified(Certificate(10.0, 0.1, 0.05), 10.0)
+    assert "No point" not in certified(Certificate(1.2, 0.1, 0.1), 10.0), "twelve cells are a wall that was missed"
     assert "No point is cut deeper than 0.100 mm" in certified(Certificate(0.1, 0.1, 0.05), 10.0)

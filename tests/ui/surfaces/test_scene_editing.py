@@ -15,7 +15,7 @@ from app.model.finding import Finding, FindingKind
 from app.ui.framework.verdict import VerdictLevel
 from app.ui.framework.view import View
 from app.ui.views.surfaces.field_widgets import VectorField
-from app.ui.views.surfaces.new_parts import passes_across
+from app.ui.views.surfaces.new_parts import passes_across, roughing_passes
 from app.ui.views.surfaces.scene_computation import SceneState
 from app.ui.views.surfaces.scene_document import SceneDocument
 
@@ -344,3 +344,59 @@ def test_metal_that_is_left_has_a_button_that_adds_passes_across(qtbot, opened):
 def test_passes_across_are_square_to_straight_ones(rule, across):
     text = SPHERES.read_text("utf-8").partition("[[passes]]")[0] + f"[[passes]]\ntool = 1\n{rule}\n"
     assert passes_across(read_scene("a.toml", text.encode())) == across
+
+
+def test_a_part_is_roughed_in_depths_before_its_first_passes():
+    scene = read_scene("a.toml", SPHERES.read_bytes())
+    made = roughing_passes(scene, (0.0, 0.0, -10.0, 100.0, 60.0, 20.0))
+    assert [each["floor"] for each in made] == [16.25, 12.5, 8.75, 5.0, 1.25, -2.5, -6.25, -10.0]
+    assert {(each["tool"], each["pitch"], each["stock_to_leave"]) for each in made} == {(1, 3.0, 0.5)}
+    shallow = roughing_passes(scene, (0.0, 0.0, -10.0, 100.0, 60.0, -5.0))
+    assert [each["floor"] for each in shallow] == [-7.5, -10.0], "no deeper than half the tool is wide"
+
+
+@pytest.mark.parametrize("rule", ["pitch = 2.0\nstock_to_leave = 0.3", "fan_deg = [0.0, 90.0, 5.0]", ""])
+def test_what_leaves_stock_or_goes_no_straight_way_is_not_roughed_before(rule):
+    head = SPHERES.read_text("utf-8").partition("[[passes]]")[0]
+    text = head + (f"[[passes]]\ntool = 1\n{rule}\n" if rule else "")
+    assert roughing_passes(read_scene("a.toml", text.encode()), (0.0, 0.0, -10.0, 100.0, 60.0, 20.0)) == ()
+
+
+def test_a_slot_that_is_too_deep_has_a_button_that_roughs_first(opened):
+    text = opened.window_.scene.text
+    (mend,) = opened.scenes.shown_document.mends(Finding(FindingKind.ENGAGEMENT, "too deep"))
+    assert mend.words == "Rough it first" and mend.change == "T1 in 8 depths"
+    mend.act()
+    assert [each.stock_to_leave for each in said(opened).passes] == [0.5] * 8 + [0.0], "before what finishes"
+    opened.window_.actions_["undo"].trigger()
+    assert opened.window_.scene.text == text
+
+
+def test_where_nothing_is_drawn_a_scene_goes_on_to_its_program_and_its_cut(qtbot, opened):
+    window, display = opened.window_, opened.display_controller
+    display.show_view(View.NC)
+    qtbot.waitUntil(lambda: window.views.nc.shown is not None, timeout=WAIT_MS)
+    assert window.file_label.text() == "mine.ngc *" and window.actions_["export"].isEnabled()
+    display.show_view(View.CUT)
+    assert opened.cut_controller.of_scene
+    assert window.file_label.text() == "mine.ngc" and window.actions_["export"].isEnabled()
+    assert window.cut_panel.back.text() == "Close it", "there is no job's cut to go back to"
+    assert window.status.message.toolTip() == "", "and nothing that was not computed"
+
+
+@pytest.mark.exhaustive
+def test_a_scene_s_cut_that_was_closed_comes_back_when_it_is_asked_for(qtbot, opened):
+    window, display = opened.window_, opened.display_controller
+    display.show_view(View.CUT)
+    qtbot.waitUntil(lambda: window.views.cut.model.picture is not None, timeout=WAIT_MS)
+    window.cut_panel.back.click()
+    assert window.views.cut.model.picture is None, "it can be closed"
+    display.show_view(View.SURFACES)
+    display.show_view(View.CUT)
+    assert display.page.missing().action == "scene_cut", "and is not shown against one's will"
+
+
+def test_a_drawing_beside_a_scene_keeps_its_own_cut(opened):
+    opened.document.run("rectangle 0,0 20,20")
+    opened.display_controller.show_view(View.CUT)
+    assert opened.cut_controller.source is None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -14,16 +16,19 @@ SIZE = (120, 90)
 
 
 def picture(triangles):
-    """A picture of bare triangles."""
+    """A picture of bare triangles, and of another surface hidden just below them, of which it is told apart."""
     none = np.zeros((0, 3))
     triangles = np.array(triangles, np.float64)
-    return ScenePicture((), none, (), triangles, np.zeros(len(triangles), np.int64), none[:, :2], none[:, :2])
+    both, owner = np.concatenate([triangles, triangles - (0, 0, 1)]), np.repeat([0, 1], len(triangles))
+    return ScenePicture((), none, (), both, owner, none[:, :2], none[:, :2])
 
 
-def painted(triangles, coarse=False):
+def painted(triangles, coarse=False, alone=False):
     made = picture(triangles)
+    if alone:
+        made = replace(made, owner=np.zeros_like(made.owner))
     camera = Camera().seen_from(StandardView.TOP).fitted(*made.box, SIZE)
-    colours = SceneColours(GROUND, (0, 0, 0), (90, 90, 90), (200, 90, 0), [INK])
+    colours = SceneColours(GROUND, (0, 0, 0), (90, 90, 90), (200, 90, 0), [INK, INK])
     return raster(made, SceneStyle(camera, colours, coarse=coarse), SIZE)
 
 
@@ -55,3 +60,9 @@ def test_a_surface_has_the_hue_of_its_colour_however_it_lies():
         ratio = np.median(inside, axis=0) / full
         assert ratio.max() - ratio.min() < 0.02
         assert 0.55 < ratio.mean() <= 1.01
+
+
+def test_a_surface_alone_is_grey_so_that_its_paths_are_seen_on_it():
+    made = painted(SLANTED, alone=True)
+    seen = made.pixels[made.owners >= 0][:, :3].astype(float)
+    assert np.ptp(np.median(seen, axis=0)) < 8

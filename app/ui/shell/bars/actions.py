@@ -220,6 +220,7 @@ MENUS: tuple[tuple[str, tuple[ActionSpec, ...]], ...] = (
             ActionSpec("machine_countersink", "Counter&sink", under=MACHINE_THIS),
             ActionSpec("machine_chamfer", "Cha&mfer", under=MACHINE_THIS),
             ActionSpec("machine_engrave", "&Engrave", under=MACHINE_THIS),
+            ActionSpec("machine_vcarve", "&V-carve", under=MACHINE_THIS),
             SEPARATOR,
             ActionSpec("add_pocket", "Add &pocket"),
             ActionSpec("add_rest", "Add &rest machining"),

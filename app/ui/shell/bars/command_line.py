@@ -33,7 +33,7 @@ class CommandLine(Themed, QWidget):
 
     Signals:
         entered(text): Enter with text in the line, or a whole block. accepted(): Enter in the empty line. cancelled():
-        Escape.
+        Escape with nothing typed. chosen(word): the button of an option.
 
     Attributes:
         completions: what the end of a line could become, and how much of it there is.
@@ -43,6 +43,7 @@ class CommandLine(Themed, QWidget):
     entered = Signal(str)
     accepted = Signal()
     cancelled = Signal()
+    chosen = Signal(str)
 
     def __init__(self) -> None:
         super().__init__()
@@ -104,7 +105,7 @@ class CommandLine(Themed, QWidget):
         button.setProperty("role", "chip")
         button.setToolTip(f"The same as typing {word}")
         button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        button.clicked.connect(lambda: self.entered.emit(word))
+        button.clicked.connect(lambda: self.chosen.emit(word))
         self._line.addWidget(button)
         return button
 
@@ -151,9 +152,12 @@ class CommandLine(Themed, QWidget):
         return True
 
     def _give_up(self) -> None:
+        """Give up what is typed; where nothing is, the tool in hand has the key."""
+        typed = bool(self._block or self.edit.text())
         self._set_block([])
         self.edit.clear()
-        self.cancelled.emit()
+        if not typed:
+            self.cancelled.emit()
 
     def _enter(self) -> None:
         text = self.edit.text().strip()
@@ -206,6 +210,13 @@ class CommandLine(Themed, QWidget):
             self._draft = self.edit.text()
         self._at = min(max(self._at + way, 0), len(self._typed))
         self.edit.setText(self._typed[self._at] if self._at < len(self._typed) else self._draft)
+
+    def offer(self) -> None:
+        """Take the keys and offer all that the line could become."""
+        self.edit.setFocus()
+        _, found = self.completions("")
+        if found:
+            self._show_offers(found)
 
     def _complete(self) -> None:
         """Write what is certain of the word before the cursor; where there is a choice, offer it."""

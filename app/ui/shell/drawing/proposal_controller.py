@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 NOTHING_DRAWN = "Nothing is drawn yet; draw a closed curve or open a drawing first."
 NOTHING_SELECTED = "Nothing is selected; click a line first."
-WAYS = ("pocket", "outside", "inside", "on", "slot", "drill", "bore", "countersink", "chamfer", "engrave")
+WAYS = ("pocket", "outside", "inside", "on", "slot", "drill", "bore", "countersink", "chamfer", "engrave", "vcarve")
 """What a selection can become, as the commands name it: `machine_pocket`, …"""
 A_PICTURE = "All of a picture's pixels is pockets; trace it first to have operations proposed."
 
@@ -134,11 +134,16 @@ class ProposalController(OperationsController):
         """Whether nobody has said yet what is to be machined of the drawing, and nothing was computed."""
         job, computation = self._document.job, self._workspace.computation
         return (
-            self._begun_with == job.operations
+            self._unsaid
             and bool(job.part.entities)
             and computation.made is None
             and computation.pixels_of(job.part) is None
         )
+
+    @property
+    def _unsaid(self) -> bool:
+        """Whether the operations are those that a job begins with, which nobody chose."""
+        return self._begun_with == self._document.job.operations
 
     def before(self, act: Callable[[], None]) -> None:
         """Do something with the job, such as computing it, after the operations that are being worked out, or that are
@@ -164,8 +169,13 @@ class ProposalController(OperationsController):
             self._work_out(lambda progress: proposed_for(job, nesting, progress), self._take)
 
     def machine(self, way: str) -> None:
-        """Have an operation added for the selected curves; `way` is one of `WAYS`."""
-        self._start_on_selection(lambda job, numbers, progress: chosen_for(job, numbers, way, progress), self._add)
+        """Have an operation added for the selected curves; `way` is one of `WAYS`. Those that nobody chose go."""
+        unsaid = self._unsaid
+
+        def find(job: Job, numbers: frozenset[int], progress: Progress) -> ChosenOperations:
+            return chosen_for(replace(job, operations=()) if unsaid else job, numbers, way, progress)
+
+        self._start_on_selection(find, self._add)
 
     def use_selection(self) -> None:
         """Have the selected curves be those of the operation that is shown."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from PySide6.QtCore import QRectF
+from PySide6.QtCore import QRectF, Signal
 from PySide6.QtGui import QPainter, QPainterPath, QShowEvent
 
 from ....drafting.difference import DrawingDifference
@@ -27,6 +27,7 @@ from .painting.annotation_layer import NoteLook, paint_note
 from .painting.curve_path import MANY, curve_path
 from .painting.grid import (
     paint_display,
+    paint_display_marks,
     paint_origin,
     paint_paper,
     paint_raster,
@@ -63,11 +64,16 @@ _LARGE = 0.35
 class Canvas(InteractiveViewport):
     """Shows a document and draws in it; signals are those of `InteractiveViewport`.
 
+    Signals:
+        mode_changed(): the drawing is shown instead of the paths, or these.
+
     Attributes:
         frame: the display of 400 x 400 cells, or another.
         around: clamps and copies round the part.
         owned: curves of the operation that is chosen, mm; empty where it has none of its own.
     """
+
+    mode_changed = Signal()
 
     def __init__(self, document: Document, theme: Theme) -> None:
         """Show a document; it is followed from now on."""
@@ -108,9 +114,15 @@ class Canvas(InteractiveViewport):
         """Paint with another theme."""
         self._set_look(replace(self._look, theme=theme))
 
+    @property
+    def mode(self) -> CanvasMode:
+        """Whether the drawing or its paths are shown."""
+        return self._mode
+
     def set_mode(self, mode: CanvasMode) -> None:
         """Show the drawing, or the tool paths."""
         self._mode = mode
+        self.mode_changed.emit()
         self.grips.update(self.document, mode is CanvasMode.DRAW)
         self.look_at(None)
         self.repaint_scene()
@@ -237,6 +249,14 @@ class Canvas(InteractiveViewport):
             self._underlay.paint(painter, self.view)
             paint_raster(painter, self.view, area, self._look.theme, self.unit)
         paint_display(painter, self.view, area, self.frame, self._look.theme)
+        if self._in_display:
+            paint_display_marks(painter, self.view, area, self.frame, self._look.theme)
+
+    @property
+    def _in_display(self) -> bool:
+        """Whether all that is drawn lies in the display: the corners of one that it does not fit would be a riddle."""
+        (x0, y0, x1, y1), box = self.frame.extent, self.picture.box
+        return box is None or (x0 <= box[0] and y0 <= box[1] and box[2] <= x1 and box[3] <= y1)
 
     def _paint_margins(self, painter: QPainter) -> None:
         """Paint the rulers."""
@@ -323,7 +343,7 @@ class Canvas(InteractiveViewport):
     def _paint_tool(self, painter: QPainter) -> None:
         tool, theme, typed = self.runner.tool, self._look.theme, self.runner.typed
         away = self.aim is None or self.mouse is None
-        if tool is None or (away and typed.free and not self.entry.editing):
+        if tool is None or (away and typed.free and not self.entry.editing and not self.runner.wants_words):
             return
         at = self.entry.at
         if self.aim is not None:
@@ -371,6 +391,7 @@ class Canvas(InteractiveViewport):
 
     def _follow(self, change: DocumentChange) -> None:
         places: list[Box] | None = []
+        in_display = self._in_display
         if DocumentChange.PART in change:
             places = self.picture.update(self.document.part)
             self.look_at(None)
@@ -381,8 +402,9 @@ class Canvas(InteractiveViewport):
             selected = self.picture.select(self.document.selection)
             self.grips.update(self.document, self._mode is CanvasMode.DRAW)
             places = places + selected if places is not None and selected is not None else None
-        finer = (self.picture.count(self.view.world_box(self.area)) > MANY) != self.picture.fine
-        if around or places is None or finer or self.document.job.copies.shifts[1:]:
+        other = (self.picture.count(self.view.world_box(self.area)) > MANY) != self.picture.fine
+        other |= in_display != self._in_display
+        if around or places is None or other or self.document.job.copies.shifts[1:]:
             self.repaint_scene()
         elif places:
             self.repaint_places(places, _BLEED_PX)

@@ -330,6 +330,10 @@ class DimensionTool(PromptTool):
         return self.line_of([*self.answers, answer]) if len(self.answers) == self.wanted - 1 else None
 
 
+FONT = Prompt("type the name of a font, Tab lists them", InputKind.WORDS)
+"""Which font words are drawn in."""
+
+
 @dataclass
 class TextTool(PromptTool):
     """Where it stands, on a point or along a curve, then its words, typed in the command line, then a font if asked."""
@@ -339,7 +343,7 @@ class TextTool(PromptTool):
     asks = (
         Prompt("lower left of the words, or their height", sets="height"),
         Prompt("type the words", InputKind.WORDS),
-        Prompt("type the name of a font", InputKind.WORDS),
+        FONT,
     )
     numbers: ClassVar[Mapping[str, float]] = {"height": 10.0}
 
@@ -354,6 +358,11 @@ class TextTool(PromptTool):
         """Take an answer; a font only where it was asked for."""
         self._keep([*self.answers, answer])
         return self.made() if len(self.answers) >= (3 if "font" in self.on else 2) else None
+
+    def draft_of_words(self, words: str) -> str | None:
+        """Return the line with what is typed so far; until a font is named, with the words in no font."""
+        answers = [*self.answers, words] if words else self.answers
+        return self.line_of(answers) if len(answers) > 1 else None
 
     def line_of(self, answers: Sequence[Answer]) -> str:
         """Return `text P height words` or `text along CURVE height words at P`, with what is switched on."""

@@ -97,6 +97,11 @@ class InteractiveViewport(Viewport):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
 
     @property
+    def working(self) -> bool:
+        """True while a tool is in hand, or places are being marked."""
+        return self.runner.tool is not None or self.marker_mode is not None
+
+    @property
     def tool(self) -> CanvasTool:
         """The running tool."""
         return self.runner.kind
@@ -189,6 +194,17 @@ class InteractiveViewport(Viewport):
         self._tell()
         return used
 
+    def choose(self, word: str) -> None:
+        """Take an option of the running tool."""
+        self.runner.choose(word)
+        self._tell()
+
+    def see_words(self, text: str) -> None:
+        """Show what words that are being typed would become, where they are asked for."""
+        self.runner.words = text
+        if self.runner.wants_words:
+            self.update()
+
     def take_value(self, text: str) -> bool:
         """Take a text as the value of the first box at the pointer and go on to the next; return False where the tool
         has no two boxes.
@@ -210,7 +226,7 @@ class InteractiveViewport(Viewport):
         button = event.button()
         if button is Qt.MouseButton.MiddleButton or (button is Qt.MouseButton.LeftButton and self._space):
             self.begin_pan(event.position())
-        elif button is Qt.MouseButton.RightButton and (self.runner.tool is not None or self.marker_mode is not None):
+        elif button is Qt.MouseButton.RightButton and self.working:
             self.accept()
         elif button is Qt.MouseButton.RightButton:
             self.menu_requested.emit(event.globalPosition().toPoint())

@@ -14,6 +14,7 @@ from ...framework.legend import LegendRow, LegendSheet
 from ...framework.samples import PathLineKind, sample_of
 from ...framework.section import heading
 from ...framework.themed import Themed
+from ...panels.changes import kind_name
 from .modes import PathColourBy
 from .painting.engagement_colours import STEPS, colours
 
@@ -95,12 +96,18 @@ class Legend(LegendSheet):
         """
         for sample in (PathLineKind.POCKET, PathLineKind.REST, PathLineKind.CONTOUR):
             numbers = _tools(job.operations, sample)
-            self.rows[sample].show_names(sample.value, numbers, WIDTH)
+            self.rows[sample].show_names(_kind(job.operations, sample), numbers, WIDTH)
             self.rows[sample].setVisible(bool(numbers))
         holes = _tools(job.operations, PathLineKind.PLUNGE)
         self.rows[PathLineKind.PLUNGE].show_names("Hole" if holes else PathLineKind.PLUNGE.value, holes, WIDTH)
         self.rows[PathLineKind.CLAMP].setVisible(bool(job.keep_out_layers))
         self.fit_contents()
+
+
+def _kind(operations: tuple[Operation, ...], sample: PathLineKind) -> str:
+    """Return what a line's operations are called: all by one name, or by the line's."""
+    names = {kind_name(type(op)) for op in operations if sample_of(op) is sample and op.cut.enabled}
+    return names.pop() if len(names) == 1 else sample.value
 
 
 def _tools(operations: tuple[Operation, ...], sample: PathLineKind) -> tuple[str, ...]:

@@ -218,7 +218,11 @@ class PromptTool(DrawingTool):
     def word(self, word: str) -> str | None:
         """Switch a toggle, ask for a number, or take the words that were asked for."""
         if self.wants is InputKind.WORDS:
-            return self.give(word)
+            return self.give(word) or ""
+        return self.choose(word)
+
+    def choose(self, word: str) -> str | None:
+        """Switch a toggle or ask for a number, also while words are asked for; return None where it is no option."""
         if word.lower() in self.toggles:
             self.on ^= {word.lower()}
         elif word.lower() in self.numbers:
@@ -275,6 +279,10 @@ class PromptTool(DrawingTool):
             return None
         return self.line_of(given) + self._some_of_many()
 
+    def draft_of_words(self, words: str) -> str | None:
+        """Return the line that words typed so far would make, or None where questions stay open."""
+        return self.line_of([*self.answers, words]) if words and len(self.answers) == len(self.asks) - 1 else None
+
     def meant(self, answer: Point | float) -> Point | float:
         """Return the number that a point means where one is asked for; all else as it is."""
         measure = self.ask.measure
@@ -286,7 +294,7 @@ class PromptTool(DrawingTool):
 
     def helpers(self, cursor: Point) -> ToolPreview:
         """Return lines of construction for the mouse at a point."""
-        if self.base is None or self.wants is InputKind.CURVE or math.dist(self.base, cursor) < WELD:
+        if self.base is None or self.wants in (InputKind.CURVE, InputKind.WORDS) or math.dist(self.base, cursor) < WELD:
             return ToolPreview()
         return ToolPreview(helpers=(Line(self.base, cursor),))
 

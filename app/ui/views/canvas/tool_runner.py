@@ -37,6 +37,7 @@ class ToolRunner:
         cursor: where the tool aims, mm. under: the curve that a click would pick, or None.
         unit: what lengths are typed and shown in, mm.
         typed: the values that are held for the answer to the question.
+        words: typed so far and not entered, where words are asked for.
     """
 
     def __init__(self, document: Document, say: Callable[[str], None]) -> None:
@@ -50,6 +51,7 @@ class ToolRunner:
         self._desk, self._trials = ToolContext(document, {}), CommandTrials(document)
         self._last = CanvasTool.LINE
         self.typed = TypedValues()
+        self.words = ""
 
     @property
     def prompt(self) -> str:
@@ -187,15 +189,19 @@ class ToolRunner:
         if not isinstance(tool, PromptTool):
             return tool.preview(answer if isinstance(answer, tuple) else point)
         shown = tool.helpers(answer if isinstance(answer, tuple) else point)
-        line = tool.draft(answer, self.under)
+        line = tool.draft_of_words(self.words.strip()) if self.wants_words else tool.draft(answer, self.under)
         trial = self._trials.of(line) if line is not None else CommandTrial()
         made = trial.difference
         return replace(
             shown,
             trial=made,
             curves=() if made.added or made.gone or made.notes else tool.stand_in(answer),
-            label="\n".join(filter(None, (shown.label, trial.reason.split(";")[0]))),
+            label="\n".join(filter(None, (shown.label, self._unanswered(tool), trial.reason.split(";")[0]))),
         )
+
+    def _unanswered(self, tool: PromptTool) -> str:
+        """Return what is asked for where nothing at the mouse tells: words of which none is typed."""
+        return tool.ask.prompt if self.wants_words and not self.words.strip() else ""
 
     def read(self, text: str, is_length: bool) -> float | Point:
         """Return what a typed text stands for: a point, a length in mm, or another number.
@@ -233,6 +239,14 @@ class ToolRunner:
             self._say(error.reason)
         return True
 
+    def choose(self, word: str) -> None:
+        """Take an option of the running tool, also while it asks for words, of which it could be one."""
+        tool = self.tool
+        if isinstance(tool, PromptTool):
+            tool.choose(word)
+        elif tool is not None:
+            self._run(tool.word(word))
+
     def _is_named(self, text: str) -> bool:
         """Return whether a text begins with a name that stands for something."""
         word = re.match(r"\w+", text)
@@ -246,9 +260,10 @@ class ToolRunner:
                 tool.setting = option.lower()
                 self._place(tool, value)
                 return True
+        before = self._answers(tool) if tool else []
         line = tool.word(word if tool.wants is InputKind.WORDS else word.lower()) if tool else None
         if line:
-            self._run(line)
+            self._run(line, before)
         return line is not None
 
     def _begin(self, command: str) -> bool:

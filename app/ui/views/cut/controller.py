@@ -182,6 +182,16 @@ class CutController(Controller):
         self._foreign = ForeignProgram(source, dialect, given, {tool.number: tool for tool in job.tools}, part, scene)
         self._cut_foreign()
 
+    @property
+    def source(self) -> ProgramSource | None:
+        """The program that is cut in place of the job's, or is going to be; None = the job's own is."""
+        return self._foreign.source if self._foreign is not None else None
+
+    @property
+    def of_scene(self) -> bool:
+        """Whether the program that is cut is a scene's."""
+        return self._foreign is not None and self._foreign.scene is not None
+
     def back(self) -> None:
         """Show the job's own cut again."""
         self.foreign_worker.cancel()
@@ -233,6 +243,7 @@ class CutController(Controller):
 
     def _show_own(self, cut: ShownCut | None) -> None:
         self._own = cut
+        self._panel.show_way_back(cut is not None)
         if self._foreign is None:
             self._show(cut)
 

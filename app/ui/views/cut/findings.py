@@ -146,11 +146,13 @@ def _depth(shown: ShownCut) -> float:
 
 
 def certified(certificate: Certificate | None, depth: float) -> str:
-    """Return what holds between the cells too; a bound as large as the `depth` of the cut, mm, is none."""
+    """Return what holds between the cells too; a bound as large as the `depth` of the cut, mm, or as many cells is
+    none.
+    """
     if certificate is None:
         return ""
-    if certificate.gouge_mm >= depth - 1e-6:
-        return "Between the cells nothing is proven; zoom in to look closer."
+    if certificate.gouge_mm >= depth - 1e-6 or not certificate.telling:
+        return "Between the cells little is proven; zoom in to look closer."
     near = certificate.left_mm < _NEAR * certificate.pitch_mm
     left = f", and no metal within reach stands more than {number(certificate.left_mm)} mm out of it" if near else ""
     return f"No point is cut deeper than {number(certificate.gouge_mm)} mm into the part{left}; finer when zoomed in."

@@ -16,6 +16,8 @@ from .camera import Camera, Floats
 from .overlay_text import pitch_words
 
 _AXIS_PX, _AXES_EDGE_PX, _NAME_PX = 30.0, 52.0, 11.0
+_AXES_GROUND, _WORDS_GROUND = 0.6, 0.9
+"""How much grounds cover: lines are seen sooner than words."""
 _RING_PX, _LEADER_PX = 9.0, 34.0
 _CARD_GAP_PX, _PAD_PX, _ROW_PX, _CROSS_PX = 18.0, 10.0, 18.0, 9.0
 
@@ -108,6 +110,9 @@ class CutOverlay(Themed, QWidget):
     def _paint_axes(self, painter: QPainter) -> None:
         """Paint the three axes, the nearest to the eye last."""
         theme, origin = self._theme, QPointF(_AXES_EDGE_PX, self.height() - _AXES_EDGE_PX)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(self._ground(_AXES_GROUND))
+        painter.drawEllipse(origin, _AXES_EDGE_PX - 4, _AXES_EDGE_PX - 4)
         right, up, towards = self._camera.axes
         painter.setFont(text_font(12))
         for axis in sorted(range(3), key=lambda k: towards[k]):
@@ -122,9 +127,21 @@ class CutOverlay(Themed, QWidget):
     def _paint_pitch(self, painter: QPainter) -> None:
         """Paint how wide the cells are, beside the axes."""
         painter.setFont(text_font(12, semibold=self._finer))
+        words = tr(self._pitch)
+        wide = painter.fontMetrics().horizontalAdvance(words)
+        row = QRectF(2 * _AXES_EDGE_PX + 8, self.height() - _AXES_EDGE_PX + 10, wide, 18)
+        if words:
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(self._ground(_WORDS_GROUND))
+            painter.drawRoundedRect(row.adjusted(-8, -2, 8, 2), 4, 4)
         painter.setPen(self._theme.accent_text if self._finer else self._theme.muted)
-        row = QRectF(2 * _AXES_EDGE_PX + 8, self.height() - _AXES_EDGE_PX + 10, 160, 18)
-        painter.drawText(row, Qt.AlignmentFlag.AlignVCenter, tr(self._pitch))
+        painter.drawText(row, Qt.AlignmentFlag.AlignVCenter, words)
+
+    def _ground(self, covering: float) -> QColor:
+        """Return the view's own ground, so that words can be read over metal; where none is it is not seen."""
+        ground = QColor(self._theme.canvas)
+        ground.setAlphaF(covering)
+        return ground
 
     def _on_screen(self, place: tuple[float, float, float]) -> QPointF:
         ratio = self.devicePixelRatioF()

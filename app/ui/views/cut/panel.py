@@ -130,7 +130,7 @@ class CutPanel(Themed, QWidget):
         self.foreign, self.form, self.back = (
             QWidget(),
             QPushButton("Tools and stock…"),
-            QPushButton("Back to the job's cut"),
+            QPushButton("Close it"),
         )
         self._width = self._window_width = 0
         self.grip = WidthGrip(self)
@@ -197,6 +197,10 @@ class CutPanel(Themed, QWidget):
         self.counted.setText(f"Places ({len(self.entries)})" if self.entries else "No places to look at")
         self.list.setVisible(bool(self.entries))
         self._make_room()
+
+    def show_way_back(self, own: bool) -> None:
+        """Say where the way leads that ends the look at another program: to the job's cut, if it has one."""
+        self.back.setText("Back to the job's cut" if own else "Close it")
 
     def fit_beside(self, width: int) -> None:
         """Be wider in a wide window, of so many px, so that whole lines of NC text can be read; or as was chosen."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ....core.progress import NO_PROGRESS, Progress
 from ....model.finding import Finding
@@ -26,8 +27,11 @@ if TYPE_CHECKING:
     from ..nc.line_marks import LineMarks
     from ..nc.motion_shapes import MotionShapes
 
-_STEP_RAD = 0.1
-"""Turn of a straight piece of an arc's path."""
+_STEP_RAD, _CHORD_MM = 0.1, 0.002
+"""Turn of a straight piece of an arc's path, and how far it is from the arc: near by, wide arcs have no corners."""
+
+_MOST_PIECES = 400_000
+"""Of so many arcs that there would be more pieces, none is finer than by its turn."""
 
 _DEFAULT_TOLERANCE = 0.01
 
@@ -173,6 +177,18 @@ def picture_of(cut: CutProgram, moves: CutMoves, paths: CutPaths | None = None) 
     )
 
 
+def pieces_of_arcs(sweep: Floats, radius: Floats) -> NDArray[np.int64]:
+    """Return in how many straight pieces arcs are drawn, each a power of two, so that few numbers differ.
+
+    Args:
+        sweep: (m,) radians, either way. radius: (m,) mm.
+    """
+    turn = np.clip(np.sqrt(8 * _CHORD_MM / np.maximum(radius, 1e-6)), _STEP_RAD / 16, _STEP_RAD)
+    fine, coarse = (np.maximum(1.0, np.abs(sweep) / step) for step in (turn, _STEP_RAD))
+    chosen = fine if fine.sum() <= _MOST_PIECES else coarse
+    return 2 ** np.ceil(np.log2(chosen)).astype(np.int64)
+
+
 def _pieces(program: NcProgram, shapes: MotionShapes) -> tuple[Floats, Floats, Bytes]:
     """Return start, end and look of straight pieces of the tool's way, in the order of going."""
     from ....model.motion_path import arc_paths
@@ -181,7 +197,7 @@ def _pieces(program: NcProgram, shapes: MotionShapes) -> tuple[Floats, Floats, B
     elsewhere = shapes.home.any(axis=1) | shapes.away.any(axis=1)
     straight = np.flatnonzero(~(elsewhere | np.isin(np.arange(len(motions)), arcs.rows)))
     order, begin, end = [straight], [motions.start[straight]], [motions.end[straight]]
-    counts = np.maximum(1, np.ceil(np.abs(arcs.sweep) / _STEP_RAD)).astype(int)
+    counts = pieces_of_arcs(arcs.sweep, np.maximum(arcs.start_radius, arcs.end_radius))
     for count in np.unique(counts).tolist():
         same = np.flatnonzero(counts == count)
         points = arcs.points(np.linspace(0.0, 1.0, count + 1))[same]

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QFileDialog
 from ....core.atomic import write_atomically
 from ....core.errors import HitofudeError, InputError
 from ....core.resources import resource
-from ....formats.scene.edit import line_of, with_table
+from ....formats.scene.edit import line_of, with_table, with_table_moved
 from ....model.finding import Finding, FindingKind
 from ....model.scene import Scene
 from ....usecases.scene.solid_files import SOLIDS, STEPS
@@ -31,6 +31,7 @@ from .new_parts import (
     new_surface,
     new_tool,
     passes_across,
+    roughing_passes,
     surface_from_curves,
 )
 from .scene_computation import SceneComputation, SceneState
@@ -357,12 +358,29 @@ class SceneController(Controller):
         self._change(lambda text: with_table(text, name, made))
 
     def _mends(self, finding: Finding) -> tuple[OfferedMend, ...]:
-        """Return what clears metal that passes have left."""
+        """Return what clears metal that passes have left, or takes it in depths where they take too much at once."""
+        if finding.kind is FindingKind.ENGAGEMENT:
+            return self._roughing()
         across = passes_across(self.work.scene) if self.work.scene is not None else None
         if finding.kind is not FindingKind.LEFT_REACHABLE or across is None or self.work.busy:
             return ()
         change = f"T{across['tool']} at {across['angle_deg']:g} degrees"
         return (OfferedMend("Add passes across", change, lambda: self._add("passes", lambda _: across)),)
+
+    def _roughing(self) -> tuple[OfferedMend, ...]:
+        scene = self.work.scene
+        made = roughing_passes(scene, self._box) if scene is not None and not self.work.busy else ()
+        if scene is None or not made:
+            return ()
+        many = len(scene.passes)
+
+        def put_first(text: str) -> str:
+            for number, table in enumerate(made):
+                text = with_table_moved(with_table(text, "passes", table), "passes", many + number, -many)
+            return text
+
+        change = f"T{made[0]['tool']} in {counted(len(made), 'depth')}"
+        return (OfferedMend("Rough it first", change, lambda: self._change(put_first)),)
 
     def _show_in_text(self, name: str, number: int) -> None:
         self._side.show_page(TEXT)
@@ -403,9 +421,15 @@ class SceneController(Controller):
         self.changed.emit()
 
     def _program(self) -> SceneProgram | None:
+        program = self.program()
+        if program is None:
+            self.failed.emit("The scene's program is not proven yet; wait until it is, or compute it with F5.")
+        return program
+
+    def program(self) -> SceneProgram | None:
+        """Return the scene's program; None while it is not proven."""
         proven, shown = self.work.proven, self.work.shown
         if proven is None or shown is None:
-            self.failed.emit("The scene's program is not proven yet; wait until it is, or compute it with F5.")
             return None
         written, computed = proven.written, shown.computed
         file = written.files[0]

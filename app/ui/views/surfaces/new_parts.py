@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
@@ -31,6 +32,8 @@ pitch = 1.0
 """A scene to begin with."""
 KINDS = ("plane", "sphere", "cylinder", "cone", "torus", "bilinear", "bicubic", "loft", "ruled", "revolved", "swept")
 """Shapes that can be added with a size of their own."""
+_MOST_DEPTHS = 8
+"""So many depths a part is roughed in at most, however thin its tool: each takes as long to compute as a finishing."""
 FROM_CURVES = ("loft", "ruled", "revolved", "swept")
 """Shapes that curves of the drawing make."""
 
@@ -160,6 +163,35 @@ def passes_across(scene: Scene) -> Table | None:
         return None
     dense = {"pitch": last.pitch} if last.pitch is not None else {"scallop": last.scallop}
     return {"tool": last.tool, "angle_deg": turned, **dense}
+
+
+def roughing_passes(scene: Scene, box: Box) -> tuple[Table, ...]:
+    """Return passes in depths to go before the scene's first ones, with their tool and in their direction; none where
+    these leave stock, so that they rough themselves, or do not go straight.
+
+    Args:
+        scene: with passes over the whole part. box: of the stock x0, y0, z0, x1, y1, z1, mm.
+    """
+    first = next((each for each in scene.passes if each.enabled), None)
+    tool = next((each for each in scene.tools if first is not None and each.number == first.tool), None)
+    if first is None or tool is None or first.stock_to_leave or first.fan_deg is not None or first.guide or first.line:
+        return ()
+    top, bottom = box[5], box[2] if first.floor is None else max(first.floor, box[2])
+    depths = min(math.ceil((top - bottom) / (tool.diameter / 2)), _MOST_DEPTHS)
+    left = round(min(tool.diameter / 12, 0.5), 3)
+    floors = [round(top - (top - bottom) * n / depths, 3) for n in range(1, depths + 1)]
+    return tuple(
+        {
+            "name": f"roughing to {floor:g}",
+            "tool": tool.number,
+            "angle_deg": first.angle_deg,
+            "pitch": round(tool.diameter / 2, 3),
+            "stock_to_leave": left,
+            "chord_tolerance": max(first.chord_tolerance, round(left / 5, 4)),
+            "floor": floor,
+        }
+        for floor in floors
+    )
 
 
 def new_tool(scene: Scene) -> Table:

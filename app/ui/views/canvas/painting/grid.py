@@ -53,14 +53,22 @@ def paint_raster(painter: QPainter, view: ViewTransform, area: QRectF, theme: Th
 
 
 def paint_display(painter: QPainter, view: ViewTransform, area: QRectF, frame: BitmapFrame, theme: Theme) -> None:
-    """Paint the display's cells when they are near, marks at its corners and its name: it is no stock, so it has no
-    outline.
-    """
-    x0, y0, x1, y1 = frame.extent
-    outline = QRectF(view.to_screen((x0, y1)), view.to_screen((x1, y0)))
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+    """Paint the display's cells when they are near."""
     if cells_shown(view, frame):
-        _paint_cells(painter, view, outline.intersected(area), frame, theme)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        _paint_cells(painter, view, _outline(view, frame).intersected(area), frame, theme)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+
+
+def _outline(view: ViewTransform, frame: BitmapFrame) -> QRectF:
+    x0, y0, x1, y1 = frame.extent
+    return QRectF(view.to_screen((x0, y1)), view.to_screen((x1, y0)))
+
+
+def paint_display_marks(painter: QPainter, view: ViewTransform, area: QRectF, frame: BitmapFrame, theme: Theme) -> None:
+    """Paint marks at the display's corners and its name: it is no stock, so it has no outline."""
+    outline = _outline(view, frame)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
     mark = min(_CORNER_PX, outline.width() / 4, outline.height() / 4)
     painter.setPen(_line(theme.muted))
     near = area.adjusted(-_CORNER_PX, -_CORNER_PX, _CORNER_PX, _CORNER_PX)

@@ -20,6 +20,7 @@ from .curve_path import MANY, curve_path
 from .pens import FINE, screen_pen
 
 _GRIP_HALF = 3.5
+_SMALL_GRIP_HALF, _MANY_GRIPS = 1.5, 60
 _OWNED_PX, _OWNED_ALPHA = 7.0, 0.35
 
 
@@ -101,12 +102,13 @@ def paint_points(painter: QPainter, view: ViewTransform, points: list[tuple[floa
 def paint_grips(
     painter: QPainter, view: ViewTransform, points: Sequence[Point], hot: Point | None, theme: Theme
 ) -> None:
-    """Paint small squares to pull at; the hot one is full."""
+    """Paint squares to pull at, small ones where they are many; the hot one is full."""
+    half = _GRIP_HALF if len(points) <= _MANY_GRIPS else _SMALL_GRIP_HALF
     painter.setPen(QPen(theme.accent_text, 1.2))
     for point in points:
         painter.setBrush(theme.accent if point == hot else theme.canvas)
         at = view.to_screen(point)
-        painter.drawRect(QRectF(at.x() - _GRIP_HALF, at.y() - _GRIP_HALF, 2 * _GRIP_HALF, 2 * _GRIP_HALF))
+        painter.drawRect(QRectF(at.x() - half, at.y() - half, 2 * half, 2 * half))
 
 
 class TrackingAids(NamedTuple):

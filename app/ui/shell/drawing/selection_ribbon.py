@@ -1,0 +1,104 @@
+"""The ribbon over what is selected in the drawing: says what the curves are to become, one button a way."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPoint, QRect, QRectF, QSize, Qt
+from PySide6.QtWidgets import QToolButton, QWidget
+
+from ....drafting.document import Document, DocumentChange
+from ....geometry.sample import bounds_of_all
+from ...framework.boxes import give_ground, h_box
+from ...framework.commands import Commands
+from ...views.canvas.canvas import Canvas
+from ...views.canvas.modes import CanvasMode
+
+_NAMES = {
+    "pocket": "Pocket",
+    "outside": "Outside",
+    "inside": "Inside",
+    "on": "On line",
+    "drill": "Drill",
+    "engrave": "Engrave",
+    "vcarve": "V-carve",
+}
+"""The ways that are offered, by the commands' names, in the ribbon's words: short, for it lies over the drawing."""
+
+_GAP_PX = 14
+"""Between the ribbon and the selection, so that grips can be taken."""
+
+_MOST = 2000
+"""Of a larger selection the place is not looked for: the ribbon stands at the top."""
+
+
+class SelectionRibbon(QWidget):
+    """Stands over the selection of a drawing while no tool is in hand, and is gone else.
+
+    Attributes:
+        buttons: by the way that they stand for.
+    """
+
+    def __init__(self, canvas: Canvas, document: Document, commands: Commands) -> None:
+        super().__init__(canvas)
+        self._canvas, self._document = canvas, document
+        self._box: QRectF | None = None
+        self._any = False
+        give_ground(self, "selectionRibbon")
+        self.setCursor(Qt.CursorShape.ArrowCursor)
+        row = h_box(self, (4, 4, 4, 4), 2)
+        self.buttons = {way: self._button(way, name, commands) for way, name in _NAMES.items()}
+        for button in self.buttons.values():
+            row.addWidget(button)
+        self.hide()
+        document.subscribe(self._follow)
+        for signal in (canvas.prompt_changed, canvas.tool_changed, canvas.view_changed, canvas.mode_changed):
+            signal.connect(self.place)
+
+    def _button(self, way: str, name: str, commands: Commands) -> QToolButton:
+        button = QToolButton()
+        button.setText(name)
+        button.setProperty("role", "ribbon")
+        button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        button.setToolTip("Have an operation added for the selected curves")
+        button.clicked.connect(lambda: commands[f"machine_{way}"].trigger())
+        return button
+
+    def _follow(self, change: DocumentChange) -> None:
+        """Look where the selection is; it is where it was unless it or the drawing changes."""
+        if change & (DocumentChange.SELECTION | DocumentChange.PART):
+            chosen = self._document.selection
+            curves = [each.curve for each in self._document.part.entities if each.id in chosen] if chosen else []
+            box = bounds_of_all(curves) if 0 < len(curves) <= _MOST else None
+            self._box = QRectF(box[0], box[1], box[2] - box[0], box[3] - box[1]) if box is not None else None
+            self._any = bool(curves)
+            self.place()
+
+    def place(self, *_: object) -> None:
+        """Stand over the selection, below it where there is no room above; be gone while a tool is in hand."""
+        canvas = self._canvas
+        shown = self._any and canvas.mode is CanvasMode.DRAW and not canvas.working
+        if shown:
+            self.adjustSize()
+            self.move(place_beside(self._on_screen(), self.size(), canvas.area.toRect()))
+        self.setVisible(shown)
+
+    def _on_screen(self) -> QRect:
+        view, box = self._canvas.view, self._box
+        if box is None:
+            return QRect()
+        return QRectF(view.to_screen((box.left(), box.bottom())), view.to_screen((box.right(), box.top()))).toRect()
+
+
+def place_beside(selection: QRect, size: QSize, area: QRect) -> QPoint:
+    """Return where a ribbon of a size stands, px: over a selection, else below it, else at the top of the area.
+
+    Args:
+        selection: on the screen; a null one has no place. size: of the ribbon. area: that it keeps within.
+    """
+    room = area.adjusted(_GAP_PX // 2, _GAP_PX // 2, -_GAP_PX // 2, -_GAP_PX // 2)
+    middle = selection.center().x() if not selection.isNull() else room.center().x()
+    left = min(max(middle - size.width() // 2, room.left()), max(room.right() - size.width(), room.left()))
+    above, below = selection.top() - _GAP_PX - size.height(), selection.bottom() + _GAP_PX
+    if not selection.isNull() and above >= room.top():
+        return QPoint(left, min(above, room.bottom() - size.height()))
+    fits = not selection.isNull() and below + size.height() <= room.bottom()
+    return QPoint(left, max(below, room.top()) if fits else room.top())
