@@ -70,7 +70,7 @@ def corner_reach(
     found = CornerReach(np.full(len(places), np.inf), np.zeros(len(places)))
     part = np.arange(len(places))
     for parts in LEVELS:
-        look = _Look(tips, cells.grid, requested, finest // parts)
+        look = _CloseLook(tips, cells.grid, requested, finest // parts)
         seen, stand[part] = look.at(places[part], stand[part])
         found.put(part, seen)
         part = np.nonzero(doubtful(found, cells.grid.pitch / parts))[0]
@@ -80,7 +80,7 @@ def corner_reach(
 
 
 @dataclass(frozen=True, eq=False)
-class _Look:
+class _CloseLook:
     """One look: the tool dropped some steps round where it was known to cut lowest.
 
     Attributes:
