@@ -214,7 +214,7 @@ class FastPlunge:
     Attributes:
         motion: its first row. tool: T number.
         x, y: where it is deepest, mm. depth: of the metal under the axis there, mm.
-        feed: of it, mm/min. rate: that the tool may be fed down with, mm/min; None: nobody says.
+        feed: straight down, of it, mm/min. rate: that the tool may be fed down with, mm/min; None: nobody says.
         count: of such descents.
     """
 
@@ -263,9 +263,10 @@ def fast_plunges(
     for number, rate in known.items():
         limit[number] = MORE * rate if rate is not None else 0.0
     motions = course.motions
+    down = _feed_down(motions.end - motions.start, motions.feed)
     fast = (
         _descends(motions.end - motions.start, motions.kind)
-        & (motions.feed > limit[course.tool])
+        & (down > limit[course.tool])
         & (motions.end[:, 2] < top - LEVEL)
     )
     fast[list(course.left_out)] = False
@@ -292,7 +293,7 @@ def fast_plunges(
         (first, last), hit = spans[k], max(hits, key=lambda each: each.depth)
         number = int(course.tool[first])
         if hit.depth >= _least(tools[number], known[number]):
-            feed, (x, y) = float(motions.feed[first : last + 1].max()), _at_height(ways[k].points, hit.z)
+            feed, (x, y) = float(down[first : last + 1].max()), _at_height(ways[k].points, hit.z)
             deepest.setdefault(number, []).append(FastPlunge(first, number, x, y, hit.depth, feed, known[number], 1))
     worst = (
         replace(max(found, key=lambda each: each.depth), count=sum(each.count for each in found))
@@ -305,6 +306,13 @@ def _at_height(points: Floats, z: float) -> tuple[float, float]:
     """Return where on a way down (n, 3) it is at a height."""
     x, y = (float(np.interp(-z, -points[:, 2], points[:, column])) for column in (0, 1))
     return x, y
+
+
+def _feed_down(way: Floats, feed: Floats) -> Floats:
+    """Return the part of the feed that goes down, mm/min: a plunge rate bounds that alone, so a steep way to the side
+    may be gone faster.
+    """
+    return np.asarray(feed * -way[:, 2] / np.maximum(np.linalg.norm(way, axis=1), 1e-12))
 
 
 def _descends(way: Floats, kind: NDArray[np.uint8]) -> NDArray[np.bool_]:
