@@ -174,7 +174,7 @@ def remarks(program: Program) -> str:
 
 @pytest.mark.parametrize("curves", [["circles:16"], ["#7"], ["circles:15-17", "#7"]])
 def test_circles_that_are_named_are_meant_however_wide_they_are(curves: list[str]) -> None:
-    """The circle of 16 mm is no. 7: its middle is drilled, reamed, tapped and threaded as if its diameter were named."""
+    """The circle of 16 mm, no. 7: its middle is drilled, reamed, tapped and threaded as if its diameter were named."""
     named = CutParameters(9, 10.0, curves=read_selectors(curves))
     drilled = DrillOperation(named)
     program = program_of(drilled)
