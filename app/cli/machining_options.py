@@ -159,6 +159,17 @@ _READERS: dict[Unit, Callable[[str, Parameter], Any]] = {
 }
 
 
+def _drill(text: str) -> float:
+    """Return the diameter of a drill, mm, for argparse."""
+    kind, _, diameter = text.partition(":")
+    if kind == "circles":
+        raise argparse.ArgumentTypeError(
+            f"is wrong: it takes the diameter of the drill alone, such as {diameter}, and drills the circles that are "
+            f'as wide; a drill of another width is an operation of a job file, with curves = ["{text}"]'
+        )
+    return number("diameter")(text)
+
+
 # The options of `make` that say how operations are done: sides, entries, leads, tabs, drilling, copies, clamps.
 
 
@@ -168,7 +179,7 @@ def add_machining_options(group: argparse._ArgumentGroup, holding: argparse._Arg
     group.add_argument(
         "--drill",
         metavar="D",
-        type=number("diameter"),
+        type=_drill,
         action="append",
         default=[],
         help="drill the circles of this diameter first, down to the depth; may be repeated",

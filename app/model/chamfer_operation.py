@@ -189,4 +189,5 @@ class ChamferOperation(Operation):
         if ball is None:
             return Operation.carved_by(self, tool)
         rate = self.width / (self.width if self.down is None else self.down)
-        return CarvingCone(ball.off - _TOUCHING, rate, _TOUCHING / rate, ball.depth)
+        tip = ball.off - _TOUCHING
+        return CarvingCone(tip, rate, _TOUCHING / rate, ball.depth, tip)

@@ -244,12 +244,14 @@ class CarvingCone:
         rate: mm of radius per mm of height.
         greatest: how deep its tip goes at most, mm.
         lifted: how much higher its tip is than the cutter's, mm.
+        flat: radius of the flat at the cutter's own end, mm: in places that are narrower it leaves metal at the walls.
     """
 
     tip: float
     rate: float
     greatest: float
     lifted: float
+    flat: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -369,9 +371,8 @@ class Operation:
 
     def carved_by(self, tool: Tool) -> CarvingCone:
         """Return the cone that its carving is proven with: that of its tool, narrower by what it reaches over edges."""
-        return CarvingCone(
-            tool.tip_diameter / 2 - self.over_edge, math.tan(tool.tip_angle / 2), self.deepest(tool), 0.0
-        )
+        flat = tool.tip_diameter / 2
+        return CarvingCone(flat - self.over_edge, math.tan(tool.tip_angle / 2), self.deepest(tool), 0.0, flat)
 
     @property
     def wear(self) -> float:

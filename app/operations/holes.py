@@ -11,16 +11,15 @@ import numpy as np
 from ..core.errors import ParameterError
 from ..core.progress import Progress
 from ..core.wording import trimmed
-from ..model.curve_selectors import CirclesOf, CurveNumber
 from ..model.finding import Finding, FindingKind
-from ..model.hole_operations import HoleOperation
+from ..model.hole_operations import HoleOperation, TapOperation, ThreadOperation
 from ..model.job import Job
 from ..model.moves import Purpose
 from ..model.operation import Operation
 from ..model.tool import Tool
 from ..toolpath.build import Stroke, StrokeLabel
 from ..toolpath.drawn_contours import DrawnContours
-from ..toolpath.drill_holes import CircleHole, DrillHoles, holes_of
+from ..toolpath.drill_holes import CircleHole, DrillHoles, holes_of, names_circles
 from ..toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..toolpath.operation_context import OperationContext
 from ..toolpath.ordering.tour import in_short_order
@@ -141,7 +140,7 @@ def _about_others(holes: DrillHoles, tool: Tool, operation: HoleOperation, verb:
         yield Finding(
             FindingKind.LEFT_OUT,
             f"{who} {verb.third} {_counted(holes.drilled)}; {left}: {diameters_in_words(holes.others)}.",
-            counts=_names_them(operation),
+            counts=names_circles(operation),
             amount=float(len(holes.others)),
         )
 
@@ -156,6 +155,33 @@ def circles_missed(verb: HoleVerb) -> Callable[[MachiningAreas, Operation, Machi
         return circle_findings(holes_of(areas.job, areas.drawn, operation), areas.job, operation, verb)
 
     return missed
+
+
+def width_findings(holes: Sequence[CircleHole], tool: Tool) -> Iterator[Finding]:
+    """Yield that holes come out as wide as the tool, which is not as wide as they are drawn."""
+    wrong = [hole for hole in holes if abs(hole.diameter - tool.diameter) > 1e-3]
+    if wrong:
+        yield Finding(
+            FindingKind.TOLERANCE,
+            f"Holes come out {tool.diameter:g} mm wide, as T{tool.number} is; drawn are {diameters_in_words(wrong)}.",
+            counts=False,
+            amount=max(abs(hole.diameter - tool.diameter) for hole in wrong),
+        )
+
+
+def thread_findings(
+    holes: Sequence[CircleHole], tool: Tool, operation: TapOperation | ThreadOperation
+) -> Iterator[Finding]:
+    """Yield that threads are cut at circles that are drawn as wide as neither the thread nor its hole."""
+    wrong = [hole for hole in holes if not operation.is_for(hole.diameter, tool)]
+    if wrong:
+        yield Finding(
+            FindingKind.TOLERANCE,
+            f"T{tool.number} cuts {operation.thread.value} where circles of another width are drawn: "
+            f"{diameters_in_words(wrong)}.",
+            counts=False,
+            amount=float(len(wrong)),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,12 +218,6 @@ class HolesBefore:
         x, y = round(hole.x / _HERE), round(hole.y / _HERE)
         near = (self._made.get((x + dx, y + dy)) for dx in (-1, 0, 1) for dy in (-1, 0, 1))
         return max((each for each in near if each), key=lambda each: each.diameter, default=MadeHole())
-
-
-def _names_them(operation: HoleOperation) -> bool:
-    """Tell whether an operation names the very circles that it works on, so that each of them counts."""
-    curves = operation.cut.curves
-    return bool(curves) and all(isinstance(each, CurveNumber | CirclesOf) for each in curves)
 
 
 def _counted(holes: Sequence[CircleHole]) -> str:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..core.tolerances import CURVE
 from ..geometry.as_circle import as_circle
+from ..model.curve_selectors import CirclesOf, CurveNumber
 from ..model.curves import Circle
 from ..model.finding import Finding, FindingKind
 from ..model.hole_operations import HoleOperation
@@ -124,10 +125,18 @@ def _about(contour: Contour, hole: CircleHole) -> bool:
     return circle is not None and math.dist((circle.x, circle.y), (hole.x, hole.y)) <= CURVE
 
 
+def names_circles(operation: HoleOperation) -> bool:
+    """Tell whether an operation names the very circles that it works on, and none by where they lie."""
+    curves = operation.cut.curves
+    return bool(curves) and all(isinstance(each, CurveNumber | CirclesOf) for each in curves)
+
+
 def _asked(operation: HoleOperation, tool: Tool, diameter: float) -> bool:
-    """Tell whether an operation is to work on circles of a diameter, mm."""
+    """Tell whether an operation is to work on circles of a diameter, mm, of those that it selects: whoever names them,
+    or diameters, means them, as wide as they may be; else they are those that the tool is for.
+    """
     if operation.least is None and operation.most is None:
-        return operation.is_for(diameter, tool)
+        return names_circles(operation) or operation.is_for(diameter, tool)
     most = math.inf if operation.most is None else operation.most
     return (operation.least or 0.0) - 1e-6 <= diameter <= most + 1e-6
 

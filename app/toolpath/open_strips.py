@@ -17,6 +17,7 @@ import shapely.ops
 from numpy.typing import NDArray
 
 from ..core.errors import GeometryError
+from ..core.tolerances import WELD
 from ..geometry.primitives import contour_rows, sample
 from ..model.curves import Line, Primitive, reversed_curve
 from ..model.operation import SideStrip
@@ -77,10 +78,21 @@ def _strip(line: Contour, strip: SideStrip) -> StripsBesideLines:
     rest = next(_beyond(sides, points), None)
     if len(sides) != 2 or rest is None:
         raise _too_near(line, strip, "itself")
-    ends = [points[-1], *rest, points[0]]
-    back = tuple(Line(tuple(a), tuple(b)) for a, b in pairwise(np.array(ends).tolist()))
+    ends = _welded(np.array([points[-1], *rest, points[0]]))
+    back = tuple(Line(tuple(a), tuple(b)) for a, b in pairwise(ends.tolist()))
     bounds = replace(line, primitives=(*way, *back), closed=True)
     return StripsBesideLines([bounds], [Contour(back, False)])
+
+
+def _welded(points: Floats) -> Floats:
+    """Return points (n, 2) without those that are one with the point before or with the last: where the ways across
+    meet corners of the round ends, two may lie 1e-16 mm apart, and lines shorter than `WELD` are none.
+    """
+    kept = [points[0]]
+    for point in points[1:-1]:
+        if min(np.hypot(*(point - kept[-1])), np.hypot(*(point - points[-1]))) > WELD:
+            kept.append(point)
+    return np.array([*kept, points[-1]])
 
 
 def _beyond(sides: Sequence[shapely.Polygon], points: Floats) -> Iterator[Floats]:

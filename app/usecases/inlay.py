@@ -35,6 +35,7 @@ from ..model.part import Contour, Entity, Part
 from ..model.stock_box import extent
 from ..model.tool import Tool
 from ..operations.vcarve.paths import RIDGE, flat_tool_of
+from ..simulation.field.workpiece import Grid
 from ..toolpath.drawn_contours import drawn_contours, selected
 from .cutting.cut import CutOptions, CutProgram, cut
 from .job.options import MakeOptions
@@ -46,6 +47,7 @@ SIDEWAYS = 0.005
 
 _LEAST_OUT = 0.01
 """mm; what stands out by less cannot be sawn off."""
+Window = tuple[float, float, float, float]
 
 _PLUG, _BLOCK = "plug", "block"
 """Layers of the plug's drawing: its contours, and the block that it is made of."""
@@ -296,7 +298,7 @@ def fit_of(
     box = extent(contours)
     if box is None or pocket.cut is None or plug.cut is None:
         raise ParameterError("Pocket or plug has no path, so there is nothing to fit.")
-    x0, y0, x1, y1 = box
+    x0, y0, x1, y1 = _in_whole_cells(box)
     below = _cells(pocket.cut, (x0, y0, x1, y1), progress.part(0.0, 0.5))
     above = _cells(plug.cut, (-x1, y0, -x0, y1), progress.part(0.5, 1.0))
     rows, cols = below.cut.heights.shape
@@ -317,7 +319,15 @@ def fit_of(
     )
 
 
-def _cells(made: CutProgram, window: tuple[float, float, float, float], progress: Progress) -> CutProgram:
+def _in_whole_cells(box: Window) -> Window:
+    """Return a box, x0, y0, x1, y1, made larger by as much as its cells are, so that those of its mirror image lie upon
+    them, too.
+    """
+    grid = Grid.over(box, _CELLS)
+    return grid.x0, grid.y0, grid.x0 + grid.cols * grid.pitch, grid.y0 + grid.rows * grid.pitch
+
+
+def _cells(made: CutProgram, window: Window, progress: Progress) -> CutProgram:
     return cut(made.setup, CutOptions(_CELLS, window, trace=False, judge=False), progress)
 
 

@@ -59,6 +59,7 @@ class ConePath:
         tip: radius of the flat at the cone's end, mm.
         rate: mm of radius per mm of height.
         greatest: depth that was asked for, mm.
+        flat: radius of the flat at the cutter's own end, mm, where that is wider than the cone's.
     """
 
     start: Floats
@@ -66,6 +67,7 @@ class ConePath:
     tip: float
     rate: float
     greatest: float
+    flat: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -103,7 +105,8 @@ def prove_roof(path: ConePath, walls: Primitives, reported: float, progress: Pro
     most = path.tip + path.greatest * path.rate
     groups = _alike(walls)
     share = [progress.part(0.5 * k / len(groups), 0.5 * (k + 1) / len(groups)) for k in range(len(groups))]
-    behind = [_behind(group, path.tip, most, part) for group, part in zip(groups, share, strict=True)]
+    widest = max(path.tip, path.flat)
+    behind = [_behind(group, widest, most, part) for group, part in zip(groups, share, strict=True)]
     centres = np.concatenate([np.zeros((0, 2)), *(each.centres for each in behind)])
     radius = np.concatenate([np.zeros(0), *(each.radius for each in behind)])
     blunt = radius < path.tip

@@ -214,7 +214,7 @@ class FastPlunge:
     Attributes:
         motion: its first row. tool: T number.
         x, y: where it is deepest, mm. depth: of the metal under the axis there, mm.
-        feed: of it, mm/min. rate: that the tool may be fed down with, mm/min; None: nobody says.
+        feed: straight down, of it, mm/min. rate: that the tool may be fed down with, mm/min; None: nobody says.
         count: of such descents.
     """
 
@@ -259,20 +259,22 @@ def fast_plunges(
     """
     course, top = stock.courses[-1], float(before.heights.max())
     known = _rates(stock, tools, rates, top)
-    fast = _fast_descents(course, known, top)
+    motions = course.motions
+    down = _feed_down(motions.end - motions.start, motions.feed)
+    fast = _fast_descents(course, down, known, top)
     spans = [
         span for span in alike_runs(fast.astype(np.int64), course.tool) if _may_be_deep(stock, tools, known, span, top)
     ]
     if not spans:
         return FastPlunges()
-    motions, ways = course.motions, _along_axes(course, spans, tools, before.grid.pitch)
+    ways = _along_axes(course, spans, tools, before.grid.pitch)
     deepest: dict[int, list[FastPlunge]] = {}
     looked = hits_along(stock, before, ways, progress)
     for k, hits in looked.hits.items():
         (first, last), hit = spans[k], max(hits, key=lambda each: each.depth)
         number = int(course.tool[first])
         if hit.depth >= _least(tools[number], known[number]):
-            feed, (x, y) = float(motions.feed[first : last + 1].max()), _at_height(ways[k].points, hit.z)
+            feed, (x, y) = float(down[first : last + 1].max()), _at_height(ways[k].points, hit.z)
             deepest.setdefault(number, []).append(FastPlunge(first, number, x, y, hit.depth, feed, known[number], 1))
     worst = (
         replace(max(found, key=lambda each: each.depth), count=sum(each.count for each in found))
@@ -281,10 +283,13 @@ def fast_plunges(
     return FastPlunges(tuple(worst), looked.unseen)
 
 
-def _fast_descents(course: Course, rates: Mapping[int, float | None], top: float) -> NDArray[np.bool_]:
+def _fast_descents(
+    course: Course, down: NDArray[np.float64], rates: Mapping[int, float | None], top: float
+) -> NDArray[np.bool_]:
     """Return which motions go down below the top faster than their tool may, with short steps between such.
 
     Args:
+        down: part of the feeds that leads down, mm/min.
         rates: mm/min, by T number; None: no rate is known to be slow enough.
     """
     limit = np.full(int(course.tool.max(initial=0)) + 1, math.inf)
@@ -292,7 +297,7 @@ def _fast_descents(course: Course, rates: Mapping[int, float | None], top: float
         limit[number] = MORE * rate if rate is not None else 0.0
     motions = course.motions
     way = motions.end - motions.start
-    fast = _descends(way, motions.kind) & (motions.feed > limit[course.tool]) & (motions.end[:, 2] < top - LEVEL)
+    fast = _descends(way, motions.kind) & (down > limit[course.tool]) & (motions.end[:, 2] < top - LEVEL)
     fast[list(course.left_out)] = False
     return fast | _between(fast, way)
 
@@ -318,6 +323,13 @@ def _at_height(points: Floats, z: float) -> tuple[float, float]:
     """Return where on a way down (n, 3) it is at a height."""
     x, y = (float(np.interp(-z, -points[:, 2], points[:, column])) for column in (0, 1))
     return x, y
+
+
+def _feed_down(way: Floats, feed: Floats) -> Floats:
+    """Return the part of the feed that goes down, mm/min: a plunge rate bounds that alone, so a steep way to the side
+    may be gone faster.
+    """
+    return np.asarray(feed * -way[:, 2] / np.maximum(np.linalg.norm(way, axis=1), 1e-12))
 
 
 def _descends(way: Floats, kind: NDArray[np.uint8]) -> NDArray[np.bool_]:

@@ -231,6 +231,7 @@ def test_help_of_make_names_every_option() -> None:
             "--contour-tool is wrong: 'flat:0.2' is no diameter (its kind is not asked for here); write a length in mm",
         ),
         ("--depth deep", "--depth is wrong"),
+        ("--drill circles:5", "--drill is wrong: it takes the diameter of the drill alone, such as 5"),
         ("--stock-to-leave -0.1", "must be 0 to 9999 mm"),
         ("--stepover 120%", "--stepover is 120 %; it must be 1 % or more and not more than the tool's diameter"),
         ("--stepover -5%", "--stepover is -5 %"),

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import math
 import random
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -260,7 +263,7 @@ class TestVectric:
 
     def test_what_is_no_database_is_told(self, tmp_path: Path) -> None:
         whole = vectric([{"tool_type": 1, "diameter": 6.0, "name": "Six"}], tmp_path / "made.db")
-        for data in (b"SQLite format 3\x00" + b"x" * 200, b"no", whole[:2000]):
+        for data in (b"", b"SQLite format 3\x00" + b"x" * 200, b"no", whole[:2000]):
             with pytest.raises(InputError, match=r"t\.vtdb: "):
                 read_tools("t.vtdb", data)
 
@@ -288,6 +291,32 @@ def test_damaged_files_make_tools_or_a_sentence(tmp_path: Path) -> None:
                 )
             try:
                 assert read_tools(name, bytes(broken)).library.tools
+            except InputError as error:
+                assert str(error).startswith(name)
+
+
+def _with_odd_values(tree: Any) -> Iterator[Any]:
+    """Yield a tree of JSON with each of its values in turn in another kind, in the place of what it is."""
+    if not isinstance(tree, dict | list):
+        return
+    for key in list(tree) if isinstance(tree, dict) else range(len(tree)):
+        for odd in (None, "", "x", [], [1], {}, {"a": 1}, True, -1, 0, 1e300, "6,5 mm"):
+            changed = copy.deepcopy(tree)
+            changed[key] = odd
+            yield changed
+        for inner in _with_odd_values(tree[key]):
+            changed = copy.deepcopy(tree)
+            changed[key] = inner
+            yield changed
+
+
+def test_values_of_another_kind_make_tools_or_a_sentence() -> None:
+    fusion = json.loads(fusion_json([fusion_tool(number=3, holder=HOLDER), fusion_tool("chamfer mill", 4, TA=45)]))
+    cone = json.loads(bit("v-bit", Diameter="6 mm", CuttingEdgeAngle="60 °"))
+    for name, whole in (("t.json", fusion), ("t.fctb", cone)):
+        for tree in _with_odd_values(whole):
+            try:
+                assert read_tools(name, json.dumps(tree).encode()).library.tools
             except InputError as error:
                 assert str(error).startswith(name)
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from app.core.errors import ParameterError
+from app.model.curve_selectors import read_selectors
 from app.model.hole_operations import (
     BoreOperation,
     CountersinkOperation,
@@ -165,6 +166,40 @@ def test_a_tap_goes_by_the_pitch_and_back_at_the_same_feed() -> None:
 def test_every_operation_has_its_tools(tool: Tool, operation: type[Operation], words: str) -> None:
     with pytest.raises(ParameterError, match=words):
         program_of(operation(CutParameters(tool.number, 3.0)))
+
+
+def remarks(program: Program) -> str:
+    return " ".join(each.text for each in program.findings if not each.counts)
+
+
+@pytest.mark.parametrize("curves", [["circles:16"], ["#7"], ["circles:15-17", "#7"]])
+def test_circles_that_are_named_are_meant_however_wide_they_are(curves: list[str]) -> None:
+    """The circle of 16 mm, no. 7: its middle is drilled, reamed, tapped and threaded as if its diameter were named."""
+    named = CutParameters(9, 10.0, curves=read_selectors(curves))
+    drilled = DrillOperation(named)
+    program = program_of(drilled)
+    assert program.moves.end[program.moves.purpose == Purpose.DRILL, :2].tolist() == [[50.0, 60.0]]
+    assert not counting(program) and "Holes come out 5 mm wide, as T9 is; drawn are 16 mm (1)." in remarks(program)
+    ream = ReamOperation(replace(named, tool=8, depth=9.0))
+    reamed = program_of(drilled, ream, tools=(Tool(8, 5.2, ToolKind.REAMER),))
+    assert not counting(reamed) and "Holes come out 5.2 mm wide, as T8 is; drawn are 16 mm (1)." in remarks(reamed)
+    for operation in (
+        TapOperation(replace(named, tool=2, depth=8.0)),
+        ThreadOperation(replace(named, tool=5, depth=6.0)),
+    ):
+        cut = program_of(drilled, operation)
+        number = operation.cut.tool
+        assert not counting(cut) and (cut.moves.operation == 1).any()
+        assert f"T{number} cuts M6 where circles of another width are drawn: 16 mm (1)." in remarks(cut)
+
+
+def test_circles_that_are_named_and_too_narrow_are_told_and_others_on_their_layer_left_alone() -> None:
+    wide = replace(DRILL, diameter=8.0)
+    cut = CutParameters(9, 10.0, curves=read_selectors(["circles:6", "#7"]))
+    program = program_of(DrillOperation(cut), tools=(wide,))
+    assert "2 circles, the first at (20.000, 20.000), are narrower than the drill" in counting(program)
+    layer = program_of(DrillOperation(CutParameters(9, 10.0, curves=read_selectors(["layer:a", "#7"]))))
+    assert "has nothing to drill" in counting(layer)
 
 
 # Threads

@@ -144,3 +144,10 @@ def test_the_sample_fits() -> None:
     job = read_job("inlay.toml", resource("samples", "inlay.toml").read_bytes()).job
     drawing = resource("samples", "inlay.draw").read_bytes()
     assert inlay("inlay.draw", drawing, MakeOptions(job=job), InlayOptions()).clean
+
+
+@pytest.mark.parametrize("drawing", ["rectangle 0,0 9.003,14\n", "rectangle 0,0 14,9.003\n"])
+def test_cells_lie_upon_their_mirror_image_where_they_do_not_go_into_the_shorter_side(drawing: str) -> None:
+    """By as much as half a cell, 0.01 mm, walls would else seem to overlap, or to be open."""
+    fit = pair_of(drawing).fit
+    assert fit.overlap < 1e-3 and abs(fit.walls) < 1e-3

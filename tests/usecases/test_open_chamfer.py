@@ -5,18 +5,24 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from app.core.errors import GeometryError
+from app.core.tolerances import WELD
 from app.formats.job.toml import read_job
 from app.geometry.distance import DistanceField
 from app.geometry.outlines import polygon_contour
-from app.geometry.primitives import contour_rows
+from app.geometry.primitives import contour_rows, lengths
+from app.model.curves import Line
 from app.model.finding import FindingKind
 from app.model.moves import Purpose
+from app.model.operation import SideStrip
+from app.model.part import Contour
 from app.operations.compute import compute
+from app.toolpath.open_strips import strips
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import MakeResult, finish, make
 
@@ -77,6 +83,33 @@ def test_bent_lines_are_proven_on_both_sides(side: str, tool: str) -> None:
     assert made.clean and not made.findings
     (carved,) = (each["carved"] for each in json.loads(made.report.text())["operations"])
     assert carved["places"] > 1000 and carved["left_mm"] < 0.005
+
+
+def test_a_flat_tip_tells_of_the_corner_that_it_does_not_fit_into() -> None:
+    """A tip of 0.3 mm radius keeps off the inner corner of a right angle, on 0.3 mm of both walls; off no outer one."""
+    blunt = CONE + "tip_diameter = 0.6\n"
+    for side, lost in (("left", 0.6), ("right", 0.0)):
+        made = made_of(BEND, side, blunt)
+        (carved,) = (each["carved"] for each in json.loads(made.report.text())["operations"])
+        assert carved["too_blunt_mm"] == pytest.approx(lost, abs=0.06)
+        told = [each for each in made.findings if each.kind is FindingKind.LEFT_UNREACHABLE]
+        assert made.clean and len(told) == (lost > 0)
+
+
+@pytest.mark.parametrize("reach", [1.5, 2.6, 5.0])
+def test_areas_beside_random_lines_have_no_line_without_length(reach: float) -> None:
+    """Two ways across a round end meet its corners, within 1e-16 mm."""
+    rng, made = np.random.default_rng(round(10 * reach)), 0
+    for _ in range(150):
+        points = np.cumsum(rng.uniform(-8, 8, (int(rng.integers(2, 4)), 2)), axis=0).round(3).tolist()
+        line = Contour(tuple(Line(tuple(a), tuple(b)) for a, b in pairwise(points)), False)
+        try:
+            (area,) = strips([line], SideStrip(bool(rng.random() < 0.5), reach)).contours
+        except GeometryError:
+            continue
+        made += 1
+        assert lengths(contour_rows(area)).min() > WELD
+    assert made > 50
 
 
 @pytest.mark.parametrize(("off", "kind"), [(-0.02, FindingKind.GOUGE), (0.02, FindingKind.LEFT_REACHABLE)])

@@ -112,6 +112,17 @@ def test_the_cone_follows_where_the_flat_tool_does_not_reach() -> None:
     again = cut(made.cut.setup, CutOptions(600, (4.5, 4.25, 25.5, 5.25), trace=False, judge=False))
     assert again.cut.heights.max() < -4 + 0.15 and again.cut.heights.min() == pytest.approx(-4.0, abs=5e-3)
     assert json.loads(made.report.text())["cut"]["gouged_places"] == 0
+    (ridges,) = [each for each in made.findings if each.kind is FindingKind.RIDGE]
+    assert "ridges of up to 0.1 mm" in ridges.text
+    assert made.clean  # that the flat tool does not fit is a remark: the cone has gone over all of the floor
+    (small,) = [each for each in made.findings if each.kind is FindingKind.REGION_TOO_SMALL]
+    assert not small.counts
+
+
+def test_no_flat_tool_is_asked_for_where_slanted_walls_meet() -> None:
+    made = made_of("rectangle 0,0 30,7\n", FLAT)  # the walls meet 3.5 mm deep, the floor would be 4 mm deep
+    assert made.clean
+    assert not {FindingKind.REGION_TOO_SMALL, FindingKind.RIDGE} & {each.kind for each in made.findings}
 
 
 def test_without_it_the_floor_is_a_finding_that_names_it() -> None:

@@ -51,6 +51,13 @@ def test_the_header_s_rate_counts_for_more_than_the_program_s_own() -> None:
     assert first.counts and first.amount == pytest.approx(4.0) and (first.x, first.y) == (10.0, 10.0)
 
 
+def test_a_steep_way_to_the_side_is_held_by_how_fast_it_goes_down() -> None:
+    """Three down for one sideways: of 315 mm/min 299 go down, of 325 mm/min 308."""
+    assert told(f"{SLOWLY}{SLOT}X22 Z-6.5 F315\nX30 F900\n") == []
+    (found,) = told(f"{SLOWLY}{SLOT}X22 Z-6.5 F325\nX30 F900\n")
+    assert "straight down into metal at 308 mm/min" in found.text
+
+
 @pytest.mark.parametrize(
     "body",
     [

@@ -123,7 +123,7 @@ class _FusionEntry:
     def __init__(self, entry: Json) -> None:
         self._entry, self._geometry = entry, _table(entry, "geometry")
         unit = entry.get("unit")
-        if unit not in _UNITS:
+        if not isinstance(unit, str) or unit not in _UNITS:
             raise NotUnderstoodError(f"its unit is {brief(repr(unit), QUOTED)}, neither millimeters nor inches")
         self._unit = _UNITS[unit]
         self._assumed: list[str] = []

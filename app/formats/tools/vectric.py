@@ -44,6 +44,8 @@ def read_vectric(name: str, data: bytes) -> ReadTools:
     """
     connection = sqlite3.connect(":memory:")
     try:
+        if not data:  # of nothing SQLite would say that memory is short
+            raise sqlite3.DatabaseError("the file is empty")
         connection.deserialize(data)
         connection.execute("PRAGMA trusted_schema = OFF")
         connection.row_factory = sqlite3.Row

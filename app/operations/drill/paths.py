@@ -12,9 +12,9 @@ from ...model.moves import Purpose
 from ...model.operation import ALIKE
 from ...model.tool import Tool
 from ...toolpath.build import StrokeLabel
-from ...toolpath.drill_holes import CircleHole, DrillHoles, holes_of, tip_depth, tip_length
+from ...toolpath.drill_holes import DrillHoles, holes_of, tip_depth, tip_length
 from ...toolpath.operation_context import OperationContext
-from ..holes import HoleVerb, circle_findings, diameters_in_words, holes_in_order, out_of_hole, over_hole
+from ..holes import HoleVerb, circle_findings, holes_in_order, out_of_hole, over_hole, width_findings
 
 PECK_GAP = 0.254
 """mm above where the last peck ended that the drill goes down to at rapid rate, or up to where the chip is but broken:
@@ -82,20 +82,8 @@ def hole_findings(holes: DrillHoles, job: Job, operation: DrillOperation) -> Ite
 def _depth_findings(holes: DrillHoles, job: Job, operation: DrillOperation) -> Iterator[Finding]:
     tool = job.tool(operation.cut.tool)
     if holes.drilled:
-        yield from _widths(holes.drilled, tool)
+        yield from width_findings(holes.drilled, tool)
         yield _tip(tool, job, operation)
-
-
-def _widths(drilled: Sequence[CircleHole], tool: Tool) -> Iterator[Finding]:
-    """Yield that holes come out as wide as the drill, which is not as wide as they are drawn."""
-    wrong = [hole for hole in drilled if abs(hole.diameter - tool.diameter) > 1e-3]
-    if wrong:
-        yield Finding(
-            FindingKind.TOLERANCE,
-            f"Holes come out {tool.diameter:g} mm wide, as T{tool.number} is; drawn are {diameters_in_words(wrong)}.",
-            counts=False,
-            amount=max(abs(hole.diameter - tool.diameter) for hole in wrong),
-        )
 
 
 def _tip(tool: Tool, job: Job, operation: DrillOperation) -> Finding:

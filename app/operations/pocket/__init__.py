@@ -11,7 +11,7 @@ from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ...toolpath.narrow_regions import finest, too_small
 from ..effort import Workload, over_area
 from ..registry import OperationMethod, register
-from .paths import candidates, pocket, wall_distance
+from .paths import candidates, left_to_carvings, pocket, wall_distance
 
 
 def _missed(areas: MachiningAreas, operation: Operation, area: MachiningArea | None) -> Iterable[Finding]:
@@ -21,7 +21,8 @@ def _missed(areas: MachiningAreas, operation: Operation, area: MachiningArea | N
         return ()
     tool = areas.job.tool(operation.cut.tool)
     level = area.frame(tool.radius + operation.cut.stock_to_leave)
-    return too_small(area.regions, level, tool, finest(areas.job, operation))
+    small = too_small(area.regions, level, tool, finest(areas.job, operation))
+    return left_to_carvings(small, areas.job, operation)
 
 
 def _effort(extent: Workload, operation: Operation, tool: Tool) -> float:

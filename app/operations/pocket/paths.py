@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from ...core import tolerances
@@ -14,6 +14,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, offset_levels
 from ...geometry.primitives import path_length
+from ...model.finding import Finding
 from ...model.job import Job
 from ...model.operation import CutParameters, Operation, PocketOperation, Side
 from ...model.tool import Tool
@@ -56,6 +57,7 @@ def pocket(context: OperationContext, index: int, progress: Progress) -> None:
     target = PocketTarget(outermost, tool.radius, LinkOptions(operation.cut.direction, operation.outside_in))
     first = clear_in_rings(context, index, area, target, progress)
     small = too_small(area.regions, first, tool, 0.0 if wall else finest(context.job, operation))
+    small = left_to_carvings(small, context.job, operation)
     context.findings.extend(each for each in small if not _left_to_contours(each.amount or 0.0, context.job, operation))
 
 
@@ -221,6 +223,16 @@ def _left_to_contours(disc: float, job: Job, operation: PocketOperation) -> bool
         <= cut.stock_to_leave + job.tool(cut.tool).radius
         for cut in _followers(job, operation)
     )
+
+
+def left_to_carvings(small: Sequence[Finding], job: Job, operation: PocketOperation) -> list[Finding]:
+    """Return what is to be said of regions too small for an operation's tool: nothing where a carving has asked for it
+    and the slanted walls meet, so that there is no floor; else a remark, as its cone goes over the floor itself.
+    """
+    if job.prepares(job.operations.index(operation)) is None:
+        return list(small)
+    wide = 2 * operation.cut.stock_to_leave + _ABOUT
+    return [replace(each, counts=False) for each in small if (each.amount or 0.0) > wide]
 
 
 def stepover_of(operation: Operation, tool: Tool) -> float:

@@ -9,7 +9,7 @@ from ...model.moves import Purpose
 from ...model.operation import ALIKE
 from ...toolpath.drill_holes import CircleHole, tip_depth
 from ...toolpath.operation_context import OperationContext
-from ..holes import HolesBefore, HoleVerb, holes_in_order, out_of_hole, over_hole
+from ..holes import HolesBefore, HoleVerb, holes_in_order, out_of_hole, over_hole, width_findings
 
 MOST_LEFT = 0.5
 """mm of diameter; what a reamer takes off at most: it cuts with its chamfer alone."""
@@ -29,8 +29,10 @@ def ream(context: OperationContext, index: int, progress: Progress) -> None:
     assert isinstance(operation, ReamOperation)
     bottom = -tip_depth(job, operation)
     solid: list[CircleHole] = []
+    reamed: list[CircleHole] = []
     made = HolesBefore(job, context.areas.drawn, index)
     for hole, label in holes_in_order(context, index, VERB, progress):
+        reamed.append(hole)
         before = made.at(hole)
         left = job.tool(operation.cut.tool).diameter - before.diameter
         if not (0 <= left <= MOST_LEFT and before.depth >= -bottom - 1e-9):
@@ -39,6 +41,7 @@ def ream(context: OperationContext, index: int, progress: Progress) -> None:
         builder.straight((hole.x, hole.y, bottom), Purpose.DRILL, label)
         builder.straight((hole.x, hole.y, job.retract_z), Purpose.DRILL, label)
         out_of_hole(context, label)
+    context.findings.extend(width_findings(reamed, job.tool(operation.cut.tool)))
     if solid:
         first = solid[0]
         text = (

@@ -12,7 +12,7 @@ from ...model.moves import Purpose
 from ...model.tool import Tool
 from ...toolpath.drill_holes import CircleHole, tip_depth
 from ...toolpath.operation_context import OperationContext
-from ..holes import HolesBefore, HoleVerb, holes_in_order, out_of_hole, over_hole
+from ..holes import HolesBefore, HoleVerb, holes_in_order, out_of_hole, over_hole, thread_findings
 
 VERB = HoleVerb("tap", "taps", "tapped", "tap", "narrower than the thread's core")
 
@@ -43,8 +43,10 @@ def tap(context: OperationContext, index: int, progress: Progress) -> None:
         )
     bottom, feed = -tip_depth(job, operation), tapping_feed(operation, tool)
     unready: list[CircleHole] = []
+    holes: list[CircleHole] = []
     made = HolesBefore(job, context.areas.drawn, index)
     for hole, label in holes_in_order(context, index, VERB, progress):
+        holes.append(hole)
         before = made.at(hole)
         if before.diameter < thread.nut_core - 1e-6 or before.depth < -bottom - 1e-9:
             unready.append(hole)
@@ -61,6 +63,7 @@ def tap(context: OperationContext, index: int, progress: Progress) -> None:
             f"{-bottom:g} mm deep; the tap would break: drill {thread.tap_drill:g} mm first."
         )
         context.findings.append(Finding(FindingKind.ENGAGEMENT, text, first.x, first.y, amount=float(len(unready))))
+    context.findings.extend(thread_findings(holes, tool, operation))
     context.findings.append(_feed_finding(operation, tool, feed))
 
 

@@ -24,7 +24,7 @@ from ...toolpath.build import Stroke, StrokeLabel
 from ...toolpath.drill_holes import CircleHole
 from ...toolpath.operation_context import OperationContext
 from ..helix import HelixRows, half_circle, helix
-from ..holes import HolesBefore, HoleVerb, holes_in_order, out_of_hole, over_hole
+from ..holes import HolesBefore, HoleVerb, holes_in_order, out_of_hole, over_hole, thread_findings
 from .form import correction
 
 VERB = HoleVerb("thread", "threads", "threaded", "thread mill", "too narrow for the mill")
@@ -101,9 +101,10 @@ def thread(context: OperationContext, index: int, progress: Progress) -> None:
     operation = job.operations[index]
     assert isinstance(operation, ThreadOperation)
     tool = job.tool(operation.cut.tool)
-    way, unready = way_of(operation, tool), []
+    way, unready, holes = way_of(operation, tool), [], []
     made = HolesBefore(job, context.areas.drawn, index)
     for hole, label in holes_in_order(context, index, VERB, progress):
+        holes.append(hole)
         before = made.at(hole)
         if not operation.external and (
             before.diameter < operation.core - 1e-3 or before.depth < operation.cut.depth - 1e-9
@@ -112,6 +113,7 @@ def thread(context: OperationContext, index: int, progress: Progress) -> None:
         _cut_thread(context, hole, way, label)
     if unready:
         context.findings.append(_unready(unready, operation))
+    context.findings.extend(thread_findings(holes, tool, operation))
     context.findings.append(_turns_finding(operation, tool, way))
 
 

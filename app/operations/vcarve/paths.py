@@ -111,6 +111,7 @@ def vcarve(context: OperationContext, index: int, progress: Progress) -> None:
     passes = list(carved(area.primitives, cone, levels.passes, progress.part(0.0, 0.7)))
     if (flat := flat_tool_of(job, operation)) is not None and passes[-1].rings:
         passes.append(floor_corners(area.primitives, cone, -passes[-1].z, flat.radius, progress.part(0.7, 0.9)))
+        context.findings.extend(_ridges(passes[-1], tool, flat))
     context.findings.extend(_too_wide(job, operation, cone, passes[-1].rings))
     context.findings.extend(_cut_into(job, operation, cone))
     writer = PassWriter(context.builder, label, levels, cone)
@@ -195,6 +196,18 @@ def floor_corners(primitives: Primitives, cone: VCutter, depth: float, flat: flo
     whole = [branch for axis in medial_axes(primitives, progress.part(0.4, 1.0)) for branch in branches(axis)]
     parts = [part for branch in whole for part in branch.between(wall - _SLACK, inner)]
     return CarvedPass(-depth, tuple(trails(graph_of(parts))), rings)
+
+
+def _ridges(corners: CarvedPass, tool: Tool, flat: Tool) -> Iterator[Finding]:
+    """Yield that the cone leaves ridges on what of the floor it goes over in rings."""
+    if corners.rings:
+        x, y = corners.rings[0].rows[0, :2].tolist()
+        text = (
+            f"T{tool.number} {tool.label} goes over what T{flat.number} {flat.label} does not reach of the floor, and "
+            f"leaves ridges of up to {RIDGE:g} mm there, the first at ({x:.3f}, {y:.3f}); a narrower flat tool leaves "
+            "fewer."
+        )
+        yield Finding(FindingKind.RIDGE, text, x, y, counts=False, amount=RIDGE)
 
 
 def _beyond_flat(ring: Ring, field: DistanceField | None, flat: float) -> Iterator[Ring]:

@@ -100,7 +100,7 @@ def carving_proofs(program: Program, job: Job, motions: WrittenMotions, progress
         cone = job.operations[index].carved_by(tool)
         begins[:, 2] += cone.lifted
         ends[:, 2] += cone.lifted
-        path = ConePath(begins, ends, cone.tip, cone.rate, cone.greatest)
+        path = ConePath(begins, ends, cone.tip, cone.rate, cone.greatest, cone.flat)
         share = progress.part(n / len(carving), (n + 1) / len(carving))
         proof = prove_roof(path, followed_walls(program.areas[index]), SIDEWAYS / cone.rate, share)
         proofs[index] = CarvingProof(proof, cone.rate, f"T{tool.number} {tool.label}", cone.lifted > 0)
