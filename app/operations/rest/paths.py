@@ -197,7 +197,7 @@ class RestClearing:
         cutting = ~CutGround.of(self.paths).in_air(chunks.rows, reach.radius)
         rim_rows = chunks.rows[cutting & (chunks.level[chunks.ring] == 0)]
         for done in range(_CHOSEN + 1):
-            centres = np.unique(np.concatenate(left), axis=0)
+            centres = _once(np.concatenate(left))
             if not len(centres) or not cutting.any():
                 break
             progress.step(done / (_CHOSEN + 1), "Choosing runs")
@@ -208,3 +208,10 @@ class RestClearing:
             ground = CutGround.of([*self.paths, *((chunks.path(run.chunk, run.count), reach.radius) for run in found)])
             left = left_of(ground, reach, left, rim_rows)
         return found
+
+
+def _once(places: Floats) -> Floats:
+    """Return different places (n, 2) once, in the order of X, then of Y: complex numbers, which are sorted so, are
+    sorted many times as quickly as rows.
+    """
+    return np.unique(places.view(np.complex128)).view(np.float64).reshape(-1, 2)
