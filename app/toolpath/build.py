@@ -62,12 +62,12 @@ class Stroke:
     follows: bool = False
     rank: int = 0
 
-    @property
+    @cached_property
     def start(self) -> tuple[float, float]:
         """Where it begins, mm."""
         return float(self.rows[0, X0]), float(self.rows[0, Y0])
 
-    @property
+    @cached_property
     def end(self) -> tuple[float, float]:
         """Where it ends, mm."""
         return float(self.rows[-1, X1]), float(self.rows[-1, Y1])
@@ -247,7 +247,7 @@ def merged(stroke: Stroke) -> Stroke:
     more.
     """
     turns = stroke.rows[:, TURN]
-    if not np.any((turns[1:] != 0) & (turns[1:] == turns[:-1])):
+    if not ((turns[1:] != 0) & (turns[1:] == turns[:-1])).any():
         return stroke
     least_z = stroke.least_z
     heights = np.zeros(0) if least_z is None else least_z
