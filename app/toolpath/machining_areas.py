@@ -21,7 +21,7 @@ from ..geometry.even_odd import even_odd
 from ..geometry.near_points import near_together
 from ..geometry.offset.offset import OffsetLevel, Ring, grown_lines, offset_levels
 from ..geometry.outlines import Outlines, nested, polygon_contour, polygons
-from ..geometry.overlay.overlay import OverlayResult, differing, without_crossings, without_outlines
+from ..geometry.overlay.overlay import differing, without_crossings, without_outlines
 from ..geometry.primitives import TURN, Primitives, Rows, contour_rows, pack, points_at, reversed_rows
 from ..model.curve_selectors import Selector
 from ..model.entry import Lead
@@ -292,7 +292,7 @@ class MachiningAreas:
         """Return the regions that contours bound even-odd, without what clamps hold; the witness is asked about
         them.
         """
-        plain = without_crossings(contours) if self.drawn.crossing else OverlayResult(tuple(contours))
+        plain = self.drawn.without_crossings(contours)
         outlines = [clamp.boundary for clamp in self.drawn.clamps]
         free = without_outlines(plain.contours, outlines)
         nesting = nested(free.contours)
