@@ -80,7 +80,7 @@ def rest(context: OperationContext, index: int, progress: Progress) -> None:
     progress.step(0.0, "Looking for what is left")
     within, closest = clears_within(operation, tool), tool.radius + operation.cut.stock_to_leave
     reach = CentreReach(area, tool.radius, closest, max(within, tool.radius / 4) / 16)
-    cut = CutPaths(paths_before(context, operation.cut.floor), contours_later(context, index, area))
+    cut = OtherPaths(paths_before(context, operation.cut.floor), contours_later(context, index, area))
     strokes: list[Stroke] = []
     parts = area.parts(_TOGETHER, closest, progress.part(0.0, 0.1))
     for k, part in enumerate(parts):
@@ -92,7 +92,7 @@ def rest(context: OperationContext, index: int, progress: Progress) -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class CutPaths:
+class OtherPaths:
     """What is cut without a rest operation: (rows (n, 8), radius of the cutter, mm) of each tool.
 
     Attributes:
@@ -107,7 +107,7 @@ class CutPaths:
         """Both."""
         return [*self.before, *self.later]
 
-    def beside(self, area: MachiningArea, reach: float) -> CutPaths:
+    def beside(self, area: MachiningArea, reach: float) -> OtherPaths:
         """Return what may cut in an area, or beside it within so many mm."""
         low, high = area.distances.boxes[:, :2].min(axis=0) - reach, area.distances.boxes[:, 2:].max(axis=0) + reach
 
@@ -115,7 +115,7 @@ class CutPaths:
             around = boxes(rows)
             return rows[np.all((around[:, :2] <= high + radius) & (around[:, 2:] >= low - radius), axis=1)], radius
 
-        return CutPaths([near(*each) for each in self.before], [near(*each) for each in self.later])
+        return OtherPaths([near(*each) for each in self.before], [near(*each) for each in self.later])
 
 
 def _cleared(context: OperationContext, index: int, clearing: RestClearing, progress: Progress) -> Sequence[Stroke]:
@@ -208,7 +208,7 @@ class RestClearing:
     """
 
     reach: CentreReach
-    paths: CutPaths
+    paths: OtherPaths
     within: float
     levels: tuple[OffsetLevel, ...] = field(default=(), init=False)
 
