@@ -35,6 +35,7 @@ def _nearest(ends, order, nodes, waiting, done, x, y, stack):
     while top > 0:
         top -= 1
         k = stack[top]
+        # a box as far as the best may hold an end as near with a lower number
         if waiting[k] == 0 or _square(nodes, k, x, y) > best:
             continue
         if k < leaves - 1:
@@ -73,6 +74,7 @@ def nearest_order(ends, order, nodes, x, y, out):
         _take(waiting, leaf[order[place]], 1)
     for step in range(len(out)):
         end = _nearest(ends, order, nodes, waiting, done, x, y, stack)
+        # a way is gone along from its nearer end, and left at the other one
         other = end + 1 - 2 * (end % 2)
         done[end // 2], out[step] = True, end
         _take(waiting, leaf[end], -1)
