@@ -60,6 +60,12 @@ class DistanceField:
         in_bands(measure, len(points))
         return distances, found
 
+    def gap(self, x: float, y: float) -> float:
+        """Return the distance of one point, mm: for one, `nearest` mostly makes arrays."""
+        from . import kernels  # here, so that the window opens without the compiler
+
+        return float(kernels.nearest_between(self.rows, self.order, self.nodes, x, y, -1.0, np.inf)[0])
+
     def farthest(self, points: NDArray[np.float64]) -> float:
         """Return the distance of that of points (m, 2) which is farthest from all rows, mm; 0 of none."""
         from . import kernels  # here, so that the window opens without the compiler

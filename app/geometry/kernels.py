@@ -348,9 +348,11 @@ def farthest(rows, order, nodes, points):
     """Return the distance of the point (m, 2) that is farthest from all rows, 0 of none; others are asked no more than
     whether they are nearer.
     """
-    most = 0.0
+    most, known = 0.0, -1
     for k in range(len(points)):
-        most = max(most, nearest_between(rows, order, nodes, points[k, 0], points[k, 1], most, INF)[0])
+        # what is nearest to a point is near the next one, too: mostly it alone tells that this is no farther
+        away, known = nearest_from(rows, order, nodes, points[k, 0], points[k, 1], most, INF, known)
+        most = max(most, away)
     return most
 
 

@@ -144,6 +144,25 @@ def groups_within(points: Floats, owner: Indices, count: int, reach: float) -> I
     return _by_first(number)
 
 
+def near_together(points: Floats, most: int) -> list[Indices]:
+    """Return the numbers of points in lots that lie near one another, each in rising order: halves along the longer
+    side, until none has more than so many.
+
+    Args:
+        points: (n, 2). most: >= 1.
+    """
+    waiting, lots = [np.arange(len(points))], list[Indices]()
+    while waiting:
+        some = waiting.pop()
+        if len(some) <= most:
+            lots.append(np.sort(some))
+            continue
+        axis = int(np.argmax(np.ptp(points[some], axis=0)))
+        order = some[np.argsort(points[some, axis], kind="stable")]
+        waiting += [order[len(order) // 2 :], order[: len(order) // 2]]
+    return lots
+
+
 def _by_first(number: Indices) -> Indices:
     """Return group numbers given anew in the order in which the groups first appear."""
     _, first, inverse = np.unique(number, return_index=True, return_inverse=True)

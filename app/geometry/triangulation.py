@@ -7,7 +7,7 @@ from contextlib import suppress
 import numpy as np
 from numpy.typing import NDArray
 
-FEW = 100_000
+FEW = 200_000
 """Points up to which shapely is quicker than scipy, and without the third of a second in which that is imported."""
 
 

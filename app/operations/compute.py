@@ -15,7 +15,6 @@ from ..core.effort import Reckoning, announce
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.wording import counted
 from ..geometry.outlines import nested
-from ..geometry.overlay.overlay import OverlayResult, without_crossings
 from ..model.finding import Finding, FindingKind, worst_first
 from ..model.job import Job
 from ..model.moves import Program
@@ -97,7 +96,7 @@ class MachinedRegions:
 
 def machined_regions(parts: DrawnContours) -> MachinedRegions:
     """Return the regions that all closed contours bound; those that meet count even-odd."""
-    made = without_crossings(parts.closed) if parts.crossing else OverlayResult(parts.closed)
+    made = parts.uncrossed
     nesting = nested(made.contours)
     return MachinedRegions(nesting.regions, (*made.findings, *region_findings(parts.closed, (), nesting)))
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,6 @@ from ..geometry.primitives import CX, TURN, X0, X1, Y0, Y1, R, Rows, lengths, po
 from ..model.moves import MoveKind, Moves, Purpose
 from .merge_kernels import beginnings
 
-_NO_CENTRE = (math.nan, math.nan)
 _KIND_BY_TURN = np.array([MoveKind.ARC_CW, MoveKind.LINE, MoveKind.ARC_CCW], np.uint8)
 
 
@@ -33,7 +33,7 @@ class StrokeLabel:
     feed: float
     plunge_rate: float
 
-    @property
+    @cached_property
     def fast(self) -> StrokeLabel:
         """The same, but it plunges at feed rate: over ground that is cut."""
         return replace(self, plunge_rate=self.feed)
@@ -62,12 +62,12 @@ class Stroke:
     follows: bool = False
     rank: int = 0
 
-    @property
+    @cached_property
     def start(self) -> tuple[float, float]:
         """Where it begins, mm."""
         return float(self.rows[0, X0]), float(self.rows[0, Y0])
 
-    @property
+    @cached_property
     def end(self) -> tuple[float, float]:
         """Where it ends, mm."""
         return float(self.rows[-1, X1]), float(self.rows[-1, Y1])
@@ -123,36 +123,42 @@ class Stroke:
         )
 
 
+class _Appended(NamedTuple):
+    """One straight move to a place, or a whole path: as it was given, for arrays of all are made at once.
+
+    Attributes:
+        rows: (n, 8) of a path; None of a straight move.
+        ends: (n,) the height at which each row ends, or the place (x, y, z) where a straight move does, mm.
+        purpose, feed: of all its moves, or (n,) of each.
+    """
+
+    rows: Rows | None
+    ends: NDArray[np.float64] | tuple[float, float, float]
+    purpose: Purpose | NDArray[np.uint8]
+    label: StrokeLabel
+    region: int
+    feed: float | NDArray[np.float64]
+
+
 class MovesBuilder:
     """Appends moves; knows where the tool is."""
 
     def __init__(self) -> None:
-        self._columns: list[
-            tuple[
-                Rows,
-                Rows,
-                NDArray[np.uint8],
-                Purpose | NDArray[np.uint8],
-                StrokeLabel,
-                int,
-                float | NDArray[np.float64],
-            ]
-        ] = []
+        self._columns: list[_Appended] = []
 
     @property
     def at(self) -> tuple[float, float, float]:
         """Where the tool is, mm; NaN before the first move."""
         if not self._columns:
             return math.nan, math.nan, math.nan
-        x, y, z = self._columns[-1][0][-1].tolist()
+        rows, ends = self._columns[-1][:2]
+        x, y, z = ends if rows is None else (*rows[-1, X1:CX].tolist(), float(ends[-1]))
         return x, y, z
 
     def straight(self, end: tuple[float, float, float], purpose: Purpose, label: StrokeLabel, region: int = 0) -> None:
         """Append a rapid, or a plunge at plunge rate."""
-        rapid = purpose is Purpose.RAPID
-        kind = np.array([MoveKind.RAPID if rapid else MoveKind.LINE], np.uint8)
-        feed = 0.0 if rapid else label.plunge_rate
-        self._columns.append((np.array([end]), np.array([_NO_CENTRE]), kind, purpose, label, region, feed))
+        feed = 0.0 if purpose is Purpose.RAPID else label.plunge_rate
+        self._columns.append(_Appended(None, end, purpose, label, region, feed))
 
     def cut(self, stroke: Stroke, z: float, label: StrokeLabel) -> None:
         """Append a whole stroke at height z, mm, at feed rate, over its least heights; the tool is at its beginning."""
@@ -178,12 +184,12 @@ class MovesBuilder:
         The cutter cuts with its end and with all of its width, so it goes at half the feed rate, and down no faster
         than a plunge.
         """
-        fall = np.abs(np.diff(heights, prepend=self.at[2]))
+        fall = np.abs(heights - np.append(self.at[2], heights[:-1]))
         slope = fall / np.maximum(np.hypot(lengths(stroke.rows), fall), 1e-12)
         feed = np.minimum(
             max(label.feed / 2, min(label.plunge_rate, label.feed)), label.plunge_rate / np.maximum(slope, 1e-9)
         )
-        self._path(replace(stroke, purpose=np.full(len(heights), Purpose.PLUNGE, np.uint8)), heights, label, feed)
+        self._columns.append(_Appended(stroke.rows, heights, Purpose.PLUNGE, label, stroke.region, feed))
 
     def along(
         self, stroke: Stroke, heights: NDArray[np.float64], label: StrokeLabel, feed: NDArray[np.float64]
@@ -194,25 +200,32 @@ class MovesBuilder:
     def _path(
         self, stroke: Stroke, heights: NDArray[np.float64], label: StrokeLabel, feed: float | NDArray[np.float64]
     ) -> None:
-        rows = stroke.rows
-        arcs = rows[:, TURN] != 0
-        end, centre = np.empty((len(rows), 3)), rows[:, CX:R].copy()
-        end[:, :2], end[:, 2], centre[~arcs] = rows[:, X1:CX], heights, math.nan
-        kind = _KIND_BY_TURN[rows[:, TURN].astype(np.int64) + 1]
-        self._columns.append((end, centre, kind, stroke.purpose, label, stroke.region, feed))
+        self._columns.append(_Appended(stroke.rows, heights, stroke.purpose, label, stroke.region, feed))
 
     def moves(self) -> Moves:
         """Return everything appended so far."""
-        counts = np.array([len(c[2]) for c in self._columns], np.int64)
+        columns = self._columns
+        counts = np.array([1 if each.rows is None else len(each.rows) for each in columns], np.int64)
+        straight = np.repeat(np.array([each.rows is None for each in columns], np.bool_), counts)
+        rows = np.concatenate([np.zeros((0, 8)), *(each.rows for each in columns if each.rows is not None)])
+        purpose = _spread([each.purpose for each in columns], counts, np.dtype(np.uint8))
+        end = np.empty((len(straight), 3))
+        end[straight] = np.array([each.ends for each in columns if each.rows is None]).reshape(-1, 3)
+        heights = np.concatenate([np.zeros(0), *(each.ends for each in columns if each.rows is not None)])
+        end[~straight] = np.column_stack([rows[:, X1:CX], heights])
+        centre, kind = np.full((len(straight), 2), math.nan), np.full(len(straight), MoveKind.LINE, np.uint8)
+        centre[~straight] = np.where(rows[:, [TURN]] != 0, rows[:, CX:R], math.nan)
+        kind[~straight] = _KIND_BY_TURN[rows[:, TURN].astype(np.int64) + 1]
+        kind[straight & (purpose == Purpose.RAPID)] = MoveKind.RAPID
         return Moves(
-            end=np.concatenate([np.zeros((0, 3)), *(c[0] for c in self._columns)]),
-            centre=np.concatenate([np.zeros((0, 2)), *(c[1] for c in self._columns)]),
-            kind=np.concatenate([np.zeros(0, np.uint8), *(c[2] for c in self._columns)]),
-            purpose=_spread([c[3] for c in self._columns], counts, np.dtype(np.uint8)),
-            operation=np.repeat(np.array([c[4].operation for c in self._columns], np.int16), counts),
-            tool=np.repeat(np.array([c[4].tool for c in self._columns], np.int16), counts),
-            region=np.repeat(np.array([c[5] for c in self._columns], np.int32), counts),
-            feed=_spread([c[6] for c in self._columns], counts, np.dtype(np.float64)),
+            end=end,
+            centre=centre,
+            kind=kind,
+            purpose=purpose,
+            operation=np.repeat(np.array([each.label.operation for each in columns], np.int16), counts),
+            tool=np.repeat(np.array([each.label.tool for each in columns], np.int16), counts),
+            region=np.repeat(np.array([each.region for each in columns], np.int32), counts),
+            feed=_spread([each.feed for each in columns], counts, np.dtype(np.float64)),
             line=np.zeros(int(counts.sum()), np.int32),
         )
 
@@ -234,7 +247,7 @@ def merged(stroke: Stroke) -> Stroke:
     more.
     """
     turns = stroke.rows[:, TURN]
-    if not np.any((turns[1:] != 0) & (turns[1:] == turns[:-1])):
+    if not ((turns[1:] != 0) & (turns[1:] == turns[:-1])).any():
         return stroke
     least_z = stroke.least_z
     heights = np.zeros(0) if least_z is None else least_z

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
+from operator import is_
 
 import numpy as np
 import shapely
@@ -20,7 +21,7 @@ from ..geometry.as_circle import as_circle
 from ..geometry.chaining.chain import ChainingResult, chain
 from ..geometry.even_odd import even_odd
 from ..geometry.outlines import holders, reversed_contour
-from ..geometry.overlay.overlay import without_crossings
+from ..geometry.overlay.overlay import OverlayResult, without_crossings
 from ..geometry.primitives import contour_rows, sample, signed_area
 from ..model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer, Selector, layer_names
 from ..model.curves import Arc, Circle, Line, Point, Primitive
@@ -55,6 +56,17 @@ class DrawnContours:
     crossing: bool = False
     clamps: tuple[Region, ...] = ()
     findings: tuple[Finding, ...] = ()
+
+    @cached_property
+    def uncrossed(self) -> OverlayResult:
+        """The closed contours as ones that do not cross, and bound the same even-odd."""
+        return without_crossings(self.closed) if self.crossing else OverlayResult(self.closed)
+
+    def without_crossings(self, contours: Sequence[Contour]) -> OverlayResult:
+        """Return `uncrossed` of some contours, which are closed ones and others; of all closed ones it is made once."""
+        if len(contours) == len(self.closed) and all(map(is_, contours, self.closed)):
+            return self.uncrossed
+        return without_crossings(contours) if self.crossing else OverlayResult(tuple(contours))
 
     @cached_property
     def holders(self) -> list[list[int]]:

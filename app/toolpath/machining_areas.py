@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -18,9 +18,10 @@ from ..core import tolerances
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.distance import DistanceField
 from ..geometry.even_odd import even_odd
+from ..geometry.near_points import near_together
 from ..geometry.offset.offset import OffsetLevel, Ring, grown_lines, offset_levels
 from ..geometry.outlines import Outlines, nested, polygon_contour, polygons
-from ..geometry.overlay.overlay import OverlayResult, differing, without_crossings, without_outlines
+from ..geometry.overlay.overlay import differing, without_crossings, without_outlines
 from ..geometry.primitives import TURN, Primitives, Rows, contour_rows, pack, points_at, reversed_rows
 from ..model.curve_selectors import Selector
 from ..model.entry import Lead
@@ -92,6 +93,48 @@ class MachiningArea:
             if distance not in self._frames:
                 (self._frames[distance],) = offset_levels(self.primitives, [distance], progress, frame=True)
             return self._frames[distance]
+
+    def parts(self, most: int, distance: float, progress: Progress = NO_PROGRESS) -> list[MachiningArea]:
+        """Return it in parts of regions that lie near one another, each with its frame at a distance; itself where it
+        has not so many regions that one part would not do.
+
+        Inside a region its own walls are the nearest, so each part tells the same of places in it as the whole.
+
+        Args:
+            most: regions a part. distance: as of `frame`, mm.
+
+        Raises:
+            Cancelled: by progress.
+        """
+        if len(self.regions) <= most:
+            return [self]
+        rings, numbers = self.frame(distance, progress).rings, np.array([each.number for each in self.regions])
+        rows, ring_region = self.primitives, np.array([ring.region for ring in rings], np.int64)
+        order = np.argsort(numbers, kind="stable")
+        region = order[np.searchsorted(numbers[order], rows.region)]
+        count = np.maximum(np.bincount(region, minlength=len(numbers)), 1)
+        middle = np.column_stack([np.bincount(region, rows.rows[:, k], len(numbers)) / count for k in (0, 1)])
+        parts = []
+        for some in near_together(middle, most):
+            own = np.flatnonzero(np.isin(ring_region, numbers[some]))
+            frame = OffsetLevel(distance, tuple(rings[k] for k in own.tolist()))
+            parts.append(self._part(some, np.isin(rows.region, numbers[some]), frame))
+        return parts
+
+    def _part(self, regions: NDArray[np.int64], rows: NDArray[np.bool_], frame: OffsetLevel) -> MachiningArea:
+        """Return some of its regions, with those rows (n,) that bound them and their frame."""
+        number = np.cumsum(rows) - 1
+        whole = self.primitives
+        own = Primitives(np.ascontiguousarray(whole.rows[rows]), number[whole.previous[rows]], whole.region[rows])
+        return replace(
+            self,
+            regions=tuple(self.regions[k] for k in regions.tolist()),
+            primitives=own,
+            distances=DistanceField.of(own.rows),
+            bare=self.bare[rows],
+            _frames={frame.distance: frame},
+            _making=threading.Lock(),
+        )
 
     def follows_bare(self, rows: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return for each row (n, 8) of a ring whether what it follows at its middle is bare."""
@@ -249,7 +292,7 @@ class MachiningAreas:
         """Return the regions that contours bound even-odd, without what clamps hold; the witness is asked about
         them.
         """
-        plain = without_crossings(contours) if self.drawn.crossing else OverlayResult(tuple(contours))
+        plain = self.drawn.without_crossings(contours)
         outlines = [clamp.boundary for clamp in self.drawn.clamps]
         free = without_outlines(plain.contours, outlines)
         nesting = nested(free.contours)

@@ -207,27 +207,24 @@ def _seen(chunks, i, cells, need, starts, grid, found, kept):
             largest need).
         found, kept: where they are written to, if they are.
     """
-    most, side = grid[3], grid[2]
-    low_x = min(chunks[i, 0], chunks[i, 2])
-    # an arc below a half turn stays within this
-    pad = most + math.hypot(chunks[i, 2] - chunks[i, 0], chunks[i, 3] - chunks[i, 1])
-    low_y, high_x, high_y = (
-        min(chunks[i, 1], chunks[i, 3]),
-        max(chunks[i, 0], chunks[i, 2]),
-        max(chunks[i, 1], chunks[i, 3]),
-    )
-    j0, j1 = (
-        max(0, math.floor((low_x - pad - grid[0]) / side)),
-        min(starts.shape[1] - 2, math.floor((high_x + pad - grid[0]) / side)),
-    )
-    i0, i1 = (
-        max(0, math.floor((low_y - pad - grid[1]) / side)),
-        min(starts.shape[0] - 1, math.floor((high_y + pad - grid[1]) / side)),
-    )
+    most, side = grid[3] + _ROUNDING, grid[2]
+    low_x, high_x = min(chunks[i, 0], chunks[i, 2]), max(chunks[i, 0], chunks[i, 2])
+    low_y, high_y = min(chunks[i, 1], chunks[i, 3]), max(chunks[i, 1], chunks[i, 3])
+    if chunks[i, 7] != 0.0:
+        # an arc below a half turn stays within this of its chord
+        half = math.hypot(chunks[i, 2] - chunks[i, 0], chunks[i, 3] - chunks[i, 1]) / 2.0
+        most += chunks[i, 6] - math.sqrt(max(chunks[i, 6] * chunks[i, 6] - half * half, 0.0))
+    i0 = max(0, math.floor((low_y - most - grid[1]) / side))
+    i1 = min(starts.shape[0] - 1, math.floor((high_y + most - grid[1]) / side))
     count = 0
-    if j1 < j0:
-        return 0
     for row in range(i0, i1 + 1):
+        # cells of this row of buckets are above or below by so much at least, and no farther aside than the rest of it
+        off = max(low_y - (grid[1] + (row + 1) * side), grid[1] + row * side - high_y, _ROUNDING) - _ROUNDING
+        wide = math.sqrt(max(most * most - off * off, 0.0)) + _ROUNDING
+        j0 = max(0, math.floor((low_x - wide - grid[0]) / side))
+        j1 = min(starts.shape[1] - 2, math.floor((high_x + wide - grid[0]) / side))
+        if j1 < j0:
+            continue
         for c in range(starts[row, j0], starts[row, j1 + 1]):
             if point_distance(chunks, i, cells[c, 0], cells[c, 1]) <= need[c]:
                 if kept:

@@ -17,6 +17,9 @@ _ROW, _ROWS, _FOUND = "float64[:]", "float64[:, ::1]", "float64[::1]"
 _ON = 1e-12
 """Radians by which a direction may miss an arc's end and still count as on it."""
 
+_ROUNDING = 1e-12
+"""mm; more than two boxes' distance is off by."""
+
 _MOST = 8
 """Places on the first curve one of which is the nearest."""
 
@@ -126,6 +129,28 @@ def _common_normals(first, second):
     return first[4] + dx, first[5] + dy, first[4] - dx, first[5] - dy
 
 
+@kernel(f"UniTuple(float64, 3)({_ROW}, {_ROW}, {_ROWS})", counts=False)
+def _pair_distance(a, b, tried):
+    """Return the least distance of two curves, mm, and where on the first one it is; `tried` is room for places."""
+    # Where two curves are nearest, one of them ends, or they have one normal, or they cross: eight places of the first
+    # curve. Each is laid on both curves before it is measured, so one that is on neither is never too near.
+    tried[0, 0], tried[0, 1], tried[1, 0], tried[1, 1] = a[0], a[1], a[2], a[3]
+    tried[2, 0], tried[2, 1] = _on(a, b[0], b[1])
+    tried[3, 0], tried[3, 1] = _on(a, b[2], b[3])
+    tried[4, 0], tried[4, 1], tried[5, 0], tried[5, 1] = _common_normals(a, b)
+    tried[6, 0], tried[6, 1], tried[7, 0], tried[7, 1] = _crossings(a, b)
+    least, near_x, near_y = INF, a[0], a[1]
+    for m in range(_MOST):
+        if m > 3 and not (math.isfinite(tried[m, 0]) and math.isfinite(tried[m, 1])):
+            continue
+        x, y = _on(a, tried[m, 0], tried[m, 1])
+        px, py = _on(b, x, y)
+        distance = math.hypot(x - px, y - py)
+        if distance < least:
+            least, near_x, near_y = distance, x, y
+    return least, near_x, near_y
+
+
 @kernel(f"void({_ROWS}, {_ROWS}, int64[::1], int64[::1], {_FOUND}, {_ROWS})")
 def pair_distances(first, second, one, other, distances, places):
     """Write the least distance of each pair of curves, mm, and where on the first curve it is.
@@ -134,24 +159,52 @@ def pair_distances(first, second, one, other, distances, places):
         one, other: (n,) rows of both that make a pair. distances: (n,) out. places: (n, 2) out.
     """
     tried = np.empty((_MOST, 2))
-    # Where two curves are nearest, one of them ends, or they have one normal, or they cross: eight places of the first
-    # curve. Each is laid on both curves before it is measured, so one that is on neither is never too near.
     for k in range(len(one)):
-        a, b = first[one[k]], second[other[k]]
-        tried[0, 0], tried[0, 1], tried[1, 0], tried[1, 1] = a[0], a[1], a[2], a[3]
-        tried[2, 0], tried[2, 1] = _on(a, b[0], b[1])
-        tried[3, 0], tried[3, 1] = _on(a, b[2], b[3])
-        tried[4, 0], tried[4, 1], tried[5, 0], tried[5, 1] = _common_normals(a, b)
-        tried[6, 0], tried[6, 1], tried[7, 0], tried[7, 1] = _crossings(a, b)
-        distances[k] = math.inf
-        for m in range(_MOST):
-            if m > 3 and not (math.isfinite(tried[m, 0]) and math.isfinite(tried[m, 1])):
+        distances[k], places[k, 0], places[k, 1] = _pair_distance(first[one[k]], second[other[k]], tried)
+
+
+@kernel("float64(float64[:, ::1], int64, float64[:, ::1], int64)", counts=False)
+def _boxes_apart(boxes, m, others, k):
+    """Return the distance of two boxes, mm; 0 where they meet."""
+    dx = max(others[k, 0] - boxes[m, 2], boxes[m, 0] - others[k, 2], 0.0)
+    dy = max(others[k, 1] - boxes[m, 3], boxes[m, 1] - others[k, 3], 0.0)
+    return math.sqrt(dx * dx + dy * dy)
+
+
+@kernel(f"void({_ROWS}, {_ROWS}, {_FOUND}, {_ROWS}, {_ROWS}, int64[::1], {_ROWS}, {_FOUND}, {_ROWS})")
+def nearest_walls(rows, boxes, within, walls, wall_boxes, order, nodes, distances, places):
+    """Write how far the nearest of the walls is from each row, mm, and where on the row; no place, and the distance
+    `within`, where none is nearer than that.
+
+    Args:
+        rows, boxes: (n, 8) and (n, 4). within: (n,) mm.
+        walls, wall_boxes, order, nodes: (m, 8) and (m, 4), and their tree.
+        distances: (n,) out. places: (n, 2) out.
+    """
+    leaves, stack, tried = (len(nodes) + 1) // 2, np.empty(DEPTH, np.int64), np.empty((_MOST, 2))
+    for m in range(len(rows)):
+        best, stack[0], top = within[m], 0, 1
+        while top > 0:
+            top -= 1
+            k = stack[top]
+            if _boxes_apart(boxes, m, nodes, k) - _ROUNDING >= best:
                 continue
-            x, y = _on(a, tried[m, 0], tried[m, 1])
-            px, py = _on(b, x, y)
-            distance = math.hypot(x - px, y - py)
-            if distance < distances[k]:
-                distances[k], places[k, 0], places[k, 1] = distance, x, y
+            if k < leaves - 1:
+                near = 2 * k + 1
+                if _boxes_apart(boxes, m, nodes, near + 1) < _boxes_apart(boxes, m, nodes, near):
+                    near += 1
+                stack[top], stack[top + 1] = 4 * k + 3 - near, near
+                top += 2
+                continue
+            first = (k - leaves + 1) * LEAF
+            for place in range(first, min(first + LEAF, len(order))):
+                w = order[place]
+                if _boxes_apart(boxes, m, wall_boxes, w) - _ROUNDING >= best:
+                    continue
+                distance, x, y = _pair_distance(rows[m], walls[w], tried)
+                if distance < best:
+                    best, places[m, 0], places[m, 1] = distance, x, y
+        distances[m] = best
 
 
 # Compiled: how far a cone that goes up or down along a straight move reaches beyond walls, in closed form.
@@ -204,14 +257,6 @@ def _candidates(moves, m, walls, w, shares):
     shares[8] = (moves[m, 8] - moves[m, 6] + moves[m, 2] * moves[m, 7]) / rise if rise != 0.0 else 0.0
 
 
-@kernel("float64(float64, float64, float64, float64, float64[:, ::1], int64)", counts=False)
-def _boxes_apart(x0, y0, x1, y1, boxes, k):
-    """Return the distance of two boxes, mm; 0 where they meet."""
-    dx = max(boxes[k, 0] - x1, x0 - boxes[k, 2], 0.0)
-    dy = max(boxes[k, 1] - y1, y0 - boxes[k, 3], 0.0)
-    return math.sqrt(dx * dx + dy * dy)
-
-
 @kernel(
     "void(float64[:, ::1], float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64[::1], "
     "float64[:, ::1])"
@@ -227,19 +272,20 @@ def reaches(moves, walls, boxes, order, nodes, depth, places):
         walls: (m, 8) lines and arcs below half a turn. boxes: (m, 4) of them. order, nodes: their tree.
     """
     leaves, stack, shares = (len(nodes) + 1) // 2, np.empty(DEPTH, np.int64), np.empty(_CANDIDATES)
+    box = np.empty((1, 4))
     for m in range(len(moves)):
-        x0, x1 = min(moves[m, 0], moves[m, 3]), max(moves[m, 0], moves[m, 3])
-        y0, y1 = min(moves[m, 1], moves[m, 4]), max(moves[m, 1], moves[m, 4])
+        box[0, 0], box[0, 2] = min(moves[m, 0], moves[m, 3]), max(moves[m, 0], moves[m, 3])
+        box[0, 1], box[0, 3] = min(moves[m, 1], moves[m, 4]), max(moves[m, 1], moves[m, 4])
         most = max(_width(moves, m, 0.0), _width(moves, m, 1.0))
         best, stack[0], top = -INF, 0, 1
         while top > 0:
             top -= 1
             k = stack[top]
-            if most - _boxes_apart(x0, y0, x1, y1, nodes, k) < best:
+            if most - _boxes_apart(box, 0, nodes, k) < best:
                 continue
             if k < leaves - 1:
                 one, other = 2 * k + 1, 2 * k + 2
-                if _boxes_apart(x0, y0, x1, y1, nodes, other) < _boxes_apart(x0, y0, x1, y1, nodes, one):
+                if _boxes_apart(box, 0, nodes, other) < _boxes_apart(box, 0, nodes, one):
                     one, other = other, one
                 stack[top], stack[top + 1] = other, one
                 top += 2
@@ -247,7 +293,7 @@ def reaches(moves, walls, boxes, order, nodes, depth, places):
             first = (k - leaves + 1) * LEAF
             for place in range(first, min(first + LEAF, len(order))):
                 w = order[place]
-                if most - _boxes_apart(x0, y0, x1, y1, boxes, w) < best:
+                if most - _boxes_apart(box, 0, boxes, w) < best:
                     continue
                 _candidates(moves, m, walls, w, shares)
                 # between two neighbouring candidates the reach is monotone, so one of them is where it is greatest

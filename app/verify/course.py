@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..gcode.interpreter.program import NcProgram
 from ..gcode.timing.extent import at_home, from_nowhere_of, nowhere_of
+from ..geometry.kernels import build_tree, query_box
 from ..model.motion import Floats, MotionKind, Motions
 from ..model.motion_path import reach
 from ..simulation.cutter import Cutter
@@ -214,26 +215,51 @@ class FineStock:
 
     def near(self, k: int, box: Box) -> NDArray[np.intp]:
         """Return the rows of a course that may cut in a box."""
-        low, high = self._reaches[k]
-        return np.flatnonzero(
-            (low[:, 0] <= box[2]) & (low[:, 1] <= box[3]) & (high[:, 0] >= box[0]) & (high[:, 1] >= box[1])
-        )
+        return self._reaches[k].meeting(box)
 
     @cached_property
-    def _reaches(self) -> list[tuple[Floats, Floats]]:
-        """Of each course the boxes that its motions cut in, (n, 2) lower and upper corners, mm; empty for those that
-        cut nothing.
-        """
+    def _reaches(self) -> list[_ReachTree]:
+        """Of each course the boxes that its motions cut in."""
         return [self._reach(course) for course in self.courses]
 
-    def _reach(self, course: Course) -> tuple[Floats, Floats]:
+    def _reach(self, course: Course) -> _ReachTree:
         low, high = reach(course.motions)
         radius = np.full(len(course.motions), -math.inf)
         for number, cutter in self.cutters.items():
             radius[course.tool == number] = cutter.radius
         radius[course.motions.kind == MotionKind.RAPID] = -math.inf
         radius[list(course.left_out)] = -math.inf
-        return low[:, :2] - radius[:, None], high[:, :2] + radius[:, None]
+        return _ReachTree.of(np.hstack([low[:, :2] - radius[:, None], high[:, :2] + radius[:, None]]))
+
+
+@dataclass(frozen=True, eq=False)
+class _ReachTree:
+    """Boxes that motions cut in, in a tree: very many places are asked about on a large stock.
+
+    Attributes:
+        rows: (n,) numbers of the motions that cut anything, rising. boxes: (n, 4) of these, mm.
+        order, nodes: the tree over them, see `app.geometry.kernels`.
+    """
+
+    rows: NDArray[np.intp]
+    boxes: Floats
+    order: NDArray[np.int64]
+    nodes: Floats
+
+    @staticmethod
+    def of(boxes: Floats) -> _ReachTree:
+        """Return it for boxes (m, 4) of all motions, mm; those of motions that cut nothing are not finite."""
+        rows = np.flatnonzero(np.isfinite(boxes).all(axis=1))
+        kept = np.ascontiguousarray(boxes[rows])
+        if not len(rows):
+            return _ReachTree(rows, kept, np.zeros(0, np.int64), np.zeros((0, 4)))
+        return _ReachTree(rows, kept, *build_tree(kept))
+
+    def meeting(self, box: Box) -> NDArray[np.intp]:
+        """Return the motions whose boxes meet or touch a box, in their order."""
+        found = np.empty(len(self.rows), np.int64)
+        count = query_box(self.order, self.nodes, self.boxes, np.array(box, np.float64), found) if len(found) else 0
+        return self.rows[np.sort(found[:count])]
 
 
 def fine_grids(way: CutterTravel, top: float, pitch: float, stock: Box) -> Iterator[Grid]:

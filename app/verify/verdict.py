@@ -15,8 +15,7 @@ from ..core.pool import in_bands
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..geometry.distance import DistanceField
-from ..geometry.near_points import near
-from ..geometry.primitives import TURN, Primitives, contour_rows, pack, points_at, within_half_turn
+from ..geometry.primitives import TURN, Primitives, boxes, contour_rows, pack, points_at, within_half_turn
 from ..model.curves import Circle
 from ..model.job import Job
 from ..model.moves import Area, DogBone, MoveKind, Moves, Program
@@ -37,8 +36,11 @@ Floats = NDArray[np.float64]
 _CHORD = 1e-3
 """mm; within this areas of chords are what was drawn."""
 
-_ROUGH = 0.02
-"""mm; walls and moves are flattened within this to find which pairs can be near: few chords are quicker to ask."""
+_CLEAR = 0.08
+"""mm that a move keeps clear of walls by beyond what it must, from which on it is not told by how much."""
+
+_WORTH_TWO = 1000
+"""Moves from which on a second core is worth its start."""
 
 _PORTION = 4000
 """Moves that are held against walls between two looks at whether to stop."""
@@ -266,18 +268,19 @@ def deepest_of(depths: MoveDepths) -> Gouge:
 
 def _depths(rows: Floats, need: Floats, walls: Floats, progress: Progress = NO_PROGRESS) -> tuple[Floats, Floats]:
     """Return (n,) how far each move comes nearer to a wall than it may (<= 0: it does not), and where, (n, 2)."""
-    tree = shapely.STRtree(lines(walls, _ROUGH))
-    depth, places = np.full(len(rows), -np.inf), rows[:, 2:4].copy()
+    field, around, within = DistanceField.of(walls), boxes(rows), need + _CLEAR
+    distance, places, rows = np.empty(len(rows)), rows[:, 2:4].copy(), np.ascontiguousarray(rows)
     for first in range(0, len(rows), _PORTION):
         progress.step(first / len(rows), "Checking clearance")
-        some = slice(first, first + _PORTION)
-        move, wall = near(tree, lines(rows[some], _ROUGH), need[some] + 4 * _ROUGH)
-        distance, points = pair_distance(rows[some], walls, move, wall)
-        short = need[some][move] - distance
-        order = np.lexsort((short, move))
-        worst = order[np.flatnonzero(np.diff(move[order], append=-1))]  # of each move the last, which is the deepest
-        depth[first + move[worst]], places[first + move[worst]] = short[worst], points[worst]
-    return depth, places
+        portion = slice(first, first + _PORTION)
+        moves, found = ([each[portion] for each in some] for some in ((rows, around, within), (distance, places)))
+
+        def measure(band: slice, moves: list[Floats] = moves, found: list[Floats] = found) -> None:
+            some, out = ([each[band] for each in arrays] for arrays in (moves, found))
+            kernels.nearest_walls(*some, field.rows, field.boxes, field.order, field.nodes, *out)
+
+        in_bands(measure, len(moves[0]), _WORTH_TWO)
+    return np.where(distance < within, need - distance, -np.inf), places
 
 
 def _outside(rows: Floats, regions: Sequence[Region]) -> _OutsideMoves:

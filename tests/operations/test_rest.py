@@ -269,3 +269,17 @@ def test_holes_in_a_plate_are_a_region_each() -> None:
     job = job_of(contours, (14.0, 2.0), "pocket 1", "rest 2", "contour 2")
     program = compute(job)
     assert left(program, job, contours) == 0
+
+
+@pytest.mark.parametrize("most", [1, 4])
+def test_many_regions_are_cleared_part_by_part_as_they_are_together(monkeypatch: pytest.MonkeyPatch, most: int) -> None:
+    """Walls lie between regions, so neither what is left of one nor a way in it has to do with another."""
+    holes = [circle(4.0 + 0.1 * k, 12.0 * k + 0.37 * k * k, 11.0 * row) for k in range(4) for row in range(3)]
+    job = job_of(holes, (14.0, 3.0), "pocket 1", "rest 2", "contour 2")
+    together = compute(job)
+    monkeypatch.setattr("app.operations.rest.paths._TOGETHER", most)
+    apart = compute(job)
+    assert left(apart, job, holes) <= 1e-4
+    lengths_of = [np.sort(each.moves.lengths()[cutting(each.moves, 1)]) for each in (together, apart)]
+    assert len(lengths_of[0]) >= len(holes)
+    np.testing.assert_allclose(lengths_of[1], lengths_of[0], atol=1e-6)

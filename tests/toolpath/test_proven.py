@@ -21,7 +21,9 @@ from app.toolpath.coverage.proven import uncertain
 from tests.examples import examples
 
 RADIUS = 2.0
-SLACK = 1.1e-3
+SLACK = 3.1e-3
+OFF_GRID = 0.0031
+"""mm by which places lie off the corners of squares, whose sides are binary fractions."""
 
 
 def _line(*points: tuple[float, float]) -> list[list[float]]:
@@ -102,6 +104,33 @@ def test_a_gap_in_a_circle_stays_in_doubt_and_little_else(missing: float) -> Non
     assert left.area > 0
     assert boxes.covers(left.buffer(-SLACK)) or left.buffer(-SLACK).is_empty
     assert boxes.area < left.area + 3 * math.sqrt(left.area) + 10 * (RADIUS / 4) ** 2
+
+
+def test_nothing_is_in_doubt_where_a_path_turns_round_a_pointed_island() -> None:
+    """No one stretch covers all round the point; the disc at a joint covers what is as near to it as chords are off."""
+    side = np.array([math.cos(0.3), math.sin(0.3)])
+    out = RADIUS * np.array([-side[1], side[0]])
+    far, near = 10.0 * side + out, out
+    rows = np.array(
+        [
+            [*far, *near, 0.0, 0.0, 0.0, 0.0],
+            [*near, near[0], -near[1], 0.0, 0.0, RADIUS, 1.0],
+            [near[0], -near[1], far[0], -far[1], 0.0, 0.0, 0.0, 0.0],
+        ]
+    )
+    rows[:, :6] += OFF_GRID
+    island = shapely.Polygon([(0, 0), 20 * side, (20 * side[0], -20 * side[1])])
+    wanted = affinity.translate(shapely.box(-1, -1, 1, 1).difference(island), OFF_GRID, OFF_GRID)
+    assert len(uncertain(wanted, [(rows, RADIUS)])) == 0
+
+
+def test_nothing_of_a_strip_that_counts_is_out_of_the_boxes() -> None:
+    """Squares beside it are covered as far as slack goes; the boxes reach over these."""
+    rows = np.array([*_line((-1.0, -0.5), (9.0, 0.5)), *_line((9.0, 4.532), (-1.0, 3.532))])
+    wanted = shapely.box(0, 0, 8, 4)
+    left = wanted.difference(_swath(rows, RADIUS))
+    assert 0.09 < left.area < 0.2  # some 12 um of it
+    assert shapely.union_all(uncertain(wanted, [(rows, RADIUS)])).contains(left.buffer(-5e-3).buffer(4.9e-3))
 
 
 def test_two_cutters_share_the_work() -> None:

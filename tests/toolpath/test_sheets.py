@@ -182,3 +182,19 @@ def test_clamps_keep_the_area_apart_where_they_cut_it() -> None:
     regions = nest(without_outlines([bar], [clamp.boundary]).contours)
     assert [region.number for region in regions] == [1, 2]
     assert sorted(shape((region,)).area for region in regions) == pytest.approx([400, 400])
+
+
+def test_parts_of_an_area_tell_the_same_as_the_whole() -> None:
+    corners = [(20.0 * k, 15.0 * row) for k in range(4) for row in range(3)]
+    contours = [c for x, y in corners for c in (square(12, x, y), circle(2, x + 6, y + 6))]
+    area = sheet({"a": contours}, INSIDE)
+    parts = area.parts(5, 1.5)
+    assert len(parts) == 4
+    assert sorted(region.number for part in parts for region in part.regions) == [r.number for r in area.regions]
+    assert sum(len(part.frame(1.5).rings) for part in parts) == len(area.frame(1.5).rings) == 24
+    for part in parts:
+        rows = part.primitives.rows
+        np.testing.assert_array_equal(rows[part.primitives.previous, 2:4], rows[:, :2])
+        places = np.concatenate([ring.rows[:, :2] for ring in part.frame(1.5).rings])
+        np.testing.assert_allclose(part.distances.nearest(places)[0], area.distances.nearest(places)[0], atol=1e-12)
+    assert area.parts(12, 1.5) == [area]

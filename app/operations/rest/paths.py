@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...geometry.offset.offset import OffsetLevel, offset_levels
-from ...geometry.primitives import Rows
+from ...geometry.primitives import Rows, boxes
 from ...model.job import Job
 from ...model.moves import MoveKind, Purpose
 from ...model.operation import CutParameters, RestOperation, Side
 from ...model.tool import Tool
+from ...toolpath.build import Stroke
 from ...toolpath.coverage.areas import move_rows
 from ...toolpath.linking.chains import Corridor, chains
 from ...toolpath.linking.rest_runs import RestCells, RingChunks, RingRun, all_runs, runs
@@ -31,6 +33,11 @@ from ...toolpath.rest_material import (
     suspects,
 )
 from .sides import directed_runs
+
+_TOGETHER = 2000
+"""Regions that are cleared together: of more the rings and cells of all would not be held at once, nor near enough to
+the processor.
+"""
 
 _DEPTH = 1e-6
 """mm by which a move may miss the floor and still count as on it."""
@@ -71,21 +78,57 @@ def rest(context: OperationContext, index: int, progress: Progress) -> None:
     if area is None:
         return
     progress.step(0.0, "Looking for what is left")
-    before = paths_before(context, operation.cut.floor)
-    within = clears_within(operation, tool)
-    reach = CentreReach(
-        area, tool.radius, tool.radius + operation.cut.stock_to_leave, max(within, tool.radius / 4) / 16
-    )
-    clearing = RestClearing(reach, [*before, *contours_later(context, index, area)], within)
-    chunks, found = clearing.runs(progress.part(0.0, 0.5))
+    within, closest = clears_within(operation, tool), tool.radius + operation.cut.stock_to_leave
+    reach = CentreReach(area, tool.radius, closest, max(within, tool.radius / 4) / 16)
+    cut = OtherPaths(paths_before(context, operation.cut.floor), contours_later(context, index, area))
+    strokes: list[Stroke] = []
+    parts = area.parts(_TOGETHER, closest, progress.part(0.0, 0.1))
+    for k, part in enumerate(parts):
+        share = progress.part(0.1 + 0.7 * k / len(parts), 0.1 + 0.7 * (k + 1) / len(parts))
+        near = cut if part is area else cut.beside(part, closest + tool.radius)
+        strokes += _cleared(context, index, RestClearing(replace(reach, area=part), near, within), share)
+    if strokes:
+        emit(context, index, area, strokes, progress.part(0.8, 1.0))
+
+
+@dataclass(frozen=True, eq=False)
+class OtherPaths:
+    """What is cut without a rest operation: (rows (n, 8), radius of the cutter, mm) of each tool.
+
+    Attributes:
+        before: by operations before it. later: along walls, by those later in the list.
+    """
+
+    before: list[tuple[Rows, float]]
+    later: list[tuple[Rows, float]] = field(default_factory=list)
+
+    @property
+    def all(self) -> list[tuple[Rows, float]]:
+        """Both."""
+        return [*self.before, *self.later]
+
+    def beside(self, area: MachiningArea, reach: float) -> OtherPaths:
+        """Return what may cut in an area, or beside it within so many mm."""
+        low, high = area.distances.boxes[:, :2].min(axis=0) - reach, area.distances.boxes[:, 2:].max(axis=0) + reach
+
+        def near(rows: Rows, radius: float) -> tuple[Rows, float]:
+            around = boxes(rows)
+            return rows[np.all((around[:, :2] <= high + radius) & (around[:, 2:] >= low - radius), axis=1)], radius
+
+        return OtherPaths([near(*each) for each in self.before], [near(*each) for each in self.later])
+
+
+def _cleared(context: OperationContext, index: int, clearing: RestClearing, progress: Progress) -> Sequence[Stroke]:
+    """Return the strokes of an operation that clear what is left."""
+    chunks, found = clearing.runs(progress.part(0.0, 0.6))
     context.note(clearing.levels)
     if not found:
-        return
-    ground = CutGround.of(before)
-    corridor = Corridor(area.distances, reach.closest, ground, tool.radius)
-    found = directed_runs(chunks, found, ground, tool.radius, operation.cut.direction)
-    strokes = chains(chunks, found, corridor, longest_way(context.job, tool, operation.cut), progress.part(0.5, 0.8))
-    emit(context, index, area, strokes, progress.part(0.8, 1.0))
+        return ()
+    reach, cut = clearing.reach, context.job.operations[index].cut
+    tool, ground = context.job.tool(cut.tool), CutGround.of(clearing.paths.before)
+    corridor = Corridor(reach.area.distances, reach.closest, ground, tool.radius)
+    found = directed_runs(chunks, found, ground, tool.radius, cut.direction)
+    return chains(chunks, found, corridor, longest_way(context.job, tool, cut), progress.part(0.6, 1.0))
 
 
 def longest_way(job: Job, tool: Tool, cut: CutParameters) -> float:
@@ -159,19 +202,19 @@ class RestClearing:
 
     Attributes:
         reach: of the cutter.
-        paths: (rows, radius, mm) of what is cut without it.
+        paths: what is cut without it.
         within: how far beside it a run is to clear, mm, at most the cutter's radius; nearer to walls it is the radius.
         levels: the rings.
     """
 
     reach: CentreReach
-    paths: list[tuple[Rows, float]]
+    paths: OtherPaths
     within: float
     levels: tuple[OffsetLevel, ...] = field(default=(), init=False)
 
     def runs(self, progress: Progress) -> tuple[RingChunks, list[RingRun]]:
         """Return the rings in short rows, and the runs along them."""
-        reach, ground = self.reach, CutGround.of(self.paths)
+        reach, ground = self.reach, CutGround.of(self.paths.all)
         chunks = self._chunks((reach.area.frame(reach.closest, progress.part(0.0, 0.1)),))
         cutting = chunks.rows[~ground.in_air(chunks.rows, reach.radius)]
         squares = suspects(ground, reach, cutting, progress.part(0.1, 0.3))
@@ -194,10 +237,10 @@ class RestClearing:
     def _choose(self, chunks: RingChunks, left: tuple[Floats, Floats], progress: Progress) -> list[RingRun]:
         """Return runs that clear cells of the core and of the rim."""
         reach, found = self.reach, list[RingRun]()
-        cutting = ~CutGround.of(self.paths).in_air(chunks.rows, reach.radius)
+        cutting = ~CutGround.of(self.paths.all).in_air(chunks.rows, reach.radius)
         rim_rows = chunks.rows[cutting & (chunks.level[chunks.ring] == 0)]
         for done in range(_CHOSEN + 1):
-            centres = np.unique(np.concatenate(left), axis=0)
+            centres = _once(np.concatenate(left))
             if not len(centres) or not cutting.any():
                 break
             progress.step(done / (_CHOSEN + 1), "Choosing runs")
@@ -205,6 +248,15 @@ class RestClearing:
                 centres, chunks.rows[cutting], self.within - reach.corner if not done else reach.radius - reach.corner
             )
             found += runs(chunks, cutting, cells, reach) if done < _CHOSEN else all_runs(chunks, cutting, cells, reach)
-            ground = CutGround.of([*self.paths, *((chunks.path(run.chunk, run.count), reach.radius) for run in found)])
+            ground = CutGround.of(
+                [*self.paths.all, *((chunks.path(run.chunk, run.count), reach.radius) for run in found)]
+            )
             left = left_of(ground, reach, left, rim_rows)
         return found
+
+
+def _once(places: Floats) -> Floats:
+    """Return different places (n, 2) once, in the order of X, then of Y: complex numbers, which are sorted so, are
+    sorted many times as quickly as rows.
+    """
+    return np.unique(places.view(np.complex128)).view(np.float64).reshape(-1, 2)

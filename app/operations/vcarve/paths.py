@@ -288,21 +288,16 @@ def nearest_next(trails: Sequence[AxisBranch], at: tuple[float, float]) -> Itera
     Args:
         at: where the first one is gone to from, mm.
     """
-    # two ends of each way that is left; what is done is at infinity, and left out when it is half of all
-    number = np.repeat(np.arange(len(trails)), 2)
-    ends = np.array([way.discs[k, :2] for way in trails for k in (0, -1)]).reshape(-1, 2)
-    left = len(trails)
-    while left:
-        if 4 * left < len(ends):
-            waiting = np.isfinite(ends[:, 0])
-            number, ends = number[waiting], ends[waiting]
-        way_there = ends - at
-        k = int(np.argmin(np.einsum("ni,ni->n", way_there, way_there)))
-        way = trails[number[k]].backwards() if k % 2 else trails[number[k]]
-        ends[k - k % 2 : k - k % 2 + 2] = np.inf
-        left -= 1
-        at = (float(way.discs[-1, 0]), float(way.discs[-1, 1]))
-        yield way
+    if not trails:
+        return
+    from ...geometry.kernels import build_tree  # compiled code: loaded where it is used
+    from .order_kernels import nearest_order
+
+    ends = np.array([way.discs[k, :2] for way in trails for k in (0, -1)], np.float64)
+    first = np.empty(len(trails), np.int64)
+    nearest_order(ends, *build_tree(np.hstack([ends, ends])), *at, first)
+    for end in first.tolist():
+        yield trails[end // 2].backwards() if end % 2 else trails[end // 2]
 
 
 def _too_wide(job: Job, operation: Operation, cone: VCutter, rings: Sequence[Ring]) -> list[Finding]:

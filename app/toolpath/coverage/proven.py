@@ -35,13 +35,16 @@ _FINEST = 8
 """The smallest squares' half side on a wall goes so many times into the smallest cutter's radius."""
 
 _SMALLEST = 256
-"""The same at joints of a path."""
+"""The same at joints of a path; there squares get as small as `_SLACK`, within which the disc at a joint covers all."""
 
 _START = 32
 """Squares along the area's longer side at the beginning."""
 
-_SLACK = 1e-3
-"""mm beyond a cutter's radius that count as covered: as far as chords are off."""
+_SLACK = 3e-3
+"""mm beyond a cutter's radius that count as covered: more than chords and what counts as fitting are off at a corner,
+less than half of the thinnest strip that counts as left. Boxes are as much larger, so that nothing of such a strip is
+taken away: a disc in it that is wider than this comes no farther than this out of what is deeper.
+"""
 
 _SAME = 1e-4
 """mm by which two arcs that follow one another may miss being one."""
@@ -126,10 +129,10 @@ def _undecided(target: Shape, swaths: Sequence[_Swath], progress: Progress) -> N
                 _NearestRows(each, near[doubtful], far[doubtful])
                 for (far, near), each in zip(beside, swaths, strict=True)
             ]
-            states = _states(area, near, _Squares.of(centres, half, within, area))
+            states = _states(area, near, squares)
         open_still = (states != OUTSIDE) & (states != COVERED)
         centres, within, uncut, states = (each[open_still] for each in (centres, within, uncut, states))
-        left = (uncut >= q) | (half <= least / _SMALLEST)
+        left = (uncut >= q) | (half <= min(least / _SMALLEST, _SLACK / 3))
         if half <= least / _FINEST:
             left |= states != OPEN
         kept.append(_runs(centres[left], half))
@@ -291,7 +294,7 @@ def _by_run(values: Floats, run: NDArray[np.int64]) -> Floats:
 
 
 def _runs(centres: Floats, half: float) -> NDArray[np.object_]:
-    """Return boxes round squares of one size; those side by side share one."""
+    """Return boxes round squares of one size, wider by `_SLACK` all round; those side by side share one."""
     if not len(centres):
         return np.zeros(0, dtype=object)
     column, row = np.round((centres - centres.min(axis=0)) / (2 * half)).astype(np.int64).T
@@ -299,7 +302,7 @@ def _runs(centres: Floats, half: float) -> NDArray[np.object_]:
     column, row = column[order], row[order]
     first = np.concatenate([[True], (np.diff(row) != 0) | (np.diff(column) != 1)])
     last = np.concatenate([first[1:], [True]])
-    low, high = centres[order][first] - half, centres[order][last] + half
+    low, high = centres[order][first] - half - _SLACK, centres[order][last] + half + _SLACK
     return np.asarray(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]), dtype=object)
 
 

@@ -81,7 +81,7 @@ class EntryContext:
         """Return how near to walls an entry at the beginning of a path may come: no nearer than the path does there,
         mm.
         """
-        here = float(self.walls.nearest(np.array([place]))[0][0])
+        here = self.walls.gap(*place)
         return max(min(self.keep, here), self.keep - tolerances.LEVEL) - _EXACT
 
 
@@ -149,11 +149,12 @@ def _helix(stroke: Stroke, z: float, ground: EntryContext) -> Descent | None:
     allowed = ground.allowed(stroke.start)
     left = np.array([-ahead[1], ahead[0]])
     sides = (1.0, -1.0) if ground.direction is Direction.CLIMB else (-1.0, 1.0)
-    tried = [(share * ground.tool.radius, side) for share in _HELIX for side in sides]
-    centres = np.array([np.array(stroke.start) + side * radius * left for radius, side in tried])
-    for (radius, side), centre, away in zip(tried, centres, ground.walls.nearest(centres)[0], strict=True):
-        if away >= allowed + radius and not _over_tab(centre, radius, ground):
-            return _turns(stroke, z, _HelixCircle(radius, side, centre), ground)
+    for share in _HELIX:
+        for side in sides:
+            radius = share * ground.tool.radius
+            centre = np.array(stroke.start) + side * radius * left
+            if ground.walls.gap(*centre.tolist()) >= allowed + radius and not _over_tab(centre, radius, ground):
+                return _turns(stroke, z, _HelixCircle(radius, side, centre), ground)
     return None
 
 
@@ -382,7 +383,7 @@ def way_straight(
 def keeps_off_walls(a: Point, b: Point, ground: EntryContext) -> bool:
     """Tell whether a straight way is nowhere nearer to a wall than its ends or than a path may be."""
     walls = ground.walls
-    ends = float(walls.nearest(np.array([a, b]))[0].min())
+    ends = min(walls.gap(*a), walls.gap(*b))
     keep = max(min(ground.keep, ends), ground.keep - tolerances.LEVEL)
     return bool(
         kernels.keeps_off(walls.rows, walls.order, walls.nodes, np.array([*a, *b], np.float64), keep, _SLACK, _STEPS)

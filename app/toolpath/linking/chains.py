@@ -371,7 +371,7 @@ class LinkGraph:
         places = chunks.rows[spots, :2]
         air = corridor.in_air(np.hstack([places, places]))
         a, b, kind, count, size = _along(chunks, spots)
-        c, d = _across(places, ring, corridor, longest)
+        c, d = _across(places, ring, chunks.region[ring], corridor, longest)
         far = np.hypot(*(places[c] - places[d]).T)
         zero = np.zeros(len(c), np.int64)
         start, end = np.concatenate([a, c, d]), np.concatenate([b, d, c])
@@ -471,14 +471,18 @@ def _along(chunks: RingChunks, spots: Indices) -> tuple[Indices, Indices, Indice
     )
 
 
-def _across(places: Floats, ring: Indices, corridor: Corridor, longest: float) -> tuple[Indices, Indices]:
+def _across(
+    places: Floats, ring: Indices, region: Indices, corridor: Corridor, longest: float
+) -> tuple[Indices, Indices]:
     """Return (from, to) of straight ways between places near one another that are clear: edges of a Delaunay
     triangulation.
 
     Args:
         places: (n, 2). ring: of each; those that follow one another round a ring have their way along it.
+        region: of each; walls lie between those of two.
     """
     edges = neighbours(places)
+    edges = edges[region[edges[:, 0]] == region[edges[:, 1]]]
     edges = edges[(ring[edges[:, 0]] != ring[edges[:, 1]]) | (edges[:, 1] - edges[:, 0] > 1)]
     ways = np.hstack([places[edges[:, 0]], places[edges[:, 1]]])
     edges, ways = (each[np.hypot(*(ways[:, :2] - ways[:, 2:]).T) <= longest] for each in (edges, ways))
