@@ -129,7 +129,7 @@ def _undecided(target: Shape, swaths: Sequence[_Swath], progress: Progress) -> N
                 _NearestRows(each, near[doubtful], far[doubtful])
                 for (far, near), each in zip(beside, swaths, strict=True)
             ]
-            states = _states(area, near, squares)
+            states = _states(area, near, _Squares.of(centres, half, within, area))
         open_still = (states != OUTSIDE) & (states != COVERED)
         centres, within, uncut, states = (each[open_still] for each in (centres, within, uncut, states))
         left = (uncut >= q) | (half <= min(least / _SMALLEST, _SLACK / 3))
