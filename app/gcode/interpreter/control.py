@@ -54,6 +54,26 @@ class WordInLine(NamedTuple):
     line: int
 
 
+class SavedState(NamedTuple):
+    """What M70 or M73 has kept.
+
+    Attributes:
+        modal: fields of `ModalState` by name.
+        work_offset: its name.
+        feed: as `Control.feed`.
+        side: G word of cutter compensation, "" = none.
+        length: whether a tool length was in force.
+        returns: it comes back by itself where the subroutine ends, as M73 has it.
+    """
+
+    modal: dict[str, object]
+    work_offset: str
+    feed: float
+    side: str
+    length: bool
+    returns: bool
+
+
 class _NumberedState(NamedTuple):
     """A state, and its number among all."""
 
@@ -80,6 +100,8 @@ class Control:
             G5, mm.
         compensation: G41 or G42, None = G40, or a radius of 0. stray: where the tool itself is when that is not where
             the program takes it to be, after G40. side: the G word of compensation, also where the radius is 0.
+        saved: what M70 and M73 have kept, of the program and of each subroutine that is running.
+        returning: what comes back now that a subroutine has ended, None = nothing.
         registers_hold_wear: whether a D word whose register nobody tells means 0. register_diameters: what the program
             itself says of them, mm, by number.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
@@ -107,6 +129,8 @@ class Control:
         self.compensation: Compensation | None = None
         self.stray: Place | None = None
         self.side = ""
+        self.saved: list[SavedState | None] = [None]
+        self.returning: SavedState | None = None
         self.registers_hold_wear = False
         self.register_diameters: dict[int, float] = {}
         self.last_offset = (0.0, 0.0)
@@ -116,9 +140,7 @@ class Control:
         self.events: list[Event] = []
         self.homeward: list[int] = []
         self.warnings: dict[str, WordInLine] = {}
-        self.parameters = Parameters(
-            self.own_parameter, 33 if self.rules.fanuc_flow else 30, self.set_own_parameter, self.rules.vacant
-        )
+        self.parameters = Parameters(self.own_parameter, self.set_own_parameter, self.rules)
         self.set_parameters = SetParameters()
         self.requested: dict[Key, int] = {}
         self._states: dict[ModalState, int] = {}
@@ -390,6 +412,24 @@ class Control:
             return self.program_place["xyz".index(key[1])] / self.unit
         modal = self.modal
         own: dict[str, float] = CONTROL_NAMES | {
+            "_line": float(self.line),
+            "_motion_mode": 10 * float(self.motion[1:]),
+            "_ccomp": 10 * math.floor(float(self.side[1:] or 40)),
+            "_inverse_time": float(modal.feed_mode is FeedMode.INVERSE_TIME),
+            "_units_per_minute": float(modal.feed_mode is FeedMode.PER_MINUTE),
+            "_units_per_rev": float(modal.feed_mode is FeedMode.PER_REVOLUTION),
+            "_tool_offset": float(self.offsets.tool != (0.0, 0.0, 0.0)),
+            "_retract_r_plane": float(modal.retract_to_r),
+            "_retract_old_z": float(not modal.retract_to_r),
+            "_spindle_rpm_mode": float(not modal.constant_surface),
+            "_spindle_css_mode": float(modal.constant_surface),
+            "_ijk_absolute_mode": float(modal.arc_absolute),
+            "_lathe_diameter_mode": 0.0,
+            "_lathe_radius_mode": 1.0,
+            "_spindle_cw": float(modal.spindle > 0),
+            "_mist": float(modal.mist),
+            "_flood": float(modal.flood),
+            "_call_level": float(len(self.saved) - 1),
             "_metric": float(modal.units is Units.MM),
             "_imperial": float(modal.units is Units.INCH),
             "_absolute": float(modal.absolute),

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...model.motion import Floats
+from .dialect import DialectRules
 from .program import BlockFault
 
 # Parameters: numbers with numbers or names, some of a subroutine alone, some that the control itself sets.
@@ -27,10 +28,17 @@ Assign = Callable[[int, float], bool]
 System = Callable[[Key], float | None]
 """What the control says of a parameter of its own; None = it is none."""
 
-LARGEST = 99_999
-
 PLAIN = 5000
 """Up to this number no parameter is the control's own."""
+
+OWN_NAMES = frozenset(
+    "_vmajor _vminor _line _motion_mode _plane _ccomp _metric _imperial _absolute _incremental _inverse_time "
+    "_units_per_minute _units_per_rev _coord_system _tool_offset _retract_r_plane _retract_old_z _spindle_rpm_mode "
+    "_spindle_css_mode _ijk_absolute_mode _lathe_diameter_mode _lathe_radius_mode _spindle_on _spindle_cw _mist _flood "
+    "_speed_override _feed_override _adaptive_feed _feed_hold _feed _rpm _x _y _z _a _b _c _u _v _w _current_tool "
+    "_current_pocket _selected_tool _selected_pocket _call_level _remap_level _task".split()
+)
+"""What LinuxCNC tells by name, and lets nobody set."""
 
 MOST = 200_000
 """So many parameters may be set; a real program sets some hundred."""
@@ -51,16 +59,18 @@ class Parameters:
         changes: how often a value became another one; alike at two times = nothing has changed between.
     """
 
-    def __init__(self, system: System, local_numbers: int, assign: Assign, vacant: bool = False) -> None:
-        """Begin with every parameter 0, or vacant.
+    def __init__(self, system: System, assign: Assign, rules: DialectRules) -> None:
+        """Begin with every parameter 0, or vacant: NaN, as #0 is, which no word takes, which equals nothing but another
+        one, and counts as 0 elsewhere.
 
         Args:
             system: asked first. assign: told first of a value that is set.
-            local_numbers: #1 to this one belong to the subroutine that is running.
-            vacant: one that nobody has set is NaN, as #0 is: no word takes it, it equals nothing but another one, and
-                counts as 0 elsewhere.
+            rules: which numbers there are, and whether those that nobody has set are vacant. #1 to #30, in macro B to
+                #33, belong to the subroutine that is running.
         """
-        self._unset = math.nan if vacant else 0.0
+        self._unset = math.nan if rules.vacant else 0.0
+        self._largest = rules.parameters
+        local_numbers = 33 if rules.fanuc_flow else 30
         self._system, self._assign = system, assign
         self._local = slice(1, local_numbers + 1)
         self.plain: Floats = np.full(PLAIN + 1, math.nan)
@@ -93,8 +103,8 @@ class Parameters:
             raise BlockFault(f"the value of #<{key}> is known to the machine alone; write a number in its place.")
         if isinstance(key, str):
             raise BlockFault(f"the parameter #<{key}> has no value here; set it before.")
-        if not 0 <= key <= LARGEST:
-            raise BlockFault(f"there is no parameter #{key}; use 1 to {LARGEST}.")
+        if not 0 < key <= self._largest:
+            raise BlockFault(f"there is no parameter #{key}; use 1 to {self._largest}.")
         return 0.0
 
     def exists(self, key: str) -> bool:
@@ -107,9 +117,9 @@ class Parameters:
         Raises:
             Fault: the control's own cannot be set; the number is out of range; there are too many.
         """
-        if isinstance(key, int) and not 0 < key <= LARGEST:
-            raise BlockFault(f"there is no parameter #{key} to set; use 1 to {LARGEST}.")
-        if isinstance(key, str) and self._system(key) is not None:
+        if isinstance(key, int) and not 0 < key <= self._largest:
+            raise BlockFault(f"there is no parameter #{key} to set; use 1 to {self._largest}.")
+        if isinstance(key, str) and (key in OWN_NAMES or self._system(key) is not None):
             raise BlockFault(f"#<{key}> is the control's own and cannot be set.")
         if isinstance(key, int) and key <= PLAIN:
             before = self.plain[key]

@@ -177,7 +177,7 @@ def move(control: Control, block: Block) -> None:
     if once in ("G28", "G30"):
         if code is not None and control.rules.fanuc_flow:
             control.motion = code
-        elif code is not None and axes:
+        elif code not in (None, "G80") and axes:
             raise BlockFault(f"{once} and {code} in one block both want its axis words; write them in two.", letter="g")
         _go_home(control, block, once)
         return
@@ -294,7 +294,7 @@ def _arc(control: Control, block: Block) -> None:
     _check_arc_words(block, "ijk"[w], code)
     end = _target(control, block)
     centre = _centre_by_r(control, block, end) if block.has("r") else _centre_by_ijk(control, block)
-    turns = whole(block.get("p") or 1.0, "P of an arc") if block.has("p") else 1
+    turns = whole(block.values.get("p", 1.0), "P of an arc")
     if not 1 <= turns <= MOST_TURNS:
         raise BlockFault(f"the arc has P{turns} turns; use 1 to {MOST_TURNS}.", letter="p")
     _check_radii(control, end, centre)

@@ -169,8 +169,9 @@ def _length(control: Control, block: Block) -> None:
     number, tool = 0, ZERO
     if code == "G43.1":
         tool = _replaced_by_words(control, block, control.offsets.tool)
-        for letter in "xyz":
-            block.values.pop(letter, None)
+        if ModalGroup.MOTION not in block.codes:  # else the motion takes the axis words too
+            for letter in "xyz":
+                block.values.pop(letter, None)
     elif code != "G49":
         number = _length_number(control, block, code)
         tool = _table_offset(control, number)
