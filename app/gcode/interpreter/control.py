@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ...model.motion import MotionKind, Nurbs
 from ...model.part import Units
 from .block import Block
-from .codes import AXES, ModalGroup
+from .codes import AXES, CYCLES, ModalGroup
 from .compensation import Compensation
 from .cycles import Cycle
 from .dialect import DIALECT_RULES, Dialect
@@ -23,10 +23,14 @@ from .splines import OpenFanucNurbs, OpenNurbs
 MOST_EVENTS = 1_000_000
 MOST_WARNINGS = 200
 
-_PLACES: dict[Key, int] = {5001: 0, 5002: 1, 5003: 2, 5420: 0, 5421: 1, 5422: 2, "_x": 0, "_y": 1, "_z": 2}
+_PLACES: dict[Key, int] = {5001: 0, 5002: 1, 5003: 2, 5041: 0, 5042: 1, 5043: 2, 5420: 0, 5421: 1, 5422: 2, "_x": 0, "_y": 1, "_z": 2}
 """Parameters that say where the tool is along an axis: the program tells that as soon as it has moved it there."""
 _KEPT = range(500, 1000)
 """Numbers of parameters that Fanuc and Haas keep while they are switched off."""
+_SYSTEM = 1000
+"""From this number on Fanuc's and Haas' parameters are the control's own."""
+_IN_FORCE = (*range(4001, 4004), *range(4005, 4008), 4009, 4010, 4109, 4119, 4120)
+"""Numbers of macro B's system variables that the program settles."""
 _OF_THE_PROGRAM = (5220, 5400)
 """Numbers of work offset and tool."""
 
@@ -101,6 +105,7 @@ class Control:
         compensation: G41 or G42, None = G40, or a radius of 0. stray: where the tool itself is when that is not where
             the program takes it to be, after G40. side: the G word of compensation, also where the radius is 0.
         saved: what M70 and M73 have kept, of the program and of each subroutine that is running.
+        newly_turned: G68 or G69 was obeyed, and no motion along X or Y since. polar: G16.
         returning: what comes back now that a subroutine has ended, None = nothing.
         registers_hold_wear: whether a D word whose register nobody tells means 0. register_diameters: what the program
             itself says of them, mm, by number.
@@ -131,6 +136,7 @@ class Control:
         self.side = ""
         self.saved: list[SavedState | None] = [None]
         self.returning: SavedState | None = None
+        self.newly_turned = self.polar = False
         self.registers_hold_wear = False
         self.register_diameters: dict[int, float] = {}
         self.last_offset = (0.0, 0.0)
@@ -367,7 +373,29 @@ class Control:
             )
 
     def own_parameter(self, key: Key) -> float | None:
-        """Return a parameter that the control itself sets, None if it is another; those of tables are in mm."""
+        """Return a parameter that the control itself sets, None if it is another; those of tables are in mm.
+
+        What the machine alone knows of it is told once.
+        """
+        value = self._own_parameter(key)
+        if key in self.requested and isinstance(key, int) and self._is_the_machines(key):
+            taken = "not set" if value is None and self.rules.vacant else f"{value or 0.0:g}"
+            self.warn(f"#{key} is what the control knows when the program runs; it is taken to be {taken} here.")
+        return value
+
+    def _is_the_machines(self, key: int) -> bool:
+        """Tell whether nothing that was read says what is in a parameter of the control's own."""
+        if key in self.set_parameters.values or key in _IN_FORCE:
+            return False
+        if 5221 <= key <= 5400:
+            return OFFSETS[(key - 5221) // 20] not in self.offsets.work
+        if 5401 <= key <= 5413:
+            return self.modal.tool not in self.tool_table
+        if 5161 <= key <= 5183:
+            return self.homes["G28" if key < 5180 else "G30"] == (0.0, 0.0, 0.0)
+        return key in _PLACES or (self.rules.vacant and key >= _SYSTEM)
+
+    def _own_parameter(self, key: Key) -> float | None:
         if key in self.set_parameters.values:
             return self.set_parameters.values[key]
         axis = _PLACES.get(key)
@@ -377,13 +405,15 @@ class Control:
             self.requested.setdefault(key, self.line)
         if isinstance(key, str):
             return self._named(key) if key.startswith("_") else None
+        if self.rules.vacant and key in _IN_FORCE:
+            return self._in_force(key)
         if key < 5001:
             self._miss_kept(key)
             return None
         if 5420 <= key <= 5422:
             return self.program_place[key - 5420] / self.unit
-        if self.rules.fanuc_flow and 5001 <= key <= 5003:
-            return self.program_place[key - 5001] / self.unit
+        if self.rules.fanuc_flow and axis is not None:
+            return self.program_place[axis] / self.unit
         if key == 5220:
             return self._offset_number()
         if 5161 <= key <= 5163 or 5181 <= key <= 5183:
@@ -397,6 +427,25 @@ class Control:
         if key == 5403:
             return self.offsets.tool[2] / self.unit
         return self.tool_table.get(self.modal.tool, ToolOffset()).diameter / self.unit if key == 5410 else None
+
+    def _in_force(self, key: int) -> float:
+        """Return a system variable of macro B that says what is in force: the number of its G word, or a value."""
+        modal, boring = self.modal, self.motion if self.motion in CYCLES else "G80"
+        feeds = {FeedMode.INVERSE_TIME: 93.0, FeedMode.PER_MINUTE: 94.0, FeedMode.PER_REVOLUTION: 95.0}
+        code = {
+            4001: self.before_cycle[1:] if self.motion in CYCLES else self.motion[1:],
+            4002: (17, 18, 19)[modal.plane],
+            4003: 90 if modal.absolute else 91,
+            4005: feeds[modal.feed_mode],
+            4006: 20 if modal.units is Units.INCH else 21,
+            4007: self.side[1:] or 40,
+            4009: boring[1:],
+            4010: 99 if modal.retract_to_r else 98,
+            4109: 0.0 if math.isnan(self.feed) else self.feed / self.unit,
+            4119: modal.speed,
+            4120: modal.tool,
+        }
+        return float(code[key])
 
     def _offset_value(self, name: str, item: int) -> float:
         """Return an axis (0 to 2, mm) or the rotation (9, degrees) of a work offset."""

@@ -88,15 +88,15 @@ class Parameters:
         if isinstance(key, int) and 0 < key <= PLAIN:
             number = float(self.plain[key])
             if math.isnan(number):
-                self._system(key)  # which is told that somebody asks for what nobody has set
-                return self._unset
+                own = self._system(key)  # which is told that somebody asks for what nobody has set
+                return self._unset if own is None else own
             return number
         if key == 0 and math.isnan(self._unset):
             return self._unset
-        own = self._system(key)
+        value = self._place(key).get(key)
+        own = self._system(key) if value is None or isinstance(key, str) else None
         if own is not None:
             return own
-        value = self._place(key).get(key)
         if value is not None:
             return value
         if isinstance(key, str) and key.startswith(("_hal[", "_ini[")):
@@ -248,6 +248,34 @@ _UNARY: dict[str, Callable[[float], float]] = {
 }
 
 
+def _of_bits(function: Callable[[int, int], int]) -> Callable[[float, float], float]:
+    """Return an operator of macro B, which joins whole numbers bit by bit."""
+    return lambda a, b: float(function(whole(a, "what is joined bit by bit"), whole(b, "what is joined bit by bit")))
+
+
+def _remainder(a: float, b: float) -> float:
+    """The remainder with the sign of what is divided, as in macro B."""
+    if b == 0:
+        raise BlockFault("the expression divides by zero in MOD.")
+    return math.fmod(a, b)
+
+
+_BINARY_IN_MACRO_B = _BINARY | {
+    "and": _of_bits(lambda a, b: a & b),
+    "or": _of_bits(lambda a, b: a | b),
+    "xor": _of_bits(lambda a, b: a ^ b),
+    "mod": _remainder,
+}
+
+_RANK_IN_MACRO_B = _RANK | {"and": 4, "or": 3, "xor": 3}
+
+_UNARY_IN_MACRO_B = _UNARY | {
+    "fix": lambda a: float(math.trunc(a)),
+    "fup": lambda a: math.copysign(math.ceil(abs(a)), a),
+}
+"""FIX drops what is behind the point, FUP goes on to the next whole number away from 0."""
+
+
 def evaluated(value: Value, parameters: Parameters) -> float:
     """Return what a value is now.
 
@@ -289,9 +317,18 @@ class ValueReader:
         at: index of the next character.
     """
 
-    def __init__(self, code: str, nesting: int) -> None:
-        """Begin at the block's first character; `nesting` is how deep brackets may go."""
+    def __init__(self, code: str, nesting: int, macro_b: bool = False) -> None:
+        """Begin at the block's first character.
+
+        Args:
+            code: of the block.
+            nesting: how deep brackets may go.
+            macro_b: operators and functions are those of Fanuc's and Haas' macro B.
+        """
         self.code, self.at, self._left = code, 0, nesting
+        self._ranks = _RANK_IN_MACRO_B if macro_b else _RANK
+        self._binary = _BINARY_IN_MACRO_B if macro_b else _BINARY
+        self._unary = _UNARY_IN_MACRO_B if macro_b else _UNARY
 
     def value(self) -> Value:
         """Read a value.
@@ -344,11 +381,11 @@ class ValueReader:
         left = self.value()
         while True:
             found = OPERATOR.match(self.code, self.at)
-            if found is None or _RANK[found[0]] < rank:
+            if found is None or self._ranks[found[0]] < rank:
                 return left
             self.at = found.end()
-            right = self._term(_RANK[found[0]] + 1)
-            left = _joined(_BINARY[found[0]], left, right)
+            right = self._term(self._ranks[found[0]] + 1)
+            left = _joined(self._binary[found[0]], left, right)
 
     def _function(self) -> Value:
         found = FUNCTION.match(self.code, self.at)
@@ -359,7 +396,7 @@ class ValueReader:
             return self._exists()
         value = self._bracket()
         if found[1] != "atan":
-            return _applied(_UNARY[found[1]], value)
+            return _applied(self._unary[found[1]], value)
         if self.code[self.at : self.at + 2] != "/[":
             raise self._fault("expected / and [ behind ATAN[...]")
         self.at += 1

@@ -17,7 +17,7 @@ from .arc_kernels import centre_by_radius, radii
 from .block import Block
 from .codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, ModalGroup
 from .control import ArcShape, AxisWord, Control
-from .cycles import Cycle, CycleMove, Dwell, Spindle, Stop, cycle_steps, taps_astray, with_sticky
+from .cycles import Cycle, CycleMove, Dwell, Spindle, Stop, cycle_steps, hole_planes, taps_astray, with_sticky
 from .dialect import Dialect
 from .expression import whole
 from .foreign_codes import warn_of_rotary
@@ -484,7 +484,7 @@ def bore(control: Control, block: Block) -> None:
     if control.cycle is None:
         control.initial = place[control.modal.plane.axes[2]]
     cycle = with_sticky(_canned_cycle(control, block), control.cycle)
-    control.cycle = cycle
+    control.cycle = replace(cycle, planes=hole_planes(cycle, control.initial)) if cycle.planes_stay else cycle
     control.note_known(block)
     if taps_astray(cycle):
         control.warn(
@@ -551,6 +551,7 @@ def _canned_cycle(control: Control, block: Block) -> Cycle:
         spindle=control.modal.spindle,
         unit_mm=control.unit,
         fanuc=fanuc,
+        planes_stay=control.rules.vacant,
     )
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from ...core.errors import MOST_QUOTED, shortened
 from ...core.progress import Progress
 from ...model.part import Units
-from .block import SLASH, Block, BlockStep, ParsedLine, Watch, block_of, parse
+from .block import SLASH, Block, Grammar, BlockStep, ParsedLine, Watch, block_of, parse
 from .codes import CYCLES, TAKES, ModalGroup
 from .control import Control
 from .dialect import Dialect
@@ -37,6 +37,7 @@ from .polar import check_polar, turn_polar_into_axes
 from .program import BlockFault, EventKind, NcProgram, ProgramProblem, Severity
 from .saved_state import obey_state, restore
 from .settings import before_motion, set_once
+from .turned_program import check_turned, spell_polar
 from .text import ProgramBuffer, code_of, column_of
 
 LINES_A_STEP = 20_000
@@ -87,6 +88,7 @@ class InterpreterRun:
         self._control.registers_hold_wear = registers_hold_wear(data)
         self._control.register_diameters = register_diameters(data)
         self._rules = self._control.rules
+        self._grammar = Grammar.of(self._rules)
         self._not_quick = _NOT_QUICK_IN_MACRO_B if self._rules.fanuc_flow else _NOT_QUICK
         self._flow = Flow(JumpTargets(self._text), self._control)
         self._longest = min(options.limits.line_length, self._rules.longest_line - self._text.dropped)
@@ -346,8 +348,7 @@ class InterpreterRun:
         return True
 
     def _parse(self, code: str, begin: int = 0) -> ParsedLine:
-        rules = self._rules
-        return parse(code, self._options.limits.nesting, free=rules.fanuc_flow, polar=rules.ngc_flow, begin=begin)
+        return parse(code, self._options.limits.nesting, self._grammar, begin)
 
     def _jump(self, code: str) -> ParsedLine | None:
         """Obey a line that is a jump; return what is left of it to obey, with its place in the line."""
@@ -379,6 +380,9 @@ class InterpreterRun:
         before_motion(control, block)
         if ModalGroup.STATE in block.codes:
             obey_state(control, block, before, side)
+        if self._rules.fanuc_flow:
+            check_turned(control, block)
+            spell_polar(control, block)
         set_once(control, block)
         turn_polar_into_axes(control, block)
         move(control, block)
