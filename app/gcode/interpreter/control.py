@@ -23,7 +23,20 @@ from .splines import OpenFanucNurbs, OpenNurbs
 MOST_EVENTS = 1_000_000
 MOST_WARNINGS = 200
 
-_PLACES: dict[Key, int] = {5001: 0, 5002: 1, 5003: 2, 5041: 0, 5042: 1, 5043: 2, 5420: 0, 5421: 1, 5422: 2, "_x": 0, "_y": 1, "_z": 2}
+_PLACES: dict[Key, int] = {
+    5001: 0,
+    5002: 1,
+    5003: 2,
+    5041: 0,
+    5042: 1,
+    5043: 2,
+    5420: 0,
+    5421: 1,
+    5422: 2,
+    "_x": 0,
+    "_y": 1,
+    "_z": 2,
+}
 """Parameters that say where the tool is along an axis: the program tells that as soon as it has moved it there."""
 _KEPT = range(500, 1000)
 """Numbers of parameters that Fanuc and Haas keep while they are switched off."""
@@ -398,11 +411,8 @@ class Control:
     def _own_parameter(self, key: Key) -> float | None:
         if key in self.set_parameters.values:
             return self.set_parameters.values[key]
+        self._note_request(key)
         axis = _PLACES.get(key)
-        if (axis is not None and self.known[axis] < 0) or (
-            axis is None and isinstance(key, int) and key not in _OF_THE_PROGRAM
-        ):
-            self.requested.setdefault(key, self.line)
         if isinstance(key, str):
             return self._named(key) if key.startswith("_") else None
         if self.rules.vacant and key in _IN_FORCE:
@@ -427,6 +437,13 @@ class Control:
         if key == 5403:
             return self.offsets.tool[2] / self.unit
         return self.tool_table.get(self.modal.tool, ToolOffset()).diameter / self.unit if key == 5410 else None
+
+    def _note_request(self, key: Key) -> None:
+        """Note a parameter that the machine may tell, where the program asks for it."""
+        axis = _PLACES.get(key)
+        machines = isinstance(key, int) and key not in _OF_THE_PROGRAM if axis is None else self.known[axis] < 0
+        if machines:
+            self.requested.setdefault(key, self.line)
 
     def _in_force(self, key: int) -> float:
         """Return a system variable of macro B that says what is in force: the number of its G word, or a value."""

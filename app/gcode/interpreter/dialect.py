@@ -137,9 +137,7 @@ _LINUXCNC_LACKS = frozenset(
 )
 
 DIALECT_RULES: dict[Dialect, DialectRules] = {
-    Dialect.LINUXCNC: DialectRules(
-        "LinuxCNC", calls=9, longest_line=252, parameters=5601, missing=_LINUXCNC_LACKS
-    ),
+    Dialect.LINUXCNC: DialectRules("LinuxCNC", calls=9, longest_line=252, parameters=5601, missing=_LINUXCNC_LACKS),
     Dialect.GRBL: DialectRules("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
     Dialect.FANUC: DialectRules(
         "Fanuc",

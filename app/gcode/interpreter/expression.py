@@ -31,12 +31,12 @@ System = Callable[[Key], float | None]
 PLAIN = 5000
 """Up to this number no parameter is the control's own."""
 
-OWN_NAMES = frozenset(
-    "_vmajor _vminor _line _motion_mode _plane _ccomp _metric _imperial _absolute _incremental _inverse_time "
-    "_units_per_minute _units_per_rev _coord_system _tool_offset _retract_r_plane _retract_old_z _spindle_rpm_mode "
-    "_spindle_css_mode _ijk_absolute_mode _lathe_diameter_mode _lathe_radius_mode _spindle_on _spindle_cw _mist _flood "
-    "_speed_override _feed_override _adaptive_feed _feed_hold _feed _rpm _x _y _z _a _b _c _u _v _w _current_tool "
-    "_current_pocket _selected_tool _selected_pocket _call_level _remap_level _task".split()
+OWN_NAME = re.compile(
+    "_(?:vmajor|vminor|line|motion_mode|plane|ccomp|metric|imperial|absolute|incremental|inverse_time|units_per_minute|"
+    "units_per_rev|coord_system|tool_offset|retract_r_plane|retract_old_z|spindle_rpm_mode|spindle_css_mode|"
+    "ijk_absolute_mode|lathe_diameter_mode|lathe_radius_mode|spindle_on|spindle_cw|mist|flood|speed_override|"
+    "feed_override|adaptive_feed|feed_hold|feed|rpm|[xyzabcuvw]|current_tool|current_pocket|selected_tool|"
+    "selected_pocket|call_level|remap_level|task)"
 )
 """What LinuxCNC tells by name, and lets nobody set."""
 
@@ -119,7 +119,7 @@ class Parameters:
         """
         if isinstance(key, int) and not 0 < key <= self._largest:
             raise BlockFault(f"there is no parameter #{key} to set; use 1 to {self._largest}.")
-        if isinstance(key, str) and (key in OWN_NAMES or self._system(key) is not None):
+        if isinstance(key, str) and (OWN_NAME.fullmatch(key) or self._system(key) is not None):
             raise BlockFault(f"#<{key}> is the control's own and cannot be set.")
         if isinstance(key, int) and key <= PLAIN:
             before = self.plain[key]

@@ -200,7 +200,7 @@ def move(control: Control, block: Block) -> None:
         control.cycle = None
     if control.motion not in CURVES:
         drop_curve(control)
-    if control.compensation is not None and control.motion in CYCLES:
+    if control.side and control.motion in CYCLES:
         raise BlockFault("a canned cycle cannot be while cutter compensation is on; write G40 before.", letter="g")
     _MOTIONS[control.motion](control, block)
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from ...core.errors import MOST_QUOTED, shortened
 from ...core.progress import Progress
 from ...model.part import Units
-from .block import SLASH, Block, Grammar, BlockStep, ParsedLine, Watch, block_of, parse
+from .block import SLASH, Block, BlockStep, Grammar, ParsedLine, Watch, block_of, parse
 from .codes import CYCLES, TAKES, ModalGroup
 from .control import Control
 from .dialect import Dialect
@@ -37,8 +37,8 @@ from .polar import check_polar, turn_polar_into_axes
 from .program import BlockFault, EventKind, NcProgram, ProgramProblem, Severity
 from .saved_state import obey_state, restore
 from .settings import before_motion, set_once
-from .turned_program import check_turned, spell_polar
 from .text import ProgramBuffer, code_of, column_of
+from .turned_program import check_turned, spell_polar
 
 LINES_A_STEP = 20_000
 """Lines between two looks at whether the job was cancelled."""
@@ -339,6 +339,8 @@ class InterpreterRun:
         dialect = self._options.dialect
         if dialect is Dialect.LINUXCNC and not code.startswith("/"):
             raise BlockFault("LinuxCNC takes a slash at the beginning of a line only.", letter="/")
+        if dialect is Dialect.LINUXCNC and not self._options.block_delete and code[1:2].isdigit():
+            raise BlockFault("LinuxCNC numbers no slashes; write / alone.", letter="/")
         if dialect is Dialect.GRBL:
             self._control.warn("grbl leaves nothing out: it does the blocks that begin with a slash.", "/")
             return False

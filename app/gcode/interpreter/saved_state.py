@@ -1,7 +1,7 @@
 """LinuxCNC's M70 to M73: what is in force is kept, and comes back.
 
-The program and each subroutine that is running keep one state of their own. The motion's G word, G92 and the tool are no
-part of it.
+The program and each subroutine that is running keep one state of their own. The motion's G word, G92 and the tool are
+no part of it.
 """
 
 from __future__ import annotations

@@ -80,7 +80,9 @@ def check_turned(control: Control, block: Block) -> None:
     if control.newly_turned and block.has("xy") and ModalGroup.TURNING not in block.codes:
         control.newly_turned = False
         if not (control.modal.absolute and "x" in block.values and "y" in block.values):
-            control.warn("the first move behind G68 or G69 is known for sure only where it says X and Y under G90.", "g")
+            control.warn(
+                "the first move behind G68 or G69 is known for sure only where it says X and Y under G90.", "g"
+            )
 
 
 def choose_polar(control: Control, block: Block) -> None:
@@ -92,8 +94,8 @@ def choose_polar(control: Control, block: Block) -> None:
     control.polar = block.codes[ModalGroup.POLAR] == "G16"
     if control.polar and control.options.dialect is not Dialect.FANUC:
         raise BlockFault(
-            f"polar coordinates (G16) of {control.rules.title} are not followed; write out the moves that it makes: the "
-            "reader stops here.",
+            f"polar coordinates (G16) of {control.rules.title} are not followed; write out the moves that it makes: "
+            "the reader stops here.",
             letter="g",
         )
 
@@ -111,11 +113,10 @@ def spell_polar(control: Control, block: Block) -> None:
         raise BlockFault("a radius under G16 and G91 begins where the tool is, which is not followed.", letter="x")
     if block.codes.get(ModalGroup.MOTION, control.motion) in ("G2", "G3") and block.has("ij"):
         raise BlockFault("an arc under G16 takes a radius R and no centre.", letter="ij")
-    radius, angle = POLAR
     said = control.length(block, "x")
     if said is not None:
-        block.values[radius] = said / control.unit
+        block.values[POLAR[0]] = said / control.unit
     if "y" in block.values:
-        block.values[angle] = _degrees(control, block, "y")
+        block.values[POLAR[1]] = _degrees(control, block, "y")
     for letter in "xy":
         block.values.pop(letter, None)

@@ -255,7 +255,8 @@ def test_a_first_move_behind_a_turn_that_is_not_sure_is_told() -> None:
 
 
 def test_polar_coordinates_of_fanuc() -> None:
-    text = "G21 G90 G17 G0 X0. Y0. Z5.\nG16 G99 G81 X50. Y0. Z-1. R1. F100.\nY90.\nG91 Y30. K2\nG90 G80 G15\nX1. Y1.\nM30\n"
+    holes_of_g16 = "G16 G99 G81 X50. Y0. Z-1. R1. F100.\nY90.\nG91 Y30. K2\nG90 G80 G15\n"
+    text = f"G21 G90 G17 G0 X0. Y0. Z5.\n{holes_of_g16}X1. Y1.\nM30\n"
     holes = [end for end in ends(read(text, Dialect.FANUC)) if end[2] == -1]
     across, up = 50 * 3**0.5 / 2, 25.0
     assert np.allclose(holes, [(50, 0, -1), (0, 50, -1), (-up, across, -1), (-across, up, -1)])
@@ -268,7 +269,9 @@ def test_polar_coordinates_that_mean_another_centre_are_refused(line: str) -> No
     assert "under G16" in told(f"G21 G90 G17 G0 X5. Y0.\nG16\n{line}\n", Dialect.FANUC)
 
 
-@pytest.mark.parametrize("code", ["M48", "M62 P1", "M70", "G33 Z1 K1", "G43.2 H1", "G41.1 D1", "G92.2", "G0 G28", "M19"])
+@pytest.mark.parametrize(
+    "code", ["M48", "M62 P1", "M70", "G33 Z1 K1", "G43.2 H1", "G41.1 D1", "G92.2", "G0 G28", "M19"]
+)
 def test_what_grbl_does_not_know_is_refused(code: str) -> None:
     assert told(f"G21 F10\n{code}\n", Dialect.GRBL)
 
