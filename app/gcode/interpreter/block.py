@@ -21,6 +21,9 @@ Setting = Key | Callable[[Parameters], Key]
 POLAR = "@^"
 """Distance from the zero, and angle, in LinuxCNC's words."""
 
+_MACRO = 65.0
+"""Behind this G word M is an argument, as all letters but G, L, N, O and P are."""
+
 ALWAYS = AXES + ROTARY + POLAR + "fstn"
 """Words that need no code in their block to take them."""
 
@@ -222,11 +225,12 @@ def block_of(parsed: ParsedLine, parameters: Parameters) -> Block:
         Fault: two words of one letter or two codes of one group; a value that is no number.
     """
     block, numbered = Block(), False
+    coded = "g" if any(word.letter == "g" and word.value == _MACRO for word in parsed.words) else "gm"
     for word in parsed.words:
         value = evaluated(word.value, parameters)
         if math.isnan(value):  # of a parameter that is vacant: the control passes over the word
             continue
-        if word.letter in "gm":
+        if word.letter in coded:
             _add_code(block, _code(word.letter, value), word)
         elif word.letter in block.values:
             raise BlockFault(f"a block takes one word {word.letter.upper()} only.", column=-1 - word.begin)

@@ -69,6 +69,8 @@ def test_offsets_of_haas() -> None:
 def test_a_macro_gets_its_arguments_by_their_letters() -> None:
     text = "G21\nG65 P9 A1. B2. X3. I4. L2\nM30\nO9\nG91 G0 X#1 Y#2 Z[#24+#4]\nM99\n"
     assert ends(read(text, Dialect.FANUC)) == [(1, 2, 7), (2, 4, 14)]
+    text = "G21\nG0 X0. Y0. Z0.\nG65 P9 M48 S5. T2\nM30\nO9\nG0 X#13 Y#19 Z#20\nM99\n"
+    assert ends(read(text, Dialect.FANUC))[-1] == (48, 5, 2)
     assert "there is no subroutine O8" in told("G65 P8\n", Dialect.FANUC)
 
 
