@@ -6,10 +6,12 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from enum import Enum
 from functools import lru_cache
 from typing import NamedTuple
 
 from .codes import AXES, GROUP_OF, ROTARY, TAKES, ModalGroup
+from .dialect import DialectRules
 from .expression import NUMBER, Key, Parameters, Value, ValueReader, evaluated
 from .program import BlockFault, ModalState
 
@@ -18,6 +20,9 @@ Setting = Key | Callable[[Parameters], Key]
 
 POLAR = "@^"
 """Distance from the zero, and angle, in LinuxCNC's words."""
+
+_MACRO = 65.0
+"""Behind this G word M is an argument, as all letters but G, L, N, O and P are."""
 
 ALWAYS = AXES + ROTARY + POLAR + "fstn"
 """Words that need no code in their block to take them."""
@@ -74,26 +79,47 @@ SLASH = re.compile(r"(?:n[0-9.]+)?/[0-9]?")
 """What marks a block that the control leaves out when it is told to."""
 
 
-def parse(code: str, nesting: int, free: bool = False, polar: bool = False, begin: int = 0) -> ParsedLine:
+class Grammar(Enum):
+    """How a line's words are written.
+
+    Attributes:
+        NGC: @ and ^ are words. PLAIN: as in NGC without them.
+        FREE: what a parameter is set to needs no brackets. MACRO_B: likewise, with operators of its own.
+    """
+
+    NGC = "ngc"
+    PLAIN = "plain"
+    FREE = "free"
+    MACRO_B = "macro b"
+
+    @classmethod
+    def of(cls, rules: DialectRules) -> Grammar:
+        """Return that of a control."""
+        if rules.fanuc_flow:
+            return cls.MACRO_B if rules.vacant else cls.FREE
+        return cls.NGC if rules.ngc_flow else cls.PLAIN
+
+
+def parse(code: str, nesting: int, grammar: Grammar, begin: int = 0) -> ParsedLine:
     """Return the words of a line; programs say many lines again and again, so the last ones are kept, but for long
     ones.
 
     Args:
         code: as `text.code_of` gives it.
         nesting: how deep brackets may go.
-        free: what a parameter is set to needs no brackets, as Fanuc has it.
-        polar: @ and ^ are words.
+        grammar: how its words are written.
         begin: index of the code where its words begin, behind a condition for instance.
 
     Raises:
         Fault: something in it is no word.
     """
-    return (_parsed_once if len(code) <= LONGEST_KEPT else _parsed)(code, nesting, free, polar, begin)
+    return (_parsed_once if len(code) <= LONGEST_KEPT else _parsed)(code, nesting, grammar, begin)
 
 
-def _parsed(code: str, nesting: int, free: bool, polar: bool, begin: int) -> ParsedLine:
-    values = ValueReader(code, nesting)
+def _parsed(code: str, nesting: int, grammar: Grammar, begin: int) -> ParsedLine:
+    values = ValueReader(code, nesting, grammar is Grammar.MACRO_B)
     values.at = begin
+    free, polar = grammar in (Grammar.FREE, Grammar.MACRO_B), grammar is Grammar.NGC
     slash = SLASH.match(code, begin)
     deleted = slash is not None
     if slash is not None:
@@ -199,11 +225,12 @@ def block_of(parsed: ParsedLine, parameters: Parameters) -> Block:
         Fault: two words of one letter or two codes of one group; a value that is no number.
     """
     block, numbered = Block(), False
+    coded = "g" if any(word.letter == "g" and word.value == _MACRO for word in parsed.words) else "gm"
     for word in parsed.words:
         value = evaluated(word.value, parameters)
         if math.isnan(value):  # of a parameter that is vacant: the control passes over the word
             continue
-        if word.letter in "gm":
+        if word.letter in coded:
             _add_code(block, _code(word.letter, value), word)
         elif word.letter in block.values:
             raise BlockFault(f"a block takes one word {word.letter.upper()} only.", column=-1 - word.begin)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ...model.motion import MotionKind, Nurbs
 from ...model.part import Units
 from .block import Block
-from .codes import AXES, ModalGroup
+from .codes import AXES, CYCLES, ModalGroup
 from .compensation import Compensation
 from .cycles import Cycle
 from .dialect import DIALECT_RULES, Dialect
@@ -23,10 +23,27 @@ from .splines import OpenFanucNurbs, OpenNurbs
 MOST_EVENTS = 1_000_000
 MOST_WARNINGS = 200
 
-_PLACES: dict[Key, int] = {5001: 0, 5002: 1, 5003: 2, 5420: 0, 5421: 1, 5422: 2, "_x": 0, "_y": 1, "_z": 2}
+_PLACES: dict[Key, int] = {
+    5001: 0,
+    5002: 1,
+    5003: 2,
+    5041: 0,
+    5042: 1,
+    5043: 2,
+    5420: 0,
+    5421: 1,
+    5422: 2,
+    "_x": 0,
+    "_y": 1,
+    "_z": 2,
+}
 """Parameters that say where the tool is along an axis: the program tells that as soon as it has moved it there."""
 _KEPT = range(500, 1000)
 """Numbers of parameters that Fanuc and Haas keep while they are switched off."""
+_SYSTEM = 1000
+"""From this number on Fanuc's and Haas' parameters are the control's own."""
+_IN_FORCE = (*range(4001, 4004), *range(4005, 4008), 4009, 4010, 4109, 4119, 4120)
+"""Numbers of macro B's system variables that the program settles."""
 _OF_THE_PROGRAM = (5220, 5400)
 """Numbers of work offset and tool."""
 
@@ -52,6 +69,26 @@ class WordInLine(NamedTuple):
 
     letter: str
     line: int
+
+
+class SavedState(NamedTuple):
+    """What M70 or M73 has kept.
+
+    Attributes:
+        modal: fields of `ModalState` by name.
+        work_offset: its name.
+        feed: as `Control.feed`.
+        side: G word of cutter compensation, "" = none.
+        length: whether a tool length was in force.
+        returns: it comes back by itself where the subroutine ends, as M73 has it.
+    """
+
+    modal: dict[str, object]
+    work_offset: str
+    feed: float
+    side: str
+    length: bool
+    returns: bool
 
 
 class _NumberedState(NamedTuple):
@@ -80,6 +117,9 @@ class Control:
             G5, mm.
         compensation: G41 or G42, None = G40, or a radius of 0. stray: where the tool itself is when that is not where
             the program takes it to be, after G40. side: the G word of compensation, also where the radius is 0.
+        saved: what M70 and M73 have kept, of the program and of each subroutine that is running.
+        newly_turned: G68 or G69 was obeyed, and no motion along X or Y since. polar: G16.
+        returning: what comes back now that a subroutine has ended, None = nothing.
         registers_hold_wear: whether a D word whose register nobody tells means 0. register_diameters: what the program
             itself says of them, mm, by number.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
@@ -107,6 +147,9 @@ class Control:
         self.compensation: Compensation | None = None
         self.stray: Place | None = None
         self.side = ""
+        self.saved: list[SavedState | None] = [None]
+        self.returning: SavedState | None = None
+        self.newly_turned = self.polar = False
         self.registers_hold_wear = False
         self.register_diameters: dict[int, float] = {}
         self.last_offset = (0.0, 0.0)
@@ -116,9 +159,7 @@ class Control:
         self.events: list[Event] = []
         self.homeward: list[int] = []
         self.warnings: dict[str, WordInLine] = {}
-        self.parameters = Parameters(
-            self.own_parameter, 33 if self.rules.fanuc_flow else 30, self.set_own_parameter, self.rules.vacant
-        )
+        self.parameters = Parameters(self.own_parameter, self.set_own_parameter, self.rules)
         self.set_parameters = SetParameters()
         self.requested: dict[Key, int] = {}
         self._states: dict[ModalState, int] = {}
@@ -345,23 +386,44 @@ class Control:
             )
 
     def own_parameter(self, key: Key) -> float | None:
-        """Return a parameter that the control itself sets, None if it is another; those of tables are in mm."""
+        """Return a parameter that the control itself sets, None if it is another; those of tables are in mm.
+
+        What the machine alone knows of it is told once.
+        """
+        value = self._own_parameter(key)
+        if key in self.requested and isinstance(key, int) and self._is_the_machines(key):
+            taken = "not set" if value is None and self.rules.vacant else f"{value or 0.0:g}"
+            self.warn(f"#{key} is what the control knows when the program runs; it is taken to be {taken} here.")
+        return value
+
+    def _is_the_machines(self, key: int) -> bool:
+        """Tell whether nothing that was read says what is in a parameter of the control's own."""
+        if key in self.set_parameters.values or key in _IN_FORCE:
+            return False
+        if 5221 <= key <= 5400:
+            return OFFSETS[(key - 5221) // 20] not in self.offsets.work
+        if 5401 <= key <= 5413:
+            return self.modal.tool not in self.tool_table
+        if 5161 <= key <= 5183:
+            return self.homes["G28" if key < 5180 else "G30"] == (0.0, 0.0, 0.0)
+        return key in _PLACES or (self.rules.vacant and key >= _SYSTEM)
+
+    def _own_parameter(self, key: Key) -> float | None:
         if key in self.set_parameters.values:
             return self.set_parameters.values[key]
+        self._note_request(key)
         axis = _PLACES.get(key)
-        if (axis is not None and self.known[axis] < 0) or (
-            axis is None and isinstance(key, int) and key not in _OF_THE_PROGRAM
-        ):
-            self.requested.setdefault(key, self.line)
         if isinstance(key, str):
             return self._named(key) if key.startswith("_") else None
+        if self.rules.vacant and key in _IN_FORCE:
+            return self._in_force(key)
         if key < 5001:
             self._miss_kept(key)
             return None
         if 5420 <= key <= 5422:
             return self.program_place[key - 5420] / self.unit
-        if self.rules.fanuc_flow and 5001 <= key <= 5003:
-            return self.program_place[key - 5001] / self.unit
+        if self.rules.fanuc_flow and axis is not None:
+            return self.program_place[axis] / self.unit
         if key == 5220:
             return self._offset_number()
         if 5161 <= key <= 5163 or 5181 <= key <= 5183:
@@ -375,6 +437,32 @@ class Control:
         if key == 5403:
             return self.offsets.tool[2] / self.unit
         return self.tool_table.get(self.modal.tool, ToolOffset()).diameter / self.unit if key == 5410 else None
+
+    def _note_request(self, key: Key) -> None:
+        """Note a parameter that the machine may tell, where the program asks for it."""
+        axis = _PLACES.get(key)
+        machines = isinstance(key, int) and key not in _OF_THE_PROGRAM if axis is None else self.known[axis] < 0
+        if machines:
+            self.requested.setdefault(key, self.line)
+
+    def _in_force(self, key: int) -> float:
+        """Return a system variable of macro B that says what is in force: the number of its G word, or a value."""
+        modal, boring = self.modal, self.motion if self.motion in CYCLES else "G80"
+        feeds = {FeedMode.INVERSE_TIME: 93.0, FeedMode.PER_MINUTE: 94.0, FeedMode.PER_REVOLUTION: 95.0}
+        code = {
+            4001: self.before_cycle[1:] if self.motion in CYCLES else self.motion[1:],
+            4002: (17, 18, 19)[modal.plane],
+            4003: 90 if modal.absolute else 91,
+            4005: feeds[modal.feed_mode],
+            4006: 20 if modal.units is Units.INCH else 21,
+            4007: self.side[1:] or 40,
+            4009: boring[1:],
+            4010: 99 if modal.retract_to_r else 98,
+            4109: 0.0 if math.isnan(self.feed) else self.feed / self.unit,
+            4119: modal.speed,
+            4120: modal.tool,
+        }
+        return float(code[key])
 
     def _offset_value(self, name: str, item: int) -> float:
         """Return an axis (0 to 2, mm) or the rotation (9, degrees) of a work offset."""
@@ -390,6 +478,24 @@ class Control:
             return self.program_place["xyz".index(key[1])] / self.unit
         modal = self.modal
         own: dict[str, float] = CONTROL_NAMES | {
+            "_line": float(self.line),
+            "_motion_mode": 10 * float(self.motion[1:]),
+            "_ccomp": 10 * math.floor(float(self.side[1:] or 40)),
+            "_inverse_time": float(modal.feed_mode is FeedMode.INVERSE_TIME),
+            "_units_per_minute": float(modal.feed_mode is FeedMode.PER_MINUTE),
+            "_units_per_rev": float(modal.feed_mode is FeedMode.PER_REVOLUTION),
+            "_tool_offset": float(self.offsets.tool != (0.0, 0.0, 0.0)),
+            "_retract_r_plane": float(modal.retract_to_r),
+            "_retract_old_z": float(not modal.retract_to_r),
+            "_spindle_rpm_mode": float(not modal.constant_surface),
+            "_spindle_css_mode": float(modal.constant_surface),
+            "_ijk_absolute_mode": float(modal.arc_absolute),
+            "_lathe_diameter_mode": 0.0,
+            "_lathe_radius_mode": 1.0,
+            "_spindle_cw": float(modal.spindle > 0),
+            "_mist": float(modal.mist),
+            "_flood": float(modal.flood),
+            "_call_level": float(len(self.saved) - 1),
             "_metric": float(modal.units is Units.MM),
             "_imperial": float(modal.units is Units.INCH),
             "_absolute": float(modal.absolute),

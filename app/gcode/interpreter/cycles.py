@@ -77,6 +77,8 @@ class Cycle:
             that stay, and the initial height, as they were written, also over G20 and G21.
         fanuc: words stay from one code to the next; a dwell need not be said; 0 repeats bore nothing, as on Fanuc and
             Haas.
+        planes_stay: R and depth stay as the heights that they meant, also where G91 follows G90, as on Fanuc and Haas;
+            else as the numbers that were written. planes: those heights, of the blocks before; None = not said yet.
     """
 
     code: str
@@ -93,6 +95,8 @@ class Cycle:
     spindle: int = 0
     unit_mm: float = 1.0
     fanuc: bool = False
+    planes_stay: bool = False
+    planes: tuple[float, float] | None = None
     polar: PolarStep | None = None
 
 
@@ -144,6 +148,8 @@ def with_sticky(cycle: Cycle, before: Cycle | None) -> Cycle:
     kept = _dwell_kept(cycle, before)
     if before.code != cycle.code and not cycle.fanuc:
         return replace(cycle, dwell=kept)
+    if cycle.planes_stay:
+        cycle, before = replace(cycle, planes=before.planes), replace(before, depth=None, r=None)
     shift = tuple(_said(mine, theirs) for mine, theirs in zip(cycle.shift, before.shift, strict=True))
     return replace(
         cycle,
@@ -188,9 +194,7 @@ def cycle_steps(cycle: Cycle, position: Point, initial: float) -> Iterator[Step]
     """
     _check_words(cycle)
     _check_spindle(cycle)
-    r, depth = _known(cycle.r, "R"), _known(cycle.depth, _normal(cycle))
-    if not cycle.absolute:
-        r, depth = initial + r, initial + r + depth
+    r, depth = hole_planes(cycle, initial)
     if r < depth:
         raise BlockFault(
             f"R at {r:g} lies below the bottom of the hole at {_normal(cycle)} {depth:g}; a cycle bores from R "
@@ -200,6 +204,23 @@ def cycle_steps(cycle: Cycle, position: Point, initial: float) -> Iterator[Step]
     if cycle.code in _PECKS and r - depth > MOST_PECKS * _known(cycle.peck, "Q"):
         raise BlockFault(f"more than {MOST_PECKS:,} pecks for one hole; Q is too small.", "Q")
     return _steps(cycle, position, initial, (r, depth))
+
+
+def hole_planes(cycle: Cycle, initial: float) -> tuple[float, float]:
+    """Return the heights of R and of the bottom.
+
+    Args:
+        cycle: with its sticky words filled in.
+        initial: as of `cycle_steps`.
+
+    Raises:
+        Fault: one of them was never said.
+    """
+    level, bottom = cycle.planes or (None, None)
+    r, depth = cycle.r, cycle.depth
+    level = _known(level if r is None else r if cycle.absolute else initial + r, "R")
+    bottom = bottom if depth is None else depth if cycle.absolute else level + depth
+    return level, _known(bottom, _normal(cycle))
 
 
 def _normal(cycle: Cycle) -> str:
@@ -215,8 +236,6 @@ def _known(value: float | None, letter: str) -> float:
 
 def _check_words(cycle: Cycle) -> None:
     """Refuse a cycle whose words are missing or out of range."""
-    _known(cycle.depth, _normal(cycle))
-    _known(cycle.r, "R")
     if cycle.repeats < 0 or (cycle.repeats == 0 and not cycle.fanuc):
         raise BlockFault(f"a cycle cannot be repeated {cycle.repeats} times; L counts from 1.", "L")
     if cycle.code in _NEEDS_DWELL and not cycle.fanuc:

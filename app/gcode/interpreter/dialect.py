@@ -34,6 +34,7 @@ class DialectRules:
         tool_changes: M6 is known. splines: "G5" (LinuxCNC), "G6.2" (Fanuc) or "".
         calls: how deep subroutines may call one another.
         longest_line: bytes of a line, its end not counted where that is one byte.
+        parameters: the largest number of a parameter.
         vacant: a parameter that nobody has set is no number, as in Macro B, and not 0.
         missing: G words that other dialects have and this one refuses.
     """
@@ -50,6 +51,7 @@ class DialectRules:
     splines: str = "G5"
     calls: int = MANY
     longest_line: int = MANY
+    parameters: int = 99_999
     vacant: bool = False
     missing: frozenset[str] = frozenset()
 
@@ -60,16 +62,35 @@ _GRBL_LACKS = frozenset(
         "G5.1",
         "G5.2",
         "G5.3",
+        "G6.2",
+        "G7",
+        "G8",
+        "G9",
+        "G15",
+        "G16",
+        "G33",
+        "G33.1",
         "G41",
+        "G41.1",
         "G42",
+        "G42.1",
         "G43",
+        "G43.2",
+        "G44",
+        "G50",
+        "G51",
         "G52",
+        "G54.1",
         "G59.1",
         "G59.2",
         "G59.3",
         "G61.1",
         "G64",
+        "G65",
+        "G68",
+        "G69",
         "G73",
+        "G74",
         "G81",
         "G82",
         "G83",
@@ -80,12 +101,18 @@ _GRBL_LACKS = frozenset(
         "G88",
         "G89",
         "G90.1",
+        "G92.2",
+        "G92.3",
         "G95",
         "G96",
         "G97",
         "G98",
         "G99",
+        "G187",
         "M6",
+        "M19",
+        *(f"M{number}" for number in (*range(48, 54), *range(60, 69), *range(70, 74))),
+        "M97",
         "M98",
         "M99",
     }
@@ -110,7 +137,7 @@ _LINUXCNC_LACKS = frozenset(
 )
 
 DIALECT_RULES: dict[Dialect, DialectRules] = {
-    Dialect.LINUXCNC: DialectRules("LinuxCNC", calls=9, longest_line=252, missing=_LINUXCNC_LACKS),
+    Dialect.LINUXCNC: DialectRules("LinuxCNC", calls=9, longest_line=252, parameters=5601, missing=_LINUXCNC_LACKS),
     Dialect.GRBL: DialectRules("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
     Dialect.FANUC: DialectRules(
         "Fanuc",

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...model.motion import Floats
+from .dialect import DialectRules
 from .program import BlockFault
 
 # Parameters: numbers with numbers or names, some of a subroutine alone, some that the control itself sets.
@@ -27,10 +28,17 @@ Assign = Callable[[int, float], bool]
 System = Callable[[Key], float | None]
 """What the control says of a parameter of its own; None = it is none."""
 
-LARGEST = 99_999
-
 PLAIN = 5000
 """Up to this number no parameter is the control's own."""
+
+OWN_NAME = re.compile(
+    "_(?:vmajor|vminor|line|motion_mode|plane|ccomp|metric|imperial|absolute|incremental|inverse_time|units_per_minute|"
+    "units_per_rev|coord_system|tool_offset|retract_r_plane|retract_old_z|spindle_rpm_mode|spindle_css_mode|"
+    "ijk_absolute_mode|lathe_diameter_mode|lathe_radius_mode|spindle_on|spindle_cw|mist|flood|speed_override|"
+    "feed_override|adaptive_feed|feed_hold|feed|rpm|[xyzabcuvw]|current_tool|current_pocket|selected_tool|"
+    "selected_pocket|call_level|remap_level|task)"
+)
+"""What LinuxCNC tells by name, and lets nobody set."""
 
 MOST = 200_000
 """So many parameters may be set; a real program sets some hundred."""
@@ -51,16 +59,18 @@ class Parameters:
         changes: how often a value became another one; alike at two times = nothing has changed between.
     """
 
-    def __init__(self, system: System, local_numbers: int, assign: Assign, vacant: bool = False) -> None:
-        """Begin with every parameter 0, or vacant.
+    def __init__(self, system: System, assign: Assign, rules: DialectRules) -> None:
+        """Begin with every parameter 0, or vacant: NaN, as #0 is, which no word takes, which equals nothing but another
+        one, and counts as 0 elsewhere.
 
         Args:
             system: asked first. assign: told first of a value that is set.
-            local_numbers: #1 to this one belong to the subroutine that is running.
-            vacant: one that nobody has set is NaN, as #0 is: no word takes it, it equals nothing but another one, and
-                counts as 0 elsewhere.
+            rules: which numbers there are, and whether those that nobody has set are vacant. #1 to #30, in macro B to
+                #33, belong to the subroutine that is running.
         """
-        self._unset = math.nan if vacant else 0.0
+        self._unset = math.nan if rules.vacant else 0.0
+        self._largest = rules.parameters
+        local_numbers = 33 if rules.fanuc_flow else 30
         self._system, self._assign = system, assign
         self._local = slice(1, local_numbers + 1)
         self.plain: Floats = np.full(PLAIN + 1, math.nan)
@@ -78,23 +88,23 @@ class Parameters:
         if isinstance(key, int) and 0 < key <= PLAIN:
             number = float(self.plain[key])
             if math.isnan(number):
-                self._system(key)  # which is told that somebody asks for what nobody has set
-                return self._unset
+                own = self._system(key)  # which is told that somebody asks for what nobody has set
+                return self._unset if own is None else own
             return number
         if key == 0 and math.isnan(self._unset):
             return self._unset
-        own = self._system(key)
+        value = self._place(key).get(key)
+        own = self._system(key) if value is None or isinstance(key, str) else None
         if own is not None:
             return own
-        value = self._place(key).get(key)
         if value is not None:
             return value
         if isinstance(key, str) and key.startswith(("_hal[", "_ini[")):
             raise BlockFault(f"the value of #<{key}> is known to the machine alone; write a number in its place.")
         if isinstance(key, str):
             raise BlockFault(f"the parameter #<{key}> has no value here; set it before.")
-        if not 0 <= key <= LARGEST:
-            raise BlockFault(f"there is no parameter #{key}; use 1 to {LARGEST}.")
+        if not 0 < key <= self._largest:
+            raise BlockFault(f"there is no parameter #{key}; use 1 to {self._largest}.")
         return 0.0
 
     def exists(self, key: str) -> bool:
@@ -107,9 +117,9 @@ class Parameters:
         Raises:
             Fault: the control's own cannot be set; the number is out of range; there are too many.
         """
-        if isinstance(key, int) and not 0 < key <= LARGEST:
-            raise BlockFault(f"there is no parameter #{key} to set; use 1 to {LARGEST}.")
-        if isinstance(key, str) and self._system(key) is not None:
+        if isinstance(key, int) and not 0 < key <= self._largest:
+            raise BlockFault(f"there is no parameter #{key} to set; use 1 to {self._largest}.")
+        if isinstance(key, str) and (OWN_NAME.fullmatch(key) or self._system(key) is not None):
             raise BlockFault(f"#<{key}> is the control's own and cannot be set.")
         if isinstance(key, int) and key <= PLAIN:
             before = self.plain[key]
@@ -238,6 +248,34 @@ _UNARY: dict[str, Callable[[float], float]] = {
 }
 
 
+def _of_bits(function: Callable[[int, int], int]) -> Callable[[float, float], float]:
+    """Return an operator of macro B, which joins whole numbers bit by bit."""
+    return lambda a, b: float(function(whole(a, "what is joined bit by bit"), whole(b, "what is joined bit by bit")))
+
+
+def _remainder(a: float, b: float) -> float:
+    """The remainder with the sign of what is divided, as in macro B."""
+    if b == 0:
+        raise BlockFault("the expression divides by zero in MOD.")
+    return math.fmod(a, b)
+
+
+_BINARY_IN_MACRO_B = _BINARY | {
+    "and": _of_bits(lambda a, b: a & b),
+    "or": _of_bits(lambda a, b: a | b),
+    "xor": _of_bits(lambda a, b: a ^ b),
+    "mod": _remainder,
+}
+
+_RANK_IN_MACRO_B = _RANK | {"and": 4, "or": 3, "xor": 3}
+
+_UNARY_IN_MACRO_B = _UNARY | {
+    "fix": lambda a: float(math.trunc(a)),
+    "fup": lambda a: math.copysign(math.ceil(abs(a)), a),
+}
+"""FIX drops what is behind the point, FUP goes on to the next whole number away from 0."""
+
+
 def evaluated(value: Value, parameters: Parameters) -> float:
     """Return what a value is now.
 
@@ -279,9 +317,18 @@ class ValueReader:
         at: index of the next character.
     """
 
-    def __init__(self, code: str, nesting: int) -> None:
-        """Begin at the block's first character; `nesting` is how deep brackets may go."""
+    def __init__(self, code: str, nesting: int, macro_b: bool = False) -> None:
+        """Begin at the block's first character.
+
+        Args:
+            code: of the block.
+            nesting: how deep brackets may go.
+            macro_b: operators and functions are those of Fanuc's and Haas' macro B.
+        """
         self.code, self.at, self._left = code, 0, nesting
+        self._ranks = _RANK_IN_MACRO_B if macro_b else _RANK
+        self._binary = _BINARY_IN_MACRO_B if macro_b else _BINARY
+        self._unary = _UNARY_IN_MACRO_B if macro_b else _UNARY
 
     def value(self) -> Value:
         """Read a value.
@@ -334,11 +381,11 @@ class ValueReader:
         left = self.value()
         while True:
             found = OPERATOR.match(self.code, self.at)
-            if found is None or _RANK[found[0]] < rank:
+            if found is None or self._ranks[found[0]] < rank:
                 return left
             self.at = found.end()
-            right = self._term(_RANK[found[0]] + 1)
-            left = _joined(_BINARY[found[0]], left, right)
+            right = self._term(self._ranks[found[0]] + 1)
+            left = _joined(self._binary[found[0]], left, right)
 
     def _function(self) -> Value:
         found = FUNCTION.match(self.code, self.at)
@@ -349,7 +396,7 @@ class ValueReader:
             return self._exists()
         value = self._bracket()
         if found[1] != "atan":
-            return _applied(_UNARY[found[1]], value)
+            return _applied(self._unary[found[1]], value)
         if self.code[self.at : self.at + 2] != "/[":
             raise self._fault("expected / and [ behind ATAN[...]")
         self.at += 1

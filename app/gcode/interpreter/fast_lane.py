@@ -65,6 +65,8 @@ class FastLane:
         control = self._control
         if control.curve is not None or control.compensation is not None or control.stray is not None:
             return False
+        if control.polar or control.newly_turned:
+            return False
         modal = control.modal
         return (
             modal.feed_mode is FeedMode.PER_MINUTE

@@ -181,6 +181,7 @@ class Flow:
         if len(self.frames) > deepest:
             raise BlockFault(f"subroutines call one another more than {deepest} deep.")
         self.frames.append(CallFrame(label, begin, self.next, count - 1, arguments is not None))
+        self._control.saved.append(None)
         if arguments is not None:
             self._control.parameters.enter(arguments)
         self.next = begin
@@ -190,6 +191,7 @@ class Flow:
         frame = self.frames[-1]
         if len(self.frames) == 1:
             return False
+        self._end_state()
         if frame.left > 0:
             frame.left -= 1
             frame.loops.clear()
@@ -198,7 +200,14 @@ class Flow:
         if frame.own_parameters:
             self._control.parameters.leave()
         self.next = self.frames.pop().back
+        self._control.saved.pop()
         return True
+
+    def _end_state(self) -> None:
+        """Note what M73 lets come back where a subroutine ends."""
+        kept = self._control.saved[-1]
+        self._control.saved[-1] = None
+        self._control.returning = kept if kept is not None and kept.returns else None
 
     def obey(self, code: str) -> None:
         """Obey a line with an O word.

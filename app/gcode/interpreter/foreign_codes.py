@@ -227,7 +227,7 @@ def obey_macro(flow: Flow, control: Control, code: str) -> int:
     begun = _WORDS.match(code)
     assert begun is not None
     word = begun[1] or begun[2]
-    values = ValueReader(code, control.options.limits.nesting)
+    values = ValueReader(code, control.options.limits.nesting, control.rules.vacant)
     values.at = begun.end()
     if word == "goto":
         _goto(flow, control, values)

@@ -145,6 +145,8 @@ def _sorted(ints, line, slots):
         if slot < 0 or slots[slot] >= 0:
             return False
         slots[slot] = number
+    if ints[LINUXCNC] != 0 and slots[_MIST] >= 0 and slots[_FLOOD] >= 0:
+        return False
     return slots[_DRY] < 0 or (slots[_MIST] < 0 and slots[_FLOOD] < 0)
 
 

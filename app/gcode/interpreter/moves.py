@@ -17,7 +17,7 @@ from .arc_kernels import centre_by_radius, radii
 from .block import Block
 from .codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, ModalGroup
 from .control import ArcShape, AxisWord, Control
-from .cycles import Cycle, CycleMove, Dwell, Spindle, Stop, cycle_steps, taps_astray, with_sticky
+from .cycles import Cycle, CycleMove, Dwell, Spindle, Stop, cycle_steps, hole_planes, taps_astray, with_sticky
 from .dialect import Dialect
 from .expression import whole
 from .foreign_codes import warn_of_rotary
@@ -177,7 +177,7 @@ def move(control: Control, block: Block) -> None:
     if once in ("G28", "G30"):
         if code is not None and control.rules.fanuc_flow:
             control.motion = code
-        elif code is not None and axes:
+        elif code not in (None, "G80") and axes:
             raise BlockFault(f"{once} and {code} in one block both want its axis words; write them in two.", letter="g")
         _go_home(control, block, once)
         return
@@ -200,7 +200,7 @@ def move(control: Control, block: Block) -> None:
         control.cycle = None
     if control.motion not in CURVES:
         drop_curve(control)
-    if control.compensation is not None and control.motion in CYCLES:
+    if control.side and control.motion in CYCLES:
         raise BlockFault("a canned cycle cannot be while cutter compensation is on; write G40 before.", letter="g")
     _MOTIONS[control.motion](control, block)
 
@@ -294,7 +294,7 @@ def _arc(control: Control, block: Block) -> None:
     _check_arc_words(block, "ijk"[w], code)
     end = _target(control, block)
     centre = _centre_by_r(control, block, end) if block.has("r") else _centre_by_ijk(control, block)
-    turns = whole(block.get("p") or 1.0, "P of an arc") if block.has("p") else 1
+    turns = whole(block.values.get("p", 1.0), "P of an arc")
     if not 1 <= turns <= MOST_TURNS:
         raise BlockFault(f"the arc has P{turns} turns; use 1 to {MOST_TURNS}.", letter="p")
     _check_radii(control, end, centre)
@@ -484,7 +484,7 @@ def bore(control: Control, block: Block) -> None:
     if control.cycle is None:
         control.initial = place[control.modal.plane.axes[2]]
     cycle = with_sticky(_canned_cycle(control, block), control.cycle)
-    control.cycle = cycle
+    control.cycle = replace(cycle, planes=hole_planes(cycle, control.initial)) if cycle.planes_stay else cycle
     control.note_known(block)
     if taps_astray(cycle):
         control.warn(
@@ -551,6 +551,7 @@ def _canned_cycle(control: Control, block: Block) -> Cycle:
         spindle=control.modal.spindle,
         unit_mm=control.unit,
         fanuc=fanuc,
+        planes_stay=control.rules.vacant,
     )
 
 

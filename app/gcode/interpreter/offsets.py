@@ -30,6 +30,7 @@ class WorkOffsets:
         name: of the one in force.
         local: G52. set_here: G92, kept while it is switched off. set_here_on: whether it is in force.
         tool: what G43 takes off.
+        turn, pivot: what G68 turns the program by, radians, and about, program coordinates.
         local_is_set_here: G52 writes what G92 writes, as in LinuxCNC.
     """
 
@@ -42,21 +43,28 @@ class WorkOffsets:
     set_here: Place = ZERO
     set_here_on: bool = True
     tool: Place = ZERO
+    turn: float = 0.0
+    pivot: Place = ZERO
 
     @property
     def rotation(self) -> float:
-        """Rotation of the work offset in force, radians."""
+        """Rotation of the program in force, radians: that of its work offset, and its own."""
+        return self._offset_rotation + self.turn
+
+    @property
+    def _offset_rotation(self) -> float:
         return self.turned.get(self.name, 0.0)
 
     @property
     def within(self) -> Place:
-        """What is added to program coordinates before they are turned."""
-        return added(self.local, self.set_here if self.set_here_on else ZERO)
+        """What is added to program coordinates before they are turned with the work offset."""
+        shifted = added(self.local, self.set_here if self.set_here_on else ZERO)
+        return added(shifted, taken(self.pivot, turned(self.pivot, self.turn)))
 
     @property
     def shift(self) -> Place:
         """What is added to program coordinates after they are turned: all offsets together."""
-        return added(self._origin, turned(self.within, self.rotation))
+        return added(self._origin, turned(self.within, self._offset_rotation))
 
     @property
     def _origin(self) -> Place:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from ...core.errors import MOST_QUOTED, shortened
 from ...core.progress import Progress
 from ...model.part import Units
-from .block import SLASH, Block, BlockStep, ParsedLine, Watch, block_of, parse
+from .block import SLASH, Block, BlockStep, Grammar, ParsedLine, Watch, block_of, parse
 from .codes import CYCLES, TAKES, ModalGroup
 from .control import Control
 from .dialect import Dialect
@@ -27,6 +27,7 @@ from .foreign_codes import (
     warn_of_uncalled,
 )
 from .foreign_languages import foreign_language
+from .linuxcnc_blocks import check_linuxcnc_block, check_linuxcnc_line, check_one_taker
 from .moves import move
 from .notes import notes
 from .options import ReadOptions
@@ -34,8 +35,10 @@ from .own_header import register_diameters, registers_hold_wear
 from .places import Cursor, JumpTargets
 from .polar import check_polar, turn_polar_into_axes
 from .program import BlockFault, EventKind, NcProgram, ProgramProblem, Severity
+from .saved_state import obey_state, restore
 from .settings import before_motion, set_once
 from .text import ProgramBuffer, code_of, column_of
+from .turned_program import check_turned, spell_polar
 
 LINES_A_STEP = 20_000
 """Lines between two looks at whether the job was cancelled."""
@@ -85,6 +88,7 @@ class InterpreterRun:
         self._control.registers_hold_wear = registers_hold_wear(data)
         self._control.register_diameters = register_diameters(data)
         self._rules = self._control.rules
+        self._grammar = Grammar.of(self._rules)
         self._not_quick = _NOT_QUICK_IN_MACRO_B if self._rules.fanuc_flow else _NOT_QUICK
         self._flow = Flow(JumpTargets(self._text), self._control)
         self._longest = min(options.limits.line_length, self._rules.longest_line - self._text.dropped)
@@ -140,6 +144,7 @@ class InterpreterRun:
         if control.compensation is not None:
             control.compensation.spill(control.columns)
         self._warn_of_start()
+        self._warn_of_tools()
         warnings = [
             ProgramProblem(line, 0, letter.upper(), text, Severity.WARNING)
             for text, (letter, line) in control.warnings.items()
@@ -180,6 +185,17 @@ class InterpreterRun:
                 f"{' '.join(f'{letter}0' for letter in axes)} of the work offsets' table.",
                 "g",
             )
+
+    def _warn_of_tools(self) -> None:
+        """Tell of tools that LinuxCNC does not change to, for they are in no row of its table."""
+        control = self._control
+        if self._options.dialect is not Dialect.LINUXCNC or not control.tool_table:
+            return
+        changes = (event for event in control.events if event.kind is EventKind.TOOL_CHANGE and event.value)
+        for event in changes:
+            if int(event.value) not in control.tool_table:
+                control.line = event.line
+                control.warn(f"tool {event.value:g} is not in the tool table, and LinuxCNC stops there.", "t")
 
     def _skip_leader(self) -> None:
         """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before
@@ -257,6 +273,7 @@ class InterpreterRun:
             return not line
         behind = self._flow.next.offset
         rest = self._jump(line)
+        self._bring_back()
         self._check_passed(behind)
         return rest is None or self._done(rest)
 
@@ -303,8 +320,7 @@ class InterpreterRun:
         if self._text.line_end(at.offset) - at.offset > self._longest:
             raise BlockFault(f"the line is longer than {self._longest} characters.")
         code = code_of(self._text.line(at.offset), nested=self._options.dialect is not Dialect.LINUXCNC)
-        if self._options.block_delete and SLASH.match(code) is not None:
-            self._control.warn("blocks that begin with a slash are left out.", "/")
+        if SLASH.match(code) is not None and self._leaves_out(code):
             return ""
         if code.startswith("$") and self._options.dialect is Dialect.GRBL:
             self._control.warn("commands of the control itself ($) are passed over.")
@@ -313,11 +329,28 @@ class InterpreterRun:
             return ""
         if code.startswith("%") or _O_WORD.match(code) is not None or (self._rules.fanuc_flow and is_macro(code)):
             return code
-        return self._parse(code)
+        parsed = self._parse(code)
+        if self._options.dialect is Dialect.LINUXCNC:
+            check_linuxcnc_line(parsed)
+        return parsed
+
+    def _leaves_out(self, code: str) -> bool:
+        """Tell whether a block that begins with a slash, behind its number maybe, is left out."""
+        dialect = self._options.dialect
+        if dialect is Dialect.LINUXCNC and not code.startswith("/"):
+            raise BlockFault("LinuxCNC takes a slash at the beginning of a line only.", letter="/")
+        if dialect is Dialect.LINUXCNC and not self._options.block_delete and code[1:2].isdigit():
+            raise BlockFault("LinuxCNC numbers no slashes; write / alone.", letter="/")
+        if dialect is Dialect.GRBL:
+            self._control.warn("grbl leaves nothing out: it does the blocks that begin with a slash.", "/")
+            return False
+        if not self._options.block_delete:
+            return False
+        self._control.warn("blocks that begin with a slash are left out.", "/")
+        return True
 
     def _parse(self, code: str, begin: int = 0) -> ParsedLine:
-        rules = self._rules
-        return parse(code, self._options.limits.nesting, free=rules.fanuc_flow, polar=rules.ngc_flow, begin=begin)
+        return parse(code, self._options.limits.nesting, self._grammar, begin)
 
     def _jump(self, code: str) -> ParsedLine | None:
         """Obey a line that is a jump; return what is left of it to obey, with its place in the line."""
@@ -345,7 +378,13 @@ class InterpreterRun:
         if block.codes.get(ModalGroup.ONCE) == "G65":
             call_macro(self._flow, control, block)
             return True
+        before, side = control.modal, control.side
         before_motion(control, block)
+        if ModalGroup.STATE in block.codes:
+            obey_state(control, block, before, side)
+        if self._rules.fanuc_flow:
+            check_turned(control, block)
+            spell_polar(control, block)
         set_once(control, block)
         turn_polar_into_axes(control, block)
         move(control, block)
@@ -359,7 +398,14 @@ class InterpreterRun:
             control.warn("M99 begins the program again, for ever; it is read once.", "m")
             control.event(EventKind.END)
             return False
+        self._bring_back()
         return True
+
+    def _bring_back(self) -> None:
+        """Bring back what a subroutine that has ended kept by M73."""
+        if self._control.returning is not None:
+            saved, self._control.returning = self._control.returning, None
+            restore(self._control, saved)
 
     def _check_codes(self, block: Block) -> None:
         """Refuse, or pass over, what the control does not know."""
@@ -375,6 +421,10 @@ class InterpreterRun:
         unused = (
             "" if block.unknown or any(code in block.codes.values() for code in ("M98", "G65")) else self._unused(block)
         )
+        if self._options.dialect is Dialect.LINUXCNC:
+            check_linuxcnc_block(self._control, block)
+        elif strict:
+            check_one_taker(block)
         if unused and strict:
             raise BlockFault("no code in this block takes this word.", letter=unused)
         if unused:

@@ -18,6 +18,7 @@ from .foreign_codes import REMEDY
 from .offsets import ZERO, Place, added, offset_name, replaced, taken
 from .options import ToolOffset
 from .program import BlockFault, EventKind, FeedMode
+from .turned_program import choose_polar, turn_program
 
 PLANES = {"G17": Plane.XY, "G18": Plane.ZX, "G19": Plane.YZ}
 
@@ -151,7 +152,7 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
 
 def _check_compensation(control: Control, block: Block) -> None:
     """Refuse what cannot be done while cutter compensation is on."""
-    for group in (ModalGroup.PLANE, ModalGroup.OFFSET, ModalGroup.LENGTH, ModalGroup.TOOL):
+    for group in (ModalGroup.PLANE, ModalGroup.OFFSET, ModalGroup.LENGTH, ModalGroup.TOOL, ModalGroup.TURNING):
         code = block.codes.get(group)
         if code not in (None, "G17", "G18", "G19") or (
             code is not None and PLANES.get(code) is not control.modal.plane
@@ -169,18 +170,27 @@ def _length(control: Control, block: Block) -> None:
     number, tool = 0, ZERO
     if code == "G43.1":
         tool = _replaced_by_words(control, block, control.offsets.tool)
-        for letter in "xyz":
-            block.values.pop(letter, None)
+        if ModalGroup.MOTION not in block.codes:  # else the motion takes the axis words too
+            for letter in "xyz":
+                block.values.pop(letter, None)
     elif code != "G49":
         number = _length_number(control, block, code)
         tool = _table_offset(control, number)
         tool = added(control.offsets.tool, tool) if code == "G43.2" else tool
         tool = taken(ZERO, tool) if code == "G44" else tool
+        _warn_of_length(control, code, number)
     moved = taken(control.offsets.tool, tool)
     if moved != ZERO:
         control.at = added(control.at, moved)
     control.offsets.tool = tool
     control.change(length_offset=number)
+
+
+def _warn_of_length(control: Control, code: str, number: int) -> None:
+    """Tell of a length that is not that of the tool in the spindle; G43.2 adds another one on purpose."""
+    tool = control.modal.tool
+    if code != "G43.2" and number and tool and number != tool:
+        control.warn(f"{code} H{number} takes the length of another tool than T{tool}, which is in the spindle.", "h")
 
 
 def _length_number(control: Control, block: Block, code: str) -> int:
@@ -251,7 +261,7 @@ def _return_level(control: Control, block: Block) -> None:
 
 def _refused(control: Control, block: Block) -> None:
     """Refuse what would move the tool in a way that the reader does not follow."""
-    refused = {"G7": "the diameter mode of lathes", "G16": "polar coordinates", "G51": "scaling", "G68": "rotation"}
+    refused = {"G7": "the diameter mode of lathes", "G51": "scaling"}
     for code in block.codes.values():
         if code in refused:
             raise BlockFault(f"{refused[code]} ({code}) is not followed; {REMEDY}", letter="g")
@@ -273,9 +283,9 @@ _STEPS: tuple[tuple[ModalGroup, Callable[[Control, Block], None]], ...] = (
     (ModalGroup.RETURN, _return_level),
     (ModalGroup.ONCE, _refused),
     (ModalGroup.LATHE, _refused),
-    (ModalGroup.POLAR, _refused),
+    (ModalGroup.POLAR, choose_polar),
     (ModalGroup.SCALING, _refused),
-    (ModalGroup.TURNING, _refused),
+    (ModalGroup.TURNING, turn_program),
 )
 """What each group does, in the order in which a control does it."""
 

@@ -93,7 +93,7 @@ def read_block(data, start, longest, parameters, line, values, waiting, computes
         computes: whether expressions and parameters are known here.
     """
     line[1][:], line[4][:] = _ABSENT, 0
-    i, numbered = start, False
+    i, numbered, worded = start, False, False
     while i < len(data) and data[i] != 10:
         c = data[i] & 0xDF if data[i] >= 96 else data[i]  # in capitals
         if c == 32 or c == 9:
@@ -106,12 +106,12 @@ def read_block(data, start, longest, parameters, line, values, waiting, computes
             i = _setting(data, i + 1, parameters, line, values, waiting)
         elif c == 78:  # N
             i = past_blanks(data, i + 1)
-            if numbered or i >= len(data) or not 48 <= data[i] <= 57:
+            if numbered or worded or i >= len(data) or not 48 <= data[i] <= 57:
                 return -1
             i, _, written = _number(data, i)
             i, numbered = (i if written != _ABSENT else -1), True
         elif 65 <= c <= 90:
-            i = _word(data, i + 1, c - 65, parameters, line, values, waiting, computes)
+            i, worded = _word(data, i + 1, c - 65, parameters, line, values, waiting, computes), True
         else:
             return -1
         if i < 0 or i - start > longest:

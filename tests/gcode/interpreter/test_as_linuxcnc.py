@@ -44,9 +44,60 @@ TAKEN = {
     "a line back along an arc, the tool outside": "F100\nG42.1 D2\nG1 X5\nX10\nG3 X7 Y3 I0 J3\nG1 Y20\nG40\nX0\nM2\n",
     "a way in by a rapid that the corner turns round": "F100\nG41.1 D5\nG0 X0.662185 Y-2.410718\nG1 X50 Y30\nG40\nG1 "
     "X0\nM2\n",
+    "a kept state comes back": "F100\nM70\nG91 G20\nF5\nG18\nM72\nG1 X2\nG2 X4 I1\nM2\n",
+    "a subroutine's by itself": "F100\no1 sub\nM73 G91 G0 X1\nG20\no1 endsub\no1 call\nG1 X2\nM2\n",
+    "and behind each call of M98": "F100\nM98 P1 L2\nG1 X1\nM2\no1\nM73\nG91 G0 X4\nM99\n",
+    "the program keeps its own over a call": (
+        "F100\nM70\no1 sub\nG91 G20\nF5\nG0 X1\no1 endsub\no1 call\nM72\nG1 X2\nM2\n"
+    ),
+    "with the level that cycles go back to": "F100\nG0 Z5\nG98\nM70\nG99\nM72\nG81 X1 Z-1 R2\nX5\nM2\n",
+    "with feeds a revolution": "S100 M3 G95 F1\nM70\nG94 F7\nM72\nG1 X5\nM2\n",
+    "with the work offset": "F100\nG10 L2 P2 X5\nG55\nM70\nG54\nM72\nG0 X3\nM2\n",
+    "with the length of the tool": "F100\nG0 Z7\nT1 M6\nG43\nM70\nG49\nM72\nG0 X3 Z3\nM2\n",
+    "with cutter compensation": "F100\nG0 Z7\nT1 M6\nG41\nM70\nG40\nM72\nG1 X10\nX20 Y20\nG40\nX0\nM2\n",
+    "twice": "F100\nM70\nG91\nM72\nG91\nM72\nG1 X5\nX5\nM2\n",
+    "no motion in its block": "F100\nG1 X1\nM70\nG91\nM72 X5\nX6\nM2\n",
+    "what it tells by name": (
+        "F100\nG1 X#<_line> Y#<_ccomp>\nX#<_motion_mode> Y#<_retract_r_plane> Z#<_flood>\nX#<_units_per_minute>\nM2\n"
+    ),
+    "a length that a motion goes with": "F100\nG0 X1 Y2 Z3\nG43.1 Z1 G0 X5\nM2\n",
+    "G80 beside home": "F100\nG1 X5\nG80 G28 X1\nM2\n",
 }
 
 REFUSED = {
+    "a state that nobody has kept": ("F100\nM72\nM2\n", "nothing is kept"),
+    "a state that was thrown away": ("F100\nM70\nM71\nM72\nM2\n", "nothing is kept"),
+    "a state that a caller has kept": (
+        "F100\no1 sub\nM72\no1 endsub\nM70\no1 call\nM2\n",
+        "nothing is kept",
+    ),
+    "a state beside the spindle": ("M70 M3 S100\nM2\n", "not in one block"),
+    "home beside a motion": ("F100\nG0 G28\nM2\n", "in one block both want"),
+    "G92 beside a motion": ("F100\nG92 G0 X1\nM2\n", "in one block both want"),
+    "G10 beside a motion": ("F100\nG10 L2 P1 G0\nM2\n", "in one block both want"),
+    "G53 alone": ("F100\nG0 X1\nG53\nM2\n", "goes with G0 and G1 only"),
+    "no length to add": ("G43.2\nM2\n", "needs a word H"),
+    "a length beside axis words": ("G43.2 Z1 H1\nM2\n", "needs a word H"),
+    "a curve without its point": ("F100\nG5.1 X1 Y1 I1\nM2\n", "control point"),
+    "a curve that goes on": ("F100\nG5 X1 Y1 I1 J1 P1 Q1\nX5 Y5 P1 Q2\nM2\n", "wants G5 again"),
+    "no turn of an arc": ("F100\nG2 X5 R2.5 P0\nM2\n", "P0 turns"),
+    "R where no hole is": ("F100\nG0 Z5\nG81 X1 Z1 R2\nR3\nM2\n", "no code in this block"),
+    "L where no hole is": ("F100\nG0 Z5\nG81 X1 Z1 R2\nL3\nM2\n", "no code in this block"),
+    "no output": ("M64\nM2\n", "needs a word P"),
+    "no analog output": ("M67 Q1\nM2\n", "needs a word E"),
+    "no input": ("M66 L0\nM2\n", "one of P and E"),
+    "a wait without an end": ("M66 P0 L3\nM2\n", "needs Q"),
+    "a spindle that turns too far": ("M19 R400\nM2\n", "R0 to R360"),
+    "a spindle that turns on no way": ("M19 R1 P3\nM2\n", "no way P3"),
+    "a tool below zero": ("M61 Q-1\nM2\n", "must be 0 or more"),
+    "two coolants": ("M7 M8\nM2\n", "one of M7, M8 and M9"),
+    "a surface speed that is not said": ("G96 D100\nM2\n", "needs a word S"),
+    "#0": ("G0 X#0\nM2\n", "no parameter #0"),
+    "a parameter beyond the last": ("#5602=1\nM2\n", "use 1 to 5601"),
+    "a parameter beyond the last to read": ("G0 X#9999\nM2\n", "use 1 to 5601"),
+    "a name of its own": ("#<_line>=1\nM2\n", "control's own and cannot be set"),
+    "a number behind words": ("G0 N5 X1\nM2\n", "at the beginning of a line"),
+    "a slash behind the number": ("N5 /G0 X5\nM2\n", "at the beginning of a line"),
     "an arc in mm that misses by 2.86 mm": (
         "G21 F100\nG0 X0 Y0\nG2 X6000 I3001.4284\nM2\n",
         "does not end on its circle",
@@ -135,6 +186,26 @@ def test_a_feed_beside_the_word_that_changes_the_units_is_told() -> None:
     assert read("G20 F60\nG1 X1\nM2\n").motions.feed.tolist() == [60.0], "as LinuxCNC does"
     assert not warnings(read("G20\nF60\nG1 X1\nM2\n")) and not warnings(read("G21 F60\nG1 X1\nM2\n"))
     assert read_program(b"G20 F60.\nG1 X1.\nM2\n", ReadOptions(Dialect.FANUC)).motions.feed.tolist() == [60 * 25.4]
+
+
+def test_a_tool_in_no_table_is_told() -> None:
+    text = "G0 X1\nT9 M6\nG0 X2\nM2\n"
+    told = warnings(read_program(text.encode(), OPTIONS))
+    assert told == ["tool 9 is not in the tool table, and LinuxCNC stops there."]
+    assert not warnings(read(text)), "nobody has given a table"
+    if RS274 is not None:
+        assert rs274(text.encode())[1]
+
+
+@pytest.mark.parametrize("text", ["G0 X#5221", "G0 X#5421", "T1 M6\nG0 X#5410", "G0 X#5161"])
+def test_what_the_machine_alone_knows_is_told(text: str) -> None:
+    told = warnings(read(f"G21\n{text}\nM2\n"))
+    assert len(told) == 1 and "is what the control knows when the program runs" in told[0], told
+
+
+@pytest.mark.parametrize("text", ["G10 L2 P1 X5\nG0 X#5221", "G0 X5\nG0 X#5420", "#5221=4\nG0 X#5221"])
+def test_what_the_program_says_itself_is_known(text: str) -> None:
+    assert not any("is what the control knows" in told for told in warnings(read(f"G21\n{text}\nM2\n")))
 
 
 def test_r_of_g64_is_known() -> None:

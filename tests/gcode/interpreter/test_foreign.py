@@ -1,5 +1,6 @@
 """How Fanuc, Haas, Mach3 and grbl programs of every day are written, beside what LinuxCNC knows."""
 
+import numpy as np
 import pytest
 
 from app.gcode.interpreter.dialect import Dialect
@@ -68,6 +69,8 @@ def test_offsets_of_haas() -> None:
 def test_a_macro_gets_its_arguments_by_their_letters() -> None:
     text = "G21\nG65 P9 A1. B2. X3. I4. L2\nM30\nO9\nG91 G0 X#1 Y#2 Z[#24+#4]\nM99\n"
     assert ends(read(text, Dialect.FANUC)) == [(1, 2, 7), (2, 4, 14)]
+    text = "G21\nG0 X0. Y0. Z0.\nG65 P9 M48 S5. T2\nM30\nO9\nG0 X#13 Y#19 Z#20\nM99\n"
+    assert ends(read(text, Dialect.FANUC))[-1] == (48, 5, 2)
     assert "there is no subroutine O8" in told("G65 P8\n", Dialect.FANUC)
 
 
@@ -84,9 +87,12 @@ def test_rotary_axes_are_told() -> None:
 
 
 def test_slashed_blocks_are_told() -> None:
-    assert any("slash" in text for text in warnings("G0 X1\n/G0 X2\nN5 /G0 X3\nM2\n"))
-    assert ends(read("G0 X1\n/G0 X2\nN5 /G0 X3\nM2\n")) == [(1, 0, 0)]
-    assert len(read_program(b"G0 X1\n/G0 X2\nN5 /2 G0 X3\nM2\n", ReadOptions(block_delete=False)).motions) == 3
+    assert any("slash" in text for text in warnings("G0 X1\n/G0 X2\nM2\n"))
+    assert ends(read("G21 G0 X1.\n/G0 X2.\nN5 /G0 X3.\nM2\n", Dialect.FANUC)) == [(1, 0, 0)]
+    assert ends(read("G0 X1\n/G0 X2\n", Dialect.GRBL)) == [(1, 0, 0), (2, 0, 0)]  # it leaves nothing out
+    assert ends(read("G0 X1\n/G0 X2\nM2\n")) == [(1, 0, 0)]
+    text = b"G21 G0 X1.\n/G0 X2.\nN5 /2 G0 X3.\nM2\n"
+    assert len(read_program(text, ReadOptions(Dialect.FANUC, block_delete=False)).motions) == 3
 
 
 def test_numbers_and_units_that_settings_decide_are_told() -> None:
@@ -155,9 +161,121 @@ def test_ends_of_what_is_never_in_force_are_nothing(line: str) -> None:
     assert ends(read(text, Dialect.FANUC)) == [(1, 0, 0)] and not warnings(text, Dialect.FANUC)
 
 
-@pytest.mark.parametrize("code", ["G31 Z-5. F50.", "G51.1 X0.", "G76 X1. Z-5. R2. Q0.5 F100.", "G66 P9100", "G68 R90."])
+@pytest.mark.parametrize("code", ["G31 Z-5. F50.", "G51.1 X0.", "G76 X1. Z-5. R2. Q0.5 F100.", "G66 P9100", "G51 P2."])
 def test_what_is_not_followed_is_told_with_what_to_do(code: str) -> None:
     assert "is not followed; write out the moves that it makes" in told(f"G21\nG0 X1.\n{code}\n", Dialect.FANUC)
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [
+        ("5OR3", 7.0),
+        ("5XOR3", 6.0),
+        ("5AND3", 1.0),
+        ("4+1AND1", 5.0),
+        ("7AND3+4", 7.0),
+        ("FIX[-2.5]", -2.0),
+        ("FUP[-2.5]", -3.0),
+        ("-7MOD3", -1.0),
+        ("1+1EQ2", 1.0),
+    ],
+)
+def test_operators_of_macro_b(expression: str, value: float) -> None:
+    """AND binds as * does, OR and XOR as +; all three go bit by bit. FIX goes towards 0, and MOD keeps the sign."""
+    for dialect in (Dialect.FANUC, Dialect.HAAS):
+        assert ends(read(f"G21\n#1={expression}\nG0 X#1 Y0. Z0.\nM30\n", dialect)) == [(value, 0, 0)]
+    assert "must be a whole number" in told("G21\n#1=0.5OR1\n", Dialect.FANUC)
+
+
+def test_modes_are_kept_and_brought_back_by_macro_b() -> None:
+    text = "G21 G90 G0 X0. Y0. Z0.\n#1=#4003\n#2=#4001\nG91 G1 X1. F10.\nG#1 G#2\nX5.\nX[#5041+#4120]\nM30\n"
+    assert ends(read(text, Dialect.FANUC)) == [(0, 0, 0), (1, 0, 0), (5, 0, 0), (5, 0, 0)]
+    assert not warnings(text, Dialect.FANUC)
+
+
+@pytest.mark.parametrize("number", [2001, 3011, 4130, 5021, 5221])
+def test_what_fanuc_alone_knows_is_told(number: int) -> None:
+    known = warnings(f"G21 G0 X1.\n#1=#{number}\nG0 X#1\nM30\n", Dialect.FANUC)
+    assert any(f"#{number} is what the control knows" in text for text in known)
+
+
+@pytest.mark.parametrize("dialect", list(Dialect)[:1] + OTHERS)
+def test_the_length_of_another_tool_is_told(dialect: Dialect) -> None:
+    text = "G21 G0 X1. Y0. Z9.\nT1 M6\nG43 H{} G0 Z5.\nM30\n"
+    assert any("another tool than T1" in said for said in warnings(text.format(2), dialect))
+    assert not warnings(text.format(1), dialect) and not warnings(text.format(0), dialect)
+
+
+def test_heights_of_holes_stay_where_g91_follows() -> None:
+    text = "G21 G90 G0 X0. Y0. Z5.\nG99 G81 X50. Z-1. R1. F100.\nG91 X30.\nG80\nM30\n"
+    for dialect in (Dialect.FANUC, Dialect.HAAS):
+        assert ends(read(text, dialect))[-3:] == [(80, 0, 1), (80, 0, -1), (80, 0, 1)]
+    text = "G21 G90 G0 X0. Y0. Z5.\nG91 G81 X1. R-3. Z-4. F100.\nG90 X9.\nG80\nM30\n"
+    assert ends(read(text, Dialect.FANUC))[-3:] == [(9, 0, 2), (9, 0, -2), (9, 0, 5)]
+
+
+TURNED = "G21 G90 G17\nG0 X0. Y0. Z0.\nG68 {} R90.\nG1 X20. Y0. F100.\nG2 Y10. I0. J5.\nG69\nG0 X1. Y2.\nM30\n"
+
+
+@pytest.mark.parametrize(
+    ("dialect", "centre"),
+    [(Dialect.FANUC, "X10. Y0."), (Dialect.HAAS, "X10. Y0."), (Dialect.MACH3, "A10. B0.")],
+)
+def test_a_program_turned_about_a_point(dialect: Dialect, centre: str) -> None:
+    program = read(TURNED.format(centre), dialect)
+    assert ends(program) == [(0, 0, 0), (10, 10, 0), (0, 10, 0), (1, 2, 0)]
+    assert program.motions.centre[2][:2].tolist() == pytest.approx([5, 10])
+    assert not warnings(TURNED.format(centre), dialect)
+
+
+def test_a_program_turned_where_the_tool_stands_with_other_zeros() -> None:
+    text = "G21 G90 G10 L2 P1 X100. Y0. Z0.\nG54 G52 X1.\nG0 X10. Y0. Z0.\nG68 R-90.\nG0 X11. Y0.\nG69\nM30\n"
+    assert ends(read(text, Dialect.FANUC)) == [(111, 0, 0), (111, -1, 0)]
+
+
+@pytest.mark.parametrize(
+    ("lines", "words"),
+    [
+        ("G68 R30.\nG68 R30.", "turned already"),
+        ("G91 G68 R30.", "under G91"),
+        ("G18 G68 R30.", "plane X Y"),
+        ("G68 X1. Y1.", "needs a word R"),
+        ("G68 R30.\nG92 X0.", "write G69 before"),
+        ("G68 R30.\nG55", "write G69 before"),
+        ("G68 R30.\nG28 X0.", "write G69 before"),
+    ],
+)
+def test_turns_that_controls_take_differently_are_refused(lines: str, words: str) -> None:
+    assert words in told(f"G21 G90 G17 G0 X0. Y0.\n{lines}\n", Dialect.FANUC)
+
+
+def test_a_first_move_behind_a_turn_that_is_not_sure_is_told() -> None:
+    head = "G21 G90 G17 G0 X0. Y0.\n"
+    for lines in ("G68 R30.\nX5.\nM30\n", "G68 R30.\nG91 X5. Y1.\nM30\n", "G68 R30.\nX5. Y5.\nG69\nY5.\nM30\n"):
+        assert any("first move behind G68" in text for text in warnings(head + lines, Dialect.FANUC)), lines
+    assert not warnings(head + "G69\nX5.\nM30\n", Dialect.FANUC)
+
+
+def test_polar_coordinates_of_fanuc() -> None:
+    holes_of_g16 = "G16 G99 G81 X50. Y0. Z-1. R1. F100.\nY90.\nG91 Y30. K2\nG90 G80 G15\n"
+    text = f"G21 G90 G17 G0 X0. Y0. Z5.\n{holes_of_g16}X1. Y1.\nM30\n"
+    holes = [end for end in ends(read(text, Dialect.FANUC)) if end[2] == -1]
+    across, up = 50 * 3**0.5 / 2, 25.0
+    assert np.allclose(holes, [(50, 0, -1), (0, 50, -1), (-up, across, -1), (-across, up, -1)])
+    assert ends(read(text, Dialect.FANUC))[-1] == (1, 1, 1)
+    assert "are not followed" in told("G21\nG16\n", Dialect.HAAS)
+
+
+@pytest.mark.parametrize("line", ["G91 G1 X5. Y3. F10.", "G2 X5. Y90. I1. J0. F10."])
+def test_polar_coordinates_that_mean_another_centre_are_refused(line: str) -> None:
+    assert "under G16" in told(f"G21 G90 G17 G0 X5. Y0.\nG16\n{line}\n", Dialect.FANUC)
+
+
+@pytest.mark.parametrize(
+    "code", ["M48", "M62 P1", "M70", "G33 Z1 K1", "G43.2 H1", "G41.1 D1", "G92.2", "G0 G28", "M19"]
+)
+def test_what_grbl_does_not_know_is_refused(code: str) -> None:
+    assert told(f"G21 F10\n{code}\n", Dialect.GRBL)
 
 
 @pytest.mark.parametrize("text", ["(only a comment)\n", "G21\nG90\n"])

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
 
+from app.core.errors import InputError
+from app.model.part import Units
 from app.ui.framework.view import View
 from app.ui.views.nc.motion_shapes import ViewSide
 from tests.ui.measure_window import Gaps
@@ -158,3 +160,22 @@ def test_the_frame_is_offered_when_there_is_a_job_to_go_round(qtbot, wiring):
     assert not wiring.window_.actions_["nc_frame"].isEnabled()
     wiring.files.open_sample()
     qtbot.waitUntil(wiring.window_.actions_["nc_frame"].isEnabled, timeout=WAIT_MS)
+
+
+def test_a_program_that_names_no_units_asks_for_them(qtbot, wiring, tmp_path):
+    """As a tool table does; what was said is what its cut is read in, and its own text has to say it to be smoothed."""
+    path = tmp_path / "nobody_said.ngc"
+    path.write_text(SMALL.replace("G21 ", ""))
+    nc, notice = open_file(qtbot, wiring, path), wiring.window_.notice
+    assert notice.isVisibleTo(wiring.window_) and "names no units" in notice.text.text()
+    assert [button.text() for button in notice.buttons] == ["Keep mm", "Read in inch"]
+    assert nc.shown.shapes.high[:, 0].max() == pytest.approx(45.0, abs=6)
+    qtbot.mouseClick(notice.buttons[1], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: nc.shown.source.units is Units.INCH, timeout=WAIT_MS)
+    assert nc.shown.program.motions.end[:, 0].max() == pytest.approx(40 * 25.4)
+    with pytest.raises(InputError, match="write G20"):
+        nc.shown.source.named_units()
+
+
+def test_a_program_that_names_its_units_is_not_asked(small, wiring):
+    assert not wiring.window_.notice.isVisibleTo(wiring.window_)

@@ -70,4 +70,4 @@ def _made(shown: ShownProgram, options: BetterOptions, progress: Progress) -> Be
     """
     from ....usecases.better.improve import better
 
-    return better(shown.source.name, shown.source.bytes(), options, progress=progress)
+    return better(shown.source.name, shown.source.named_units(), options, progress=progress)

@@ -114,7 +114,9 @@ def smoothed(was: ShownProgram, options: SmoothOptions, side: ViewSide, progress
     from ....model.motion_path import anchored
     from ....usecases.smoothing.smooth import smooth
 
-    done = smooth(was.source.name, was.source.bytes(), replace(options, dialect=was.dialect), progress.part(0.0, 0.7))
+    done = smooth(
+        was.source.name, was.source.named_units(), replace(options, dialect=was.dialect), progress.part(0.0, 0.7)
+    )
     name = Path(was.source.name)
     source = ProgramSource(
         f"{name.stem}-smooth{name.suffix}", done.data, dialect=done.dialects[1], tools=was.source.tools

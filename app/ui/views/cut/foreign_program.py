@@ -91,7 +91,10 @@ def foreign_shown(foreign: ForeignProgram, colour: CutColourBy, progress: Progre
 
     data = foreign.source.bytes()
     examined = examine(
-        foreign.source.name, data, ExamineOptions(foreign.dialect, foreign.source.tools), progress.part(0.0, 0.3)
+        foreign.source.name,
+        data,
+        ExamineOptions(foreign.dialect, foreign.source.tools, units=foreign.source.units),
+        progress.part(0.0, 0.3),
     )
     try:
         ready, reason = _ready(examined, foreign)

@@ -17,6 +17,7 @@ from ....gcode.interpreter.options import ToolOffset
 from ....gcode.interpreter.program import Severity
 from ....model.finding import Finding, FindingKind
 from ....model.job import Job
+from ....model.part import Units
 from ...framework.computation import ComputationState
 from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import clock, counted
@@ -245,7 +246,27 @@ class NcController(Controller):
             self._log.note(f"open {source.name}", _sentence(shown), error=shown.program.error is not None)
             self.front_requested.emit()
             self._view.setFocus()
+            if shown.unnamed and source.units is None and source.path is not None:
+                self._ask_for_units(source.name)
         self.changed.emit()
+
+    def _ask_for_units(self, name: str) -> None:
+        """Say in which units a program that names none was read, and offer the others."""
+        from ....formats.reading_question import UNIT_WORDS
+
+        keep, other = UNIT_WORDS[Units.MM], UNIT_WORDS[Units.INCH]
+        self._workspace.notice.ask(
+            f"{name} names no units (G20, G21); it was read in {keep}.",
+            [
+                (f"Keep {keep}", lambda: None),
+                (f"Read in {other}", self._read_in_inch),
+            ],
+        )
+        self._workspace.notice.show_with(self._view)
+
+    def _read_in_inch(self) -> None:
+        if self._foreign is not None:
+            self._read(replace(self._foreign, units=Units.INCH))
 
     def _read_as(self, dialect: Dialect | None) -> None:
         if self._foreign is not None:

@@ -60,7 +60,11 @@ def restarted(shown: ShownProgram, line: int, side: ViewSide, progress: Progress
     )
     name = Path(shown.source.name)
     source = ProgramSource(
-        f"{name.stem}-from-{line}{name.suffix}", data, dialect=shown.dialect, tools=shown.source.tools
+        f"{name.stem}-from-{line}{name.suffix}",
+        data,
+        dialect=shown.dialect,
+        tools=shown.source.tools,
+        units=shown.source.units,
     )
     return read_shown(source, side, progress.part(0.5, 1.0))
 

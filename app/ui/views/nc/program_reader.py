@@ -16,6 +16,7 @@ from ....gcode.interpreter.dialect import Dialect
 from ....gcode.interpreter.options import PATIENT, ReadOptions, ToolOffset
 from ....gcode.interpreter.program import NcProgram
 from ....gcode.timing.duration import Duration
+from ....model.part import Units
 from ...framework.worker import Answer, Worker
 from .line_marks import LineMarks, line_marks
 from .motion_shapes import MotionShapes, ViewSide, shape_motions
@@ -54,6 +55,7 @@ class ProgramSource:
     Attributes:
         name: for people. data: the bytes; None = those of the file. path: the file, None = it is in none.
         dialect: the control's; None = as it looks. tools: the control's tool table, for cutter compensation.
+        units: of a program that names none; None = nobody has said, and mm are taken.
     """
 
     name: str
@@ -61,10 +63,21 @@ class ProgramSource:
     path: Path | None = None
     dialect: Dialect | None = None
     tools: Mapping[int, ToolOffset] = field(default_factory=dict)
+    units: Units | None = None
 
     def options(self, dialect: Dialect) -> ReadOptions:
         """Return how the program is to be read."""
-        return ReadOptions(dialect, self.tools, limits=PATIENT)
+        return ReadOptions(dialect, self.tools, limits=PATIENT, units=self.units)
+
+    def named_units(self) -> bytes:
+        """Return the bytes of a program whose text says its units, or whose mm are what everything takes it in.
+
+        Raises:
+            InputError: it was said to be in inches, which its own text does not say; the file cannot be read.
+        """
+        if self.units is Units.INCH:
+            raise InputError(f"{self.name} names no units; write G20 at its beginning, so that its own text says inch.")
+        return self.bytes()
 
     def bytes(self) -> bytes:
         """Return the program's bytes.
@@ -89,6 +102,7 @@ class ShownProgram:
         text, looks, shapes: lines, their looks, the motions; where the tool stands before them nobody knows, so the
             first ones begin where the program sends each axis. times: when each motion ends.
         pictures: of the sides that were asked for.
+        unnamed: it moves, and names no units.
     """
 
     source: ProgramSource
@@ -99,6 +113,7 @@ class ShownProgram:
     shapes: MotionShapes
     times: Duration
     pictures: dict[ViewSide, MotionLayer]
+    unnamed: bool = False
 
     @property
     def program(self) -> NcProgram:
@@ -115,6 +130,7 @@ def read_shown(source: ProgramSource, side: ViewSide, progress: Progress) -> Sho
     """
     from ....formats.machine_toml import DEFAULT_MACHINE, load_machine
     from ....gcode.interpreter.dialect_guess import guess_dialect
+    from ....gcode.interpreter.foreign_codes import names_units
     from ....gcode.interpreter.notes_operation import contour_motions
     from ....gcode.interpreter.reader import read_program
     from ....gcode.timing.duration import duration
@@ -134,7 +150,9 @@ def read_shown(source: ProgramSource, side: ViewSide, progress: Progress) -> Sho
     progress.step(0.95, "Estimating the time")
     times = duration(program, load_machine(DEFAULT_MACHINE))
     looks = line_marks(len(text), shapes, program.problems)
-    return ShownProgram(replace(source, data=data), dialect, guessed, text, looks, shapes, times, {side: picture})
+    read = replace(source, data=data)
+    unnamed = len(shapes) > 0 and not names_units(data)
+    return ShownProgram(read, dialect, guessed, text, looks, shapes, times, {side: picture}, unnamed)
 
 
 class ProgramReader(QObject):
