@@ -61,6 +61,50 @@ def _borders(shapes, k, circle, less, out):
     return count
 
 
+@kernel(f"int64({_SHAPES}, int64, UniTuple(float64, 3), float64, UniTuple(float64, 2), float64[:, ::1])", counts=False)
+def _stretches(shapes, k, circle, less, window, out):
+    """Put the stretches (begin, end) of a part of a circle that shape k covers into `out`; return how many."""
+    first, size = window
+    own = out[6]
+    found, count = _borders(shapes, k, circle, less, own), 0
+    for i in range(1, found):
+        j = i
+        while j > 0 and (own[j] - first) % _TURN < (own[j - 1] - first) % _TURN:
+            own[j - 1], own[j] = own[j], own[j - 1]
+            j -= 1
+    for i in range(max(found, 1)):
+        begin = (own[i] - first) % _TURN if found else 0.0
+        end = (own[i + 1] - first) % _TURN if i + 1 < found else begin + _TURN
+        if found and i + 1 == found:
+            end = (own[0] - first) % _TURN + _TURN
+        # between two neighbouring crossings no border is met, so the middle speaks for all of the stretch
+        middle = first + (begin + end) / 2
+        if not _holds(shapes, k, circle[0] + circle[2] * math.cos(middle), circle[1] + circle[2] * math.sin(middle), less):
+            continue
+        if begin < size:
+            out[count, 0], out[count, 1] = begin, min(end, size)
+            count += 1
+        if end > _TURN:
+            out[count, 0], out[count, 1] = 0.0, min(end - _TURN, size)
+            count += 1
+    return count
+
+
+@kernel(f"float64[:, ::1]({_SHAPES}, UniTuple(float64, 3), float64, UniTuple(float64, 2))")
+def _covered(shapes, circle, less, window):
+    """Return the stretches (n, 2) of a part of a circle that shapes cover, by where they begin, radians from the part's
+    beginning.
+    """
+    own, count = np.empty((8, 6)), 0
+    found = np.empty((7 * len(shapes), 2))
+    for k in range(len(shapes)):
+        for j in range(_stretches(shapes, k, circle, less, window, own)):
+            found[count, 0], found[count, 1] = own[j, 0], own[j, 1]
+            count += 1
+    order = np.argsort(found[:count, 0])
+    return found[order]
+
+
 @kernel(f"float64({_SHAPES}, UniTuple(float64, 3), float64, UniTuple(float64, 2))")
 def uncovered(shapes, circle, less, window):
     """Return how much of a part of a circle no shape covers, radians.
@@ -70,32 +114,28 @@ def uncovered(shapes, circle, less, window):
         less: so much smaller are all shapes taken to be, mm.
         window: angle at which the part begins, and its size, at most a full turn, radians.
     """
-    first, size = window
-    angles, own, count = np.empty(6 * len(shapes) + 2), np.empty(6), 2
-    angles[0], angles[1] = 0.0, size
-    for k in range(len(shapes)):
-        for j in range(_borders(shapes, k, circle, less, own)):
-            angle = (own[j] - first) % _TURN
-            if angle < size:
-                angles[count] = angle
-                count += 1
-    angles = np.sort(angles[:count])
-    bare = 0.0
-    for i in range(count - 1):
-        wide = angles[i + 1] - angles[i]
-        if wide <= 0.0:
-            continue
-        # between two neighbouring crossings no border is met, so the middle speaks for all of the stretch
-        middle = first + angles[i] + wide / 2
-        x, y = circle[0] + circle[2] * math.cos(middle), circle[1] + circle[2] * math.sin(middle)
-        held = False
-        for k in range(len(shapes)):
-            if _holds(shapes, k, x, y, less):
-                held = True
-                break
-        if not held:
-            bare += wide
-    return bare
+    covered, bare, reached = _covered(shapes, circle, less, window), 0.0, 0.0
+    for k in range(len(covered)):
+        bare += max(0.0, covered[k, 0] - reached)
+        reached = max(reached, covered[k, 1])
+    return bare + max(0.0, window[1] - reached)
+
+
+@kernel(f"float64({_SHAPES}, UniTuple(float64, 3), UniTuple(float64, 2), float64)")
+def last_uncovered(shapes, circle, window, least):
+    """Return where the last stretch of a part of a circle that no shape covers ends, radians from the part's beginning;
+    -1 where there is none.
+
+    Args:
+        circle, window: as of `uncovered`.
+        least: radians; a stretch that is no longer is none.
+    """
+    covered, found, reached = _covered(shapes, circle, 0.0, window), -1.0, 0.0
+    for k in range(len(covered)):
+        if covered[k, 0] - reached > least:
+            found = covered[k, 0]
+        reached = max(reached, covered[k, 1])
+    return window[1] if window[1] - reached > least else found
 
 
 @kernel(f"float64({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 2))")
