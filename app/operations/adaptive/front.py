@@ -24,7 +24,9 @@ _BARE = 0.01
 the walls.
 """
 
-_ABOUT = 2.0
+_RECENT = 4
+
+_ABOUT = 0.8
 """Radii of the cutter: so far round a place shapes are looked up at once, and serve until the cutter has left it."""
 
 _ALIKE = 2e-3
@@ -54,7 +56,11 @@ class MetalFront:
 
     def sweep(self, rows: Rows) -> None:
         """Take as clear what the cutter sweeps along rows (n, 8)."""
-        self._add(swath_shapes(rows, self.limit.radius))
+        shapes = swath_shapes(rows, self.limit.radius)
+        if len(self.table):
+            # where the path goes on, the cutter's disc there is known
+            shapes = shapes[(shapes[:, :3] != self.table[-_RECENT:, None, :3]).any(axis=2).all(axis=0)]
+        self._add(shapes)
 
     def _add(self, shapes: Floats) -> None:
         self.table = np.concatenate([self.table, shapes])

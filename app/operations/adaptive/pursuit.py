@@ -16,8 +16,10 @@ from ...geometry.primitives import Rows
 from .cleared_discs import Point, WallClearance
 from .front import MetalFront
 
-_STEP = 0.05
-"""Radii of the cutter from one place to the next."""
+_STEP, _FIRST, _GROWS = 0.06, 0.03, 0.06
+"""Radii of the cutter from one place to the next: at most, and at first, where the way bends the most; and by what
+share of what is gone they grow.
+"""
 
 _RIGHT = 1.0
 """Radii of the cutter; the least radius of a turn to the right, where metal draws back."""
@@ -78,9 +80,9 @@ class Pursuit:
         """Return places of a way that begins at the limit, up to where it turns along a wall; empty where there is no
         such way.
         """
-        step = _STEP * self.front.limit.radius
-        way = [start]
-        while len(way) * _STEP < _LONGEST:
+        radius, way, gone = self.front.limit.radius, [start], 0.0
+        while gone < _LONGEST * radius:
+            step = min(_STEP * radius, max(_FIRST * radius, _GROWS * gone))
             after = self._next(way[-1], step)
             if after is None:
                 return []
@@ -88,6 +90,7 @@ class Pursuit:
                 way.append(self._last(way[-1], step))
                 return way
             way.append(after)
+            gone += step
         return []
 
     def _over(self, at: Heading) -> float:

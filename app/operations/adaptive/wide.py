@@ -40,6 +40,9 @@ _MOST = 1500
 
 _AIR = math.radians(2.0)
 
+_ROUND = 1.3
+"""Times as long as straight on the way along a clear wall is still taken: it needs no turns."""
+
 _SAME = 1e-5
 
 
@@ -128,35 +131,52 @@ class WideClearing:
 
     def _go(self) -> tuple[Stretch, float]:
         """Go to the nearest metal that can be gone to over clear ground."""
-        assert self._pose is not None
-        at = (self._pose.x, self._pose.y)
         found = self._stretches()
-        found.sort(key=lambda each: math.dist(at, self.walls[each.wall].heading(each.begin).place))
+        found.sort(key=lambda each: min(self._away(each), self._on(each)))
         for stretch in found:
-            if self._at is not None and self._at[0] == stretch.wall and self._on_clear(*self._at, stretch.begin):
-                return stretch, self._at[1]
-            for share in _BEFORE:
-                start = stretch.begin - share * self.limit.radius
-                way = self._link(self.walls[stretch.wall].heading(start))
-                if way is not None:
-                    for row in way:
-                        self._link_row(row)
-                    return stretch, start
+            on = self._on(stretch)
+            if on <= _ROUND * self._away(stretch):
+                return stretch, self._along_clear(stretch, on)
+            start = self._across(stretch)
+            if start is not None:
+                return stretch, start
+            if on < math.inf:
+                return stretch, self._along_clear(stretch, on)
         raise NotWithinLimit
 
-    def _on_clear(self, number: int, start: float, end: float) -> bool:
-        """Tell whether a wall is clear from one place of it on to another, and go there if it is."""
-        wall = self.walls[number]
-        long = (end - start) % wall.length
+    def _away(self, stretch: Stretch) -> float:
+        assert self._pose is not None
+        return math.dist((self._pose.x, self._pose.y), self.walls[stretch.wall].heading(stretch.begin).place)
+
+    def _on(self, stretch: Stretch) -> float:
+        """Return how far it is along the wall on which the cutter stands, mm; inf where that is not clear."""
+        if self._at is None or self._at[0] != stretch.wall:
+            return math.inf
+        wall, start = self.walls[stretch.wall], self._at[1]
+        long = (stretch.begin - start) % wall.length
         gone = (wall.places - start) % wall.length
-        if self._uncut[number][gone < long - _SAME].any():
-            return False
+        return math.inf if self._uncut[stretch.wall][gone < long - _SAME].any() else long
+
+    def _along_clear(self, stretch: Stretch, long: float) -> float:
+        """Go along a clear wall up to metal; return where that is."""
+        assert self._at is not None
+        start = self._at[1]
         stop = start + max(0.0, long - _BEFORE[0] * self.limit.radius)
-        rows = wall.span(start, stop)
+        rows = self.walls[stretch.wall].span(start, stop)
         self.rows += list(rows)
         self.clear += [True] * len(rows)
-        self._at = (number, stop)
-        return True
+        return stop
+
+    def _across(self, stretch: Stretch) -> float | None:
+        """Go straight to metal; return at which place of its wall the cutter comes to it, None where it cannot."""
+        for share in _BEFORE:
+            start = stretch.begin - share * self.limit.radius
+            way = self._link(self.walls[stretch.wall].heading(start))
+            if way is not None:
+                for row in way:
+                    self._link_row(row)
+                return start
+        return None
 
     def _link(self, end: Heading) -> Rows | None:
         """Return a way to a wall, over clear ground but for its last row, None where there is none."""

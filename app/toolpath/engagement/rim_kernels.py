@@ -3,9 +3,10 @@
 What is clear of metal is known as convex shapes, a row each: a disc, cut by up to two half planes: (cx, cy, radius, nx,
 ny, h, mx, my, k), points p with |p - c| <= radius, n.p <= h and m.p <= k, mm; a half plane that is none has n = 0, h =
 inf. Every circle crosses the border of such a shape at no more than six places, in closed form, so at one place of a
-cutter the rim that no shape covers is known exactly. Along a piece of a path no point of the rim moves by more than
-half the piece's length from where it is in the middle, so what shapes that are so much smaller cover there is covered
-all along: the rest is a bound. A piece of which the bound is too large is halved.
+cutter the rim that no shape covers is known exactly. Along a line or an arc every point of the rim goes along a line, or
+an arc about the same centre, which leaves its chord by no more than the outermost does. So what of the rim a shape that
+is so much smaller holds at both ends of a piece, it holds all along, as it is convex: the rest is a bound. A piece of
+which the bound is too large is halved.
 """
 
 from __future__ import annotations
@@ -105,6 +106,16 @@ def _covered(shapes, circle, less, window):
     return found[order]
 
 
+@kernel("float64(float64[:, ::1], float64)", counts=False)
+def _bare(covered, size):
+    """Return how much of a part of a circle stretches leave, which are in order."""
+    bare, reached = 0.0, 0.0
+    for k in range(len(covered)):
+        bare += max(0.0, covered[k, 0] - reached)
+        reached = max(reached, covered[k, 1])
+    return bare + max(0.0, size - reached)
+
+
 @kernel(f"float64({_SHAPES}, UniTuple(float64, 3), float64, UniTuple(float64, 2))")
 def uncovered(shapes, circle, less, window):
     """Return how much of a part of a circle no shape covers, radians.
@@ -114,11 +125,7 @@ def uncovered(shapes, circle, less, window):
         less: so much smaller are all shapes taken to be, mm.
         window: angle at which the part begins, and its size, at most a full turn, radians.
     """
-    covered, bare, reached = _covered(shapes, circle, less, window), 0.0, 0.0
-    for k in range(len(covered)):
-        bare += max(0.0, covered[k, 0] - reached)
-        reached = max(reached, covered[k, 1])
-    return bare + max(0.0, window[1] - reached)
+    return _bare(_covered(shapes, circle, less, window), window[1])
 
 
 @kernel(f"float64({_SHAPES}, UniTuple(float64, 3), UniTuple(float64, 2), float64)")
@@ -138,20 +145,43 @@ def last_uncovered(shapes, circle, window, least):
     return window[1] if window[1] - reached > least else found
 
 
-@kernel(f"float64({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 2))")
-def _piece(shapes, row, radius, sweep, span):
-    """Return a bound of the engaged angle along a piece of a row; `sweep`: of the row, signed, and its length."""
-    middle, long = (span[0] + span[1]) / 2, sweep[1] * (span[1] - span[0])
+@kernel("UniTuple(float64, 3)(float64[::1], float64, float64)", counts=False)
+def _pose(row, sweep, share):
+    """Return a place of a row, and the direction of travel there."""
     if row[7] == 0.0:
         dx, dy = row[2] - row[0], row[3] - row[1]
-        x, y, ahead, turn = row[0] + dx * middle, row[1] + dy * middle, math.atan2(dy, dx), 0.0
-    else:
-        angle = math.atan2(row[1] - row[5], row[0] - row[4]) + sweep[0] * middle
-        x, y = row[4] + row[6] * math.cos(angle), row[5] + row[6] * math.sin(angle)
-        ahead, turn = angle + (_HALF if sweep[0] > 0.0 else -_HALF), abs(sweep[0]) * (span[1] - span[0]) / 2
-    # the front half of the rim, and by how much the direction turns within the piece to either side
-    wide = min(_TURN, math.pi + 2 * turn)
-    return uncovered(shapes, (x, y, radius), long / 2, (ahead - wide / 2, wide))
+        return row[0] + dx * share, row[1] + dy * share, math.atan2(dy, dx)
+    angle = math.atan2(row[1] - row[5], row[0] - row[4]) + sweep * share
+    ahead = angle + (_HALF if sweep > 0.0 else -_HALF)
+    return row[4] + row[6] * math.cos(angle), row[5] + row[6] * math.sin(angle), ahead
+
+
+@kernel(f"float64({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 2))")
+def _piece(shapes, row, radius, sweep, span):
+    """Return a bound of the engaged angle along a piece of a row; `sweep`: of the row, signed, and its length.
+
+    What one shape covers of the rim's front half at both ends of the piece, it covers all along.
+    """
+    turned = min(abs(sweep[0]) * (span[1] - span[0]) / 2, math.pi)
+    bulge = (row[6] + radius) * (1.0 - math.cos(turned))
+    x, y, ahead = _pose(row, sweep[0], span[0])
+    first, before = (x, y, radius), (ahead - _HALF, math.pi)
+    x, y, ahead = _pose(row, sweep[0], span[1])
+    last, after = (x, y, radius), (ahead - _HALF, math.pi)
+    own, other, count = np.empty((8, 6)), np.empty((8, 6)), 0
+    found = np.empty((14 * len(shapes), 2))
+    for k in range(len(shapes)):
+        many = _stretches(shapes, k, first, bulge, before, own)
+        if many == 0:
+            continue
+        for j in range(_stretches(shapes, k, last, bulge, after, other)):
+            for i in range(many):
+                begin, end = max(own[i, 0], other[j, 0]), min(own[i, 1], other[j, 1])
+                if begin < end:
+                    found[count, 0], found[count, 1] = begin, end
+                    count += 1
+    order = np.argsort(found[:count, 0])
+    return _bare(found[order], math.pi)
 
 
 @kernel(f"UniTuple(float64, 2)({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 4))")

@@ -33,10 +33,10 @@ def swath_shapes(rows: Rows, radius: float) -> Floats:
     Args:
         rows: (m, 8). radius: of the cutter, mm.
     """
-    made: list[tuple[float, ...]] = []
+    made: dict[tuple[float, ...], None] = {}
     for row in rows.tolist():
-        made += _of_line(row, radius) if row[7] == 0 else _of_arc(row, radius)
-    return np.array(made).reshape(-1, 9)
+        made.update(dict.fromkeys(_of_line(row, radius) if row[7] == 0 else _of_arc(row, radius)))
+    return np.array(list(made)).reshape(-1, 9)
 
 
 def _disc(x: float, y: float, radius: float) -> tuple[float, ...]:
@@ -66,10 +66,11 @@ def _of_arc(row: list[float], radius: float) -> list[tuple[float, ...]]:
     half = sweep / count / 2
     # the wedge's tip: deep, within the ring, and no side of the wedge may come nearer to the centre than it does
     tip = min(max(reach - _DEEP * radius, abs(turn - radius) + 1e-9), reach * math.cos(half))
-    made = [_disc(cx + turn * math.cos(first), cy + turn * math.sin(first), radius)]
+    made = [_disc(*row[:2], radius), _disc(*row[2:4], radius)]
     for k in range(count):
         ahead = first + (2 * k + 1) * half
-        made.append(_disc(cx + turn * math.cos(ahead + half), cy + turn * math.sin(ahead + half), radius))
+        if k:
+            made.append(_disc(cx + turn * math.cos(ahead - half), cy + turn * math.sin(ahead - half), radius))
         made.append(_wedge((cx, cy, reach), tip, ahead, half))
     return made
 
