@@ -41,7 +41,7 @@ _CRACK = 4e-3
 """mm by which a sector counts as wider than its arc: the cutter is round at both ends of the arc. Where an arc goes on
 in another one, as much may be between their centres: two of the coarsest digits each way."""
 
-_WHOLE = 1e-3
+_WHOLE = 1e-4
 """mm; a disc that is smaller by less than what its arcs sweep needs no sectors beside it."""
 
 _TIGHT = math.radians(0.02)

@@ -16,7 +16,7 @@ from .limit import EngagementLimit
 
 Floats = NDArray[np.float64]
 
-_HAIR = 1e-4
+_HAIR = 2e-3
 """Radians of the rim; less metal is none."""
 
 _BARE = 0.01

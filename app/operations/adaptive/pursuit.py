@@ -16,7 +16,7 @@ from ...geometry.primitives import Rows
 from .cleared_discs import Point, WallClearance
 from .front import MetalFront
 
-_STEP, _FIRST, _GROWS = 0.06, 0.03, 0.06
+_STEP, _FIRST, _GROWS = 0.06, 0.01, 0.08
 """Radii of the cutter from one place to the next: at most, and at first, where the way bends the most; and by what
 share of what is gone they grow.
 """
@@ -31,9 +31,6 @@ _HALVINGS = 30
 
 _TOLERANCE, _TURNED = 0.001, 1.2e-3
 """mm that arcs leave the places of a way by, and radians that they turn off it: the angle changes by as many."""
-
-_LESS = math.radians(0.15)
-"""Radians that the angle is less than planned: arcs are not quite the way."""
 
 _SAME = 1e-6
 
@@ -126,7 +123,7 @@ class Pursuit:
             return least
         if met > math.pi - _SAME:
             return None
-        return max(least, ahead + met - self.front.limit.planned + _LESS)
+        return max(least, ahead + met - self.front.limit.pursued)
 
 
 def arcs_through(way: list[Heading]) -> Rows:

@@ -35,8 +35,11 @@ _CLEAR = 0.5
 _SPARE = math.radians(0.25)
 """Radians that a bound may be above the planned angle."""
 
-_MOST = 1500
-"""Ways in one part."""
+_MOST, _TURNS = 1500, 40
+"""Ways in one part, and how often one leaves a wall."""
+
+_LOOKED, _SWEPT = 33, 2.0
+"""Places that are looked at on the arc in which the cutter turns away from a wall, and radians of it."""
 
 _AIR = math.radians(2.0)
 
@@ -197,40 +200,60 @@ class WideClearing:
     def _way(self, number: int, start: float) -> None:
         """Cut along a wall and along the metal in turns, until a wall is clear."""
         wall, at = self.walls[number], start
-        for _ in range(_MOST):
+        for _ in range(_TURNS):
             end, met = self._follow(wall, at)
             self._cut(wall.span(at, end))
             if not met:
                 self._stand(wall.heading(end))
                 self._at = (number, end)
                 return
-            number, at = self._pursue(wall.heading(end))
+            number, at = self._pursue(self._turned(wall.heading(end)))
             wall = self.walls[number]
         raise NotWithinLimit
 
     def _follow(self, wall: WallPath, start: float) -> tuple[float, bool]:
-        """Return up to where the cutter may follow a wall, and whether more than the limit would be engaged there."""
+        """Return up to where the cutter may follow a wall, and whether it must turn away there."""
         at, last, step = start, start, wall.spacing / 2
         while at - last < _CLEAR * self.limit.radius or last == start and at - start < self.limit.radius:
             if at - start > wall.length:
                 return start + wall.length, False
-            met = self._met(wall, at)
-            if met > self.limit.planned:
+            if self._most(wall, at)[0] > self.limit.pursued:
                 return self._where(wall, max(start, at - step), at), True
-            if met > 0.0:
+            if self._met(wall, at) > 0.0:
                 last = at
             at += step
         return max(last, start + step), False
+
+    def _most(self, wall: WallPath, at: float) -> tuple[float, int]:
+        """Return the greatest angle along the arc in which the cutter turns away from a place, and where on it that is."""
+        here = wall.heading(at)
+        met = [self.front.met(on.place, on.ahead) or 0.0 for on in (self._arc_on(here, k) for k in range(_LOOKED))]
+        found = int(np.argmax(met))
+        return met[found], found
+
+    def _arc_on(self, start: Heading, number: int) -> Heading:
+        """Return one of the places on the arc in which the cutter turns away from a wall."""
+        ahead = start.ahead + number * _SWEPT / (_LOOKED - 1)
+        cx, cy = start.left(self.turn)
+        return Heading(cx + self.turn * math.sin(ahead), cy - self.turn * math.cos(ahead), ahead)
+
+    def _turned(self, start: Heading) -> Heading:
+        """Cut along that arc up to where the most is engaged; return where that is."""
+        met = [self.front.met(on.place, on.ahead) or 0.0 for on in (self._arc_on(start, k) for k in range(_LOOKED))]
+        end = self._arc_on(start, int(np.argmax(met)))
+        if end != start and math.dist(start.place, end.place) > _SAME:
+            self._cut(np.array([[*start.place, *end.place, *start.left(self.turn), self.turn, 1.0]]))
+        return end
 
     def _met(self, wall: WallPath, at: float) -> float:
         here = wall.heading(at)
         return self.front.met(here.place, here.ahead) or 0.0
 
     def _where(self, wall: WallPath, low: float, high: float) -> float:
-        """Return where along a wall the limit is met."""
-        while high - low > 1e-7:
+        """Return where along a wall the cutter must turn away."""
+        while high - low > 1e-6:
             middle = (low + high) / 2
-            if self._met(wall, middle) > self.limit.planned:
+            if self._most(wall, middle)[0] > self.limit.pursued:
                 high = middle
             else:
                 low = middle
