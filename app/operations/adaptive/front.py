@@ -87,7 +87,7 @@ class MetalFront:
         return float(uncovered(self.near(place), circle, 0.0, window))
 
     def met(self, place: Point, ahead: float) -> float | None:
-        """Return up to where metal stands on the rim's front half, radians from its right end; None where there is none.
+        """Return up to where metal stands on the rim's front half, radians from its right end; None where none does.
 
         Args:
             ahead: direction of travel, radians.

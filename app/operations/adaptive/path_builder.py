@@ -67,8 +67,9 @@ class PathBuilder:
         self._stand((float(x), float(y)), 0)
 
     def go_on(self, rows: Rows, clear: NDArray[np.bool_]) -> None:
-        """Go along rows (n, 8), n >= 1, that begin where the path ends, (n,) of them over clear ground, and stand in the
-        disc that lies the farthest round the last place.
+        """Go along rows (n, 8), n >= 1, that begin where the path ends, (n,) of them over clear ground.
+
+        The cutter stands then in the disc that lies the farthest round the last place.
         """
         for row, air in zip(rows.tolist(), clear.tolist(), strict=True):
             self._cut(tuple(row), clear=air)

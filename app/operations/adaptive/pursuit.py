@@ -1,8 +1,8 @@
 """A way along metal at a constant engaged angle: the point of the rim at that angle runs along the metal's edge.
 
 From each place the direction of travel follows: the rim is met by metal from its right up to the angle, so the cutter
-goes on at a quarter turn to the left of where the angle begins. Errors die out, as the edge is ahead of the cutter. The way
-ends where the cutter has just room left to turn along the wall in a small arc.
+goes on at a quarter turn to the left of where the angle begins. Errors die out, as the edge is ahead of the cutter. The
+way ends where the cutter has just room left to turn along the wall in a small arc.
 """
 
 from __future__ import annotations
@@ -202,4 +202,4 @@ def _touching(at: Heading, other: Point, way: float) -> tuple[float, ...]:
         return (*ends, 0.0, 0.0, 0.0, 0.0)
     radius = square / (2 * side)
     cx, cy = at.left(radius)
-    return (*ends, cx, cy, abs(radius), math.copysign(1.0, side) )
+    return (*ends, cx, cy, abs(radius), math.copysign(1.0, side))

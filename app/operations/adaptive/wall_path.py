@@ -1,4 +1,4 @@
-"""The closed ways along walls, corners rounded: places of them by their distance from the beginning, and what is uncut."""
+"""Closed ways along walls, corners rounded: places of them by their distance from the beginning, and what is uncut."""
 
 from __future__ import annotations
 

@@ -1,9 +1,10 @@
 """Wide places: cleared by ways along the metal at a constant angle, from wall to wall, in place of discs.
 
 A disc's arc is engaged by the limit in one place, and by two thirds of it on average. Here the cutter follows a wall
-until so much is engaged as may be, and then the edge of the metal (`pursuit`), until it comes to a wall again. All of a
-part is cleared so in which there is room for the arcs in which it turns along walls; corners and necks are left to discs.
-Each row is proven before it counts; where one is not, all of it is given up, and discs clear the part.
+until so much is engaged as may be, turns away in an arc, and follows the edge of the metal (`pursuit`) until it comes
+to a wall again. All of a part is cleared so in which there is room for the arcs in which it turns along walls; corners
+and necks are left to discs. Each row is bounded before it counts; where one has too much, all of it is given up, and
+discs clear the part.
 """
 
 from __future__ import annotations
@@ -214,22 +215,22 @@ class WideClearing:
     def _follow(self, wall: WallPath, start: float) -> tuple[float, bool]:
         """Return up to where the cutter may follow a wall, and whether it must turn away there."""
         at, last, step = start, start, wall.spacing / 2
-        while at - last < _CLEAR * self.limit.radius or last == start and at - start < self.limit.radius:
+        while at - last < _CLEAR * self.limit.radius or (last == start and at - start < self.limit.radius):
             if at - start > wall.length:
                 return start + wall.length, False
-            if self._most(wall, at)[0] > self.limit.pursued:
+            if self._most(wall.heading(at))[0] > self.limit.pursued:
                 return self._where(wall, max(start, at - step), at), True
             if self._met(wall, at) > 0.0:
                 last = at
             at += step
         return max(last, start + step), False
 
-    def _most(self, wall: WallPath, at: float) -> tuple[float, int]:
-        """Return the greatest angle along the arc in which the cutter turns away from a place, and where on it that is."""
-        here = wall.heading(at)
-        met = [self.front.met(on.place, on.ahead) or 0.0 for on in (self._arc_on(here, k) for k in range(_LOOKED))]
+    def _most(self, start: Heading) -> tuple[float, Heading]:
+        """Return the greatest angle along the arc in which the cutter turns away from a wall, and where that is."""
+        on = [self._arc_on(start, k) for k in range(_LOOKED)]
+        met = [self.front.met(each.place, each.ahead) or 0.0 for each in on]
         found = int(np.argmax(met))
-        return met[found], found
+        return met[found], on[found]
 
     def _arc_on(self, start: Heading, number: int) -> Heading:
         """Return one of the places on the arc in which the cutter turns away from a wall."""
@@ -239,9 +240,8 @@ class WideClearing:
 
     def _turned(self, start: Heading) -> Heading:
         """Cut along that arc up to where the most is engaged; return where that is."""
-        met = [self.front.met(on.place, on.ahead) or 0.0 for on in (self._arc_on(start, k) for k in range(_LOOKED))]
-        end = self._arc_on(start, int(np.argmax(met)))
-        if end != start and math.dist(start.place, end.place) > _SAME:
+        end = self._most(start)[1]
+        if math.dist(start.place, end.place) > _SAME:
             self._cut(np.array([[*start.place, *end.place, *start.left(self.turn), self.turn, 1.0]]))
         return end
 
@@ -253,7 +253,7 @@ class WideClearing:
         """Return where along a wall the cutter must turn away."""
         while high - low > 1e-6:
             middle = (low + high) / 2
-            if self._most(wall, middle)[0] > self.limit.pursued:
+            if self._most(wall.heading(middle))[0] > self.limit.pursued:
                 high = middle
             else:
                 low = middle

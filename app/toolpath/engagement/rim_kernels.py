@@ -3,10 +3,10 @@
 What is clear of metal is known as convex shapes, a row each: a disc, cut by up to two half planes: (cx, cy, radius, nx,
 ny, h, mx, my, k), points p with |p - c| <= radius, n.p <= h and m.p <= k, mm; a half plane that is none has n = 0, h =
 inf. Every circle crosses the border of such a shape at no more than six places, in closed form, so at one place of a
-cutter the rim that no shape covers is known exactly. Along a line or an arc every point of the rim goes along a line, or
-an arc about the same centre, which leaves its chord by no more than the outermost does. So what of the rim a shape that
-is so much smaller holds at both ends of a piece, it holds all along, as it is convex: the rest is a bound. A piece of
-which the bound is too large is halved.
+cutter the rim that no shape covers is known exactly. Along a line or an arc every point of the rim goes along a line,
+or an arc about the same centre, which leaves its chord by no more than the outermost does. So what of the rim a shape
+that is so much smaller holds at both ends of a piece, it holds all along, as it is convex: the rest is a bound. A piece
+of which the bound is too large is halved.
 """
 
 from __future__ import annotations
@@ -80,7 +80,9 @@ def _stretches(shapes, k, circle, less, window, out):
             end = (own[0] - first) % _TURN + _TURN
         # between two neighbouring crossings no border is met, so the middle speaks for all of the stretch
         middle = first + (begin + end) / 2
-        if not _holds(shapes, k, circle[0] + circle[2] * math.cos(middle), circle[1] + circle[2] * math.sin(middle), less):
+        if not _holds(
+            shapes, k, circle[0] + circle[2] * math.cos(middle), circle[1] + circle[2] * math.sin(middle), less
+        ):
             continue
         if begin < size:
             out[count, 0], out[count, 1] = begin, min(end, size)
