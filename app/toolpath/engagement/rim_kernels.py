@@ -20,6 +20,7 @@ from ...core.jit import kernel
 _SHAPES = "float64[:, ::1]"
 _HALF, _TURN = math.pi / 2, 2 * math.pi
 _STACK = 64
+_ROUNDING = 1e-12  # radians between stretches that end and begin at one place
 _ALIKE = 1e-3  # radians by which a bound may grow from piece to piece without a closer look
 
 
@@ -113,9 +114,10 @@ def _bare(covered, size):
     """Return how much of a part of a circle stretches leave, which are in order."""
     bare, reached = 0.0, 0.0
     for k in range(len(covered)):
-        bare += max(0.0, covered[k, 0] - reached)
+        if covered[k, 0] - reached > _ROUNDING:
+            bare += covered[k, 0] - reached
         reached = max(reached, covered[k, 1])
-    return bare + max(0.0, size - reached)
+    return bare + size - reached if size - reached > _ROUNDING else bare
 
 
 @kernel(f"float64({_SHAPES}, UniTuple(float64, 3), float64, UniTuple(float64, 2))")
