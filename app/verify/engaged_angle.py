@@ -23,6 +23,7 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.primitives import lengths, points_at, sweeps
 from ..model.motion import MotionKind
 from ..toolpath.engagement.rim_kernels import bound_along, clear_radius
+from ..toolpath.engagement.swath_shapes import swath_shapes
 
 Floats = NDArray[np.float64]
 
@@ -40,7 +41,7 @@ _CRACK = 4e-3
 """mm by which a sector counts as wider than its arc: the cutter is round at both ends of the arc. Where an arc goes on
 in another one, as much may be between their centres: two of the coarsest digits each way."""
 
-_WHOLE = 1e-3
+_WHOLE = 1e-4
 """mm; a disc that is smaller by less than what its arcs sweep needs no sectors beside it."""
 
 _TIGHT = math.radians(0.02)
@@ -194,6 +195,8 @@ class _Prover:
                 self._above.append(found)
         if abs(fall) <= _LEVEL and row[7] != 0:
             self._clear_by_arc(row, low, shapes, clear)
+        elif abs(fall) <= _LEVEL:
+            self._level(low).add(swath_shapes(row[None], self._radius))
 
     def _down(self, end: Floats, size: float) -> None:
         """Take a way down, straight or along a slope: at its end the cutter stands in a hole of its own size."""
@@ -253,9 +256,10 @@ class _Prover:
         return bound, share, clear
 
     def _clear_by_arc(self, row: Floats, z: float, shapes: Floats, clear: float) -> None:
-        """Take as clear what an arc has swept, as far as it makes sectors and discs."""
+        """Take as clear what an arc has swept: sectors and discs where it is clear within, else shapes of the ring."""
         x, y, turn = row[4:7].tolist()
         if clear < turn - self._radius + _CRACK:
+            self._level(z).add(swath_shapes(row[None], self._radius))
             return
         sectors = _sectors(row, self._radius, max(clear, self._radius - turn))
         reach = turn + self._radius

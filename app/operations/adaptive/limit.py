@@ -17,6 +17,8 @@ program move path and disc at most, both together."""
 _SPARE = math.radians(0.35)
 """Radians that the limit is not used by: in tight corners digits move the angle the most, and proofs need some room."""
 
+_LESS = math.radians(0.25)
+
 _LEAST_CENTRE = 0.002
 """mm; the least radius of a path that all controls know as an arc is 0.005 mm, and the tip of a corner needs a few."""
 
@@ -76,6 +78,11 @@ class EngagementLimit:
     def planned(self) -> float:
         """The angle that paths are planned with, radians."""
         return self.angle - _SPARE
+
+    @property
+    def pursued(self) -> float:
+        """The angle that ways along the metal's edge are planned with, radians: arcs are not quite these ways."""
+        return self.planned - _LESS
 
     @property
     def depth(self) -> float:

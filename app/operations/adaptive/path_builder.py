@@ -18,6 +18,7 @@ from .chips import DiscArc, feed_pieces
 from .cleared_discs import ClearedDisc, ClearedDiscs, Point
 from .limit import EngagementLimit
 from .link import Circle, PathPose, Row, smooth_way, way_in
+from .wall_path import WallPath, gone_already
 
 _NOTHING = 1e-6
 
@@ -65,9 +66,21 @@ class PathBuilder:
         x, y, _, _ = spiral[-1, [2, 3, 4, 5]]
         self._stand((float(x), float(y)), 0)
 
+    def go_on(self, rows: Rows, clear: NDArray[np.bool_]) -> None:
+        """Go along rows (n, 8), n >= 1, that begin where the path ends, (n,) of them over clear ground.
+
+        The cutter stands then in the disc that lies the farthest round the last place.
+        """
+        for row, air in zip(rows.tolist(), clear.tolist(), strict=True):
+            self._cut(tuple(row), clear=air)
+        x, y = rows[-1, 2:4].tolist()
+        self._stand((x, y), int(np.argmax(self.discs.depth_in((x, y)))))
+
     def slice(self, number: int) -> None:
-        """Clear a disc by the arc that its payer leaves of its circle."""
+        """Clear a disc by the arc that its payer leaves of its circle; nothing is to do where it is clear."""
         disc = self.discs.each[number]
+        if disc.swept:
+            return
         paying = self.discs.each[disc.payer]
         turn = disc.reach - self.limit.radius
         half = _half(disc, paying, self.limit)
@@ -89,8 +102,12 @@ class PathBuilder:
             a = b
         self._stand(a, number)
 
-    def ring(self, path: Rows) -> bool:
-        """Go along a ring, from where a disc that was cleared touches it; False where none does."""
+    def ring(self, path: Rows, swept: Sequence[WallPath]) -> bool:
+        """Go along a ring, from where a disc that was cleared touches it; False where none does.
+
+        Args:
+            swept: ways along walls that the path has gone already: along these the ground is clear.
+        """
         found = self._touching(path)
         if found is None:
             return False
@@ -103,8 +120,8 @@ class PathBuilder:
         x, y = rows[0][:2].tolist()
         angle = math.atan2(y - disc.y, x - disc.x)
         self._go(PathPose(x, y, angle, disc.reach - self.limit.radius), number)
-        for each in rows:
-            self._cut(tuple(each.tolist()))
+        for each, air in gone_already(rows, swept):
+            self._cut(each, clear=air)
         self._stand((x, y), number)
         return True
 
@@ -132,9 +149,9 @@ class PathBuilder:
         angle = math.atan2(place[1] - disc.y, place[0] - disc.x)
         self._pose, self._in = PathPose(*place, angle, max(math.dist(place, disc.centre), _NOTHING)), number
 
-    def _cut(self, row: Sequence[float], times: float = 1.0) -> None:
+    def _cut(self, row: Sequence[float], times: float = 1.0, clear: bool = False) -> None:
         self._rows.append(tuple(row))  # type: ignore[arg-type]
-        self._clear.append(False)
+        self._clear.append(clear)
         self._times.append(times)
 
     def _go(self, pose: PathPose, number: int) -> None:

@@ -52,18 +52,25 @@ class AxisWalk:
     discs: ClearedDiscs = field(default_factory=ClearedDiscs)
     stops: list[WalkStop] = field(default_factory=list)
 
-    def along(self, tree: AxisTree, progress: Progress) -> None:
-        """Clear all of a tree, from its root on.
-
-        Raises:
-            Cancelled: by progress.
-        """
+    def begin(self, tree: AxisTree) -> ClearedDisc:
+        """Return the first disc, that of the root."""
         (x, y), reach = _place(self.axis.points[tree.root], self.axis.reach[tree.root])
         if self.limit.grid is not None:
             (x, y), radius = self.limit.grid.nearest((x, y)), self.limit.radius
             reach = radius + self.limit.grid.within(min(reach, self.room.at((x, y))) - radius)
-        self.discs.add(ClearedDisc(x, y, reach, -1))
-        waiting = [(tree.root, child, 0) for child in reversed(tree.children(tree.root))]
+        return ClearedDisc(x, y, reach, -1)
+
+    def along(self, tree: AxisTree, swept: NDArray[np.bool_], progress: Progress) -> None:
+        """Clear all of a tree, from its root on.
+
+        Args:
+            swept: (n,) points of the axis whose discs are clear already, beside the root's; all of them joined to it.
+
+        Raises:
+            Cancelled: by progress.
+        """
+        self.discs.add(self.begin(tree))
+        waiting = self._from_swept(tree, swept)
         done = 0
         while waiting:
             before, node, payer = waiting.pop()
@@ -75,6 +82,20 @@ class AxisWalk:
             last = self._follow(chain, payer)
             if last is not None:
                 waiting += [(chain[-1], child, last) for child in reversed(tree.children(chain[-1]))]
+
+    def _from_swept(self, tree: AxisTree, swept: NDArray[np.bool_]) -> list[tuple[int, int, int]]:
+        """Return what is to be followed, the first last: (point, the one behind it, number of the disc there)."""
+        found: list[tuple[int, int, int]] = []
+        waiting = [(tree.root, 0)]
+        while waiting:
+            node, number = waiting.pop()
+            for child in reversed(tree.children(node)):
+                if swept[child]:
+                    (x, y), reach = _place(self.axis.points[child], self.axis.reach[child])
+                    waiting.append((child, self.discs.add(ClearedDisc(x, y, reach, number, True))))
+                else:
+                    found.append((node, child, number))
+        return found[::-1]
 
     def fits(self, centre: Point, reach: float, payer: int) -> bool:
         """Tell whether the arc round a place keeps the limit, if a disc pays for it."""

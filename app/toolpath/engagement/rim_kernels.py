@@ -145,6 +145,23 @@ def uncovered(shapes, circle, less, window):
     return _bare(_covered(shapes, circle, less, window), window[1])
 
 
+@kernel(f"float64({_SHAPES}, UniTuple(float64, 3), UniTuple(float64, 2), float64)")
+def last_uncovered(shapes, circle, window, least):
+    """Return where the last stretch of a part of a circle that no shape covers ends, radians from the part's beginning;
+    -1 where there is none.
+
+    Args:
+        circle, window: as of `uncovered`.
+        least: radians; a stretch that is no longer is none.
+    """
+    covered, found, reached = _covered(shapes, circle, 0.0, window), -1.0, 0.0
+    for k in range(len(covered)):
+        if covered[k, 0] - reached > least:
+            found = covered[k, 0]
+        reached = max(reached, covered[k, 1])
+    return window[1] if window[1] - reached > least else found
+
+
 @kernel("UniTuple(float64, 3)(float64[::1], float64, float64)", counts=False)
 def _pose(row, sweep, share):
     """Return a place of a row, and the direction of travel there."""

@@ -1,0 +1,309 @@
+"""Wide places: cleared by ways along the metal at a constant angle, from wall to wall, in place of discs.
+
+A disc's arc is engaged by the limit in one place, and by two thirds of it on average. Here the cutter follows a wall
+until so much is engaged as may be, turns away in an arc, and follows the edge of the metal (`pursuit`) until it comes
+to a wall again. All of a part is cleared so in which there is room for the arcs in which it turns along walls; corners
+and necks are left to discs. Each row is bounded before it counts; where one has too much, all of it is given up, and
+discs clear the part.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.progress import Progress
+from ...geometry.primitives import Rows, boxes
+from .cleared_discs import Point, WallClearance
+from .front import MetalFront
+from .limit import EngagementLimit
+from .link import PathPose, smooth_way
+from .pursuit import Heading, Pursuit, arcs_through
+from .wall_path import WallPath
+
+Flags = NDArray[np.bool_]
+
+_BEFORE = (0.1, 0.3, 0.7)
+"""Radii of the cutter: so far before metal the cutter comes to the wall; what is clear enough is taken."""
+
+_CLEAR = 0.5
+"""Radii of the cutter along a wall without metal, after which a way has ended."""
+
+_SPARE = math.radians(0.25)
+"""Radians that a bound may be above the planned angle."""
+
+_MOST, _TURNS = 1500, 40
+"""Ways in one part, and how often one leaves a wall."""
+
+_LOOKED, _SWEPT = 33, 2.0
+"""Places that are looked at on the arc in which the cutter turns away from a wall, and radians of it."""
+
+_AIR = math.radians(2.0)
+
+_ROUND = 1.3
+"""Times as long as straight on the way along a clear wall is still taken: it needs no turns."""
+
+_SAME = 1e-5
+
+
+class NotWithinLimit(Exception):
+    """A way that cannot be proven, or does not come to its end."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Metal along a wall: the path's number, and where it begins, mm from the path's beginning."""
+
+    wall: int
+    begin: float
+
+
+@dataclass
+class WideClearing:
+    """Clears a wide part.
+
+    Attributes:
+        limit, room: of the part.
+        turn: radius of the arcs in which the cutter turns along walls, mm.
+        walls: the ways along them.
+        front: what is clear.
+        rows, clear: the path so far, and whether each row is over clear ground.
+    """
+
+    limit: EngagementLimit
+    room: WallClearance
+    turn: float
+    walls: Sequence[WallPath]
+    front: MetalFront
+    rows: list[Rows] = field(default_factory=list)
+    clear: list[bool] = field(default_factory=list)
+    _uncut: list[Flags] = field(default_factory=list)
+    _pose: PathPose | None = None
+    _at: tuple[int, float] | None = None
+
+    def cut(self, pose: PathPose, progress: Progress) -> PathPose:
+        """Clear all; return where the path ends.
+
+        Args:
+            pose: where it begins.
+
+        Raises:
+            NotWithinLimit: there is no such path.
+            Cancelled: by progress.
+        """
+        self._pose = pose
+        everywhere = np.array([-math.inf, -math.inf, math.inf, math.inf])
+        self._uncut = [wall.uncut(self.front, np.ones(len(wall.places), np.bool_), everywhere) for wall in self.walls]
+        first = max(1, self._left())
+        for _ in range(_MOST):
+            left = self._left()
+            if not left:
+                return self._pose
+            progress.step(1 - left / first, "Clear along the metal")
+            self._one()
+        raise NotWithinLimit
+
+    def _left(self) -> int:
+        return sum(int(each.sum()) for each in self._uncut)
+
+    def _one(self) -> None:
+        """Cut one way."""
+        before, begin = self._left(), len(self.rows)
+        stretch, start = self._go()
+        self._way(stretch.wall, start)
+        cut = np.array(self.rows[begin:])
+        around = boxes(cut)
+        near = np.array([*(around[:, :2].min(axis=0)), *(around[:, 2:].max(axis=0))])
+        near += np.array([-1, -1, 1, 1]) * 2 * self.limit.radius
+        self._uncut = [wall.uncut(self.front, each, near) for wall, each in zip(self.walls, self._uncut, strict=True)]
+        if self._left() >= before:
+            raise NotWithinLimit
+
+    def _stretches(self) -> list[Stretch]:
+        found = []
+        for k, (wall, uncut) in enumerate(zip(self.walls, self._uncut, strict=True)):
+            begins = np.flatnonzero(uncut & ~np.roll(uncut, 1))
+            if uncut.all():
+                # no more than touched so far: where least stands
+                begins = np.array([np.argmin([self.front.bare(at.place, at.ahead) for at in wall.headings])])
+            found += [Stretch(k, float(wall.places[j])) for j in begins]
+        return found
+
+    def _go(self) -> tuple[Stretch, float]:
+        """Go to the nearest metal that can be gone to over clear ground."""
+        found = self._stretches()
+        found.sort(key=lambda each: min(self._away(each), self._on(each)))
+        for stretch in found:
+            on = self._on(stretch)
+            if on <= _ROUND * self._away(stretch):
+                return stretch, self._along_clear(stretch, on)
+            start = self._across(stretch)
+            if start is not None:
+                return stretch, start
+            if on < math.inf:
+                return stretch, self._along_clear(stretch, on)
+        raise NotWithinLimit
+
+    def _away(self, stretch: Stretch) -> float:
+        assert self._pose is not None
+        return math.dist((self._pose.x, self._pose.y), self.walls[stretch.wall].heading(stretch.begin).place)
+
+    def _on(self, stretch: Stretch) -> float:
+        """Return how far it is along the wall on which the cutter stands, mm; inf where that is not clear."""
+        if self._at is None or self._at[0] != stretch.wall:
+            return math.inf
+        wall, start = self.walls[stretch.wall], self._at[1]
+        long = (stretch.begin - start) % wall.length
+        gone = (wall.places - start) % wall.length
+        return math.inf if self._uncut[stretch.wall][gone < long - _SAME].any() else long
+
+    def _along_clear(self, stretch: Stretch, long: float) -> float:
+        """Go along a clear wall up to metal; return where that is."""
+        assert self._at is not None
+        start = self._at[1]
+        stop = start + max(0.0, long - _BEFORE[0] * self.limit.radius)
+        rows = self.walls[stretch.wall].span(start, stop)
+        self.rows += list(rows)
+        self.clear += [True] * len(rows)
+        return stop
+
+    def _across(self, stretch: Stretch) -> float | None:
+        """Go straight to metal; return at which place of its wall the cutter comes to it, None where it cannot."""
+        for share in _BEFORE:
+            start = stretch.begin - share * self.limit.radius
+            way = self._link(self.walls[stretch.wall].heading(start))
+            if way is not None:
+                for row in way:
+                    self._link_row(row)
+                return start
+        return None
+
+    def _link(self, end: Heading) -> Rows | None:
+        """Return a way to a wall, over clear ground but for its last row, None where there is none."""
+        assert self._pose is not None
+        pose = PathPose(end.x, end.y, end.ahead - math.pi / 2, self.turn)
+        rows = np.array(smooth_way(self._pose, pose, (), (*end.left(self.turn), self.turn))).reshape(-1, 8)
+        if any(self.front.bound(row, _AIR) > _AIR for row in rows[:-1]):
+            return None
+        return rows if not len(rows) or self.front.bound(rows[-1], self.limit.planned) <= self.limit.planned else None
+
+    def _link_row(self, row: Rows) -> None:
+        air = self.front.bound(row, _AIR) <= _AIR
+        if not air:
+            self.front.sweep(row[None])
+        self.rows.append(row)
+        self.clear.append(air)
+
+    def _way(self, number: int, start: float) -> None:
+        """Cut along a wall and along the metal in turns, until a wall is clear."""
+        wall, at = self.walls[number], start
+        for _ in range(_TURNS):
+            end, met = self._follow(wall, at)
+            self._cut(wall.span(at, end))
+            if not met:
+                self._stand(wall.heading(end))
+                self._at = (number, end)
+                return
+            number, at = self._pursue(self._turned(wall.heading(end)))
+            wall = self.walls[number]
+        raise NotWithinLimit
+
+    def _follow(self, wall: WallPath, start: float) -> tuple[float, bool]:
+        """Return up to where the cutter may follow a wall, and whether it must turn away there."""
+        at, last, step = start, start, wall.spacing / 2
+        while at - last < _CLEAR * self.limit.radius or (last == start and at - start < self.limit.radius):
+            if at - start > wall.length:
+                return start + wall.length, False
+            if self._most(wall.heading(at))[0] > self.limit.pursued:
+                return self._where(wall, max(start, at - step), at), True
+            if self._met(wall, at) > 0.0:
+                last = at
+            at += step
+        return max(last, start + step), False
+
+    def _most(self, start: Heading) -> tuple[float, Heading]:
+        """Return the greatest angle along the arc in which the cutter turns away from a wall, and where that is."""
+        on = [self._arc_on(start, k) for k in range(_LOOKED)]
+        met = [self.front.met(each.place, each.ahead) or 0.0 for each in on]
+        found = int(np.argmax(met))
+        return met[found], on[found]
+
+    def _arc_on(self, start: Heading, number: int) -> Heading:
+        """Return one of the places on the arc in which the cutter turns away from a wall."""
+        ahead = start.ahead + number * _SWEPT / (_LOOKED - 1)
+        cx, cy = start.left(self.turn)
+        return Heading(cx + self.turn * math.sin(ahead), cy - self.turn * math.cos(ahead), ahead)
+
+    def _turned(self, start: Heading) -> Heading:
+        """Cut along that arc up to where the most is engaged; return where that is."""
+        end = self._most(start)[1]
+        if math.dist(start.place, end.place) > _SAME:
+            self._cut(np.array([[*start.place, *end.place, *start.left(self.turn), self.turn, 1.0]]))
+        return end
+
+    def _met(self, wall: WallPath, at: float) -> float:
+        here = wall.heading(at)
+        return self.front.met(here.place, here.ahead) or 0.0
+
+    def _where(self, wall: WallPath, low: float, high: float) -> float:
+        """Return where along a wall the cutter must turn away."""
+        while high - low > 1e-6:
+            middle = (low + high) / 2
+            if self._most(wall.heading(middle))[0] > self.limit.pursued:
+                high = middle
+            else:
+                low = middle
+        return low
+
+    def _pursue(self, start: Heading) -> tuple[int, float]:
+        """Cut along the metal; return the wall path to which it comes, and where."""
+        inner = self.room.leave + self.limit.radius
+        way = Pursuit(self.front, self.room, self.turn, inner).along(start)
+        if not way:
+            raise NotWithinLimit
+        last = way[-1]
+        self._cut(arcs_through(way))
+        cx, cy = last.left(self.turn)
+        number, at = self._arrival((cx, cy), last)
+        end = self.walls[number].heading(at)
+        row = np.array([last.x, last.y, end.x, end.y, cx, cy, self.turn, 1.0])
+        if math.dist(last.place, end.place) > 1e-6:
+            self._cut(row[None])
+        return number, at
+
+    def _arrival(self, centre: Point, last: Heading) -> tuple[int, float]:
+        """Return (wall path, mm along it) where the turn along a wall comes to it."""
+        found = []
+        for k, wall in enumerate(self.walls):
+            at, away = wall.nearest(centre)
+            if abs(away - self.turn) < 1e-4:
+                found.append((k, at))
+        if not found:
+            raise NotWithinLimit
+        first = last.ahead - math.pi / 2
+        return min(found, key=lambda each: (self._seen(each, centre) - first + 1e-6) % math.tau)
+
+    def _seen(self, each: tuple[int, float], centre: Point) -> float:
+        x, y = self.walls[each[0]].heading(each[1]).place
+        return math.atan2(y - centre[1], x - centre[0])
+
+    def _cut(self, rows: Rows) -> None:
+        """Take rows as cut, each proven.
+
+        Raises:
+            NotWithinLimit: one is not.
+        """
+        most = self.limit.planned + _SPARE
+        for row in rows:
+            if self.front.bound(row, most) > most:
+                raise NotWithinLimit
+            self.front.sweep(row[None])
+            self.rows.append(row)
+            self.clear.append(False)
+
+    def _stand(self, at: Heading) -> None:
+        self._pose = PathPose(at.x, at.y, at.ahead - math.pi / 2, self.turn)
