@@ -201,9 +201,7 @@ class _Prover:
     def _down(self, end: Floats, size: float) -> None:
         """Take a way down, straight or along a slope: at its end the cutter stands in a hole of its own size."""
         x, y, z = end.tolist()
-        shapes = self._shapes(z)
-        held = shapes[np.hypot(shapes[:, 0] - x, shapes[:, 1] - y) + self._radius <= shapes[:, 2]]
-        if len(held):
+        if clear_radius(self._shapes(z), (x, y, self._radius)) >= self._radius - _LEVEL:
             return
         self._entries += not self._entering
         self._entering = True

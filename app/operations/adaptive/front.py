@@ -9,7 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.primitives import Rows, lengths, points_at, sweeps
-from ...toolpath.engagement.rim_kernels import bound_along, last_uncovered, uncovered
+from ...toolpath.engagement.rim_kernels import (
+    bound_along,
+    last_on_arc,
+    last_uncovered,
+    shapes_near,
+    uncovered,
+)
 from ...toolpath.engagement.swath_shapes import swath_shapes
 from .cleared_discs import Point
 from .limit import EngagementLimit
@@ -24,13 +30,13 @@ _BARE = 0.01
 the walls.
 """
 
+_LOOKED, _SWEPT = 33, 2.0
+"""Places that are looked at on an arc in which the cutter turns away from a wall, and radians of it."""
+
 _RECENT = 4
 
 _ABOUT = 0.8
 """Radii of the cutter: so far round a place shapes are looked up at once, and serve until the cutter has left it."""
-
-_ALIKE = 2e-3
-"""Radians by which bounds are better than they must be, as they may grow from piece to piece without a closer look."""
 
 _COARSE, _FINEST = 0.1, 1e-5
 """Length of the pieces that are bounded first, radii of the cutter, and of those that are not halved, mm."""
@@ -74,12 +80,12 @@ class MetalFront:
         return self._near
 
     def _within(self, place: Point, about: float) -> Floats:
-        away = np.hypot(self.table[:, 0] - place[0], self.table[:, 1] - place[1])
-        return np.ascontiguousarray(self.table[away < self.table[:, 2] + self.limit.radius + about])
+        return np.asarray(shapes_near(self.table, (*place, self.limit.radius + about)))
 
     def is_clear(self, place: Point, ahead: float) -> bool:
         """Tell whether no metal stands before a cutter that goes in a direction, radians."""
-        return self.bare(place, ahead) < _BARE
+        circle, window = (*place, self.limit.radius), (ahead - math.pi / 2, math.pi)
+        return float(last_uncovered(self.near(place), circle, window, _BARE)) < 0.0
 
     def bare(self, place: Point, ahead: float) -> float:
         """Return how much of the rim's front half is in metal at a place, radians."""
@@ -96,6 +102,18 @@ class MetalFront:
         found = float(last_uncovered(self.near(place), circle, window, _HAIR))
         return found if found >= 0.0 else None
 
+    def most(self, centre: Point, turn: float, ahead: float) -> tuple[float, float]:
+        """Return the most that is met on an arc to the left, looked at in places, and the direction of travel there.
+
+        Args:
+            turn: its radius, mm.
+            ahead: direction of travel at its beginning, radians.
+        """
+        scan = (_SWEPT / (_LOOKED - 1), _SWEPT, _HAIR)
+        shapes = self._within(centre, turn)
+        most, where = last_on_arc(shapes, (*centre, turn, ahead), self.limit.radius, scan)
+        return max(float(most), 0.0), float(where)
+
     def bound(self, row: Rows, enough: float) -> float:
         """Return a bound of the engaged angle along a row (8,), radians; no better than `enough` if it is below, and no
         more than the first that is above.
@@ -110,7 +128,7 @@ class MetalFront:
     def _bound(self, row: Rows, enough: float) -> float:
         size, turn = float(lengths(row[None])[0]), float(sweeps(row[None])[0])
         x, y = points_at(row[None], np.array([0.5]))[0].tolist()
-        limits = (enough - _ALIKE, _COARSE * self.limit.radius, _FINEST, enough)
+        limits = (enough, _COARSE * self.limit.radius, _FINEST, enough)
         shapes = self._within((x, y), size / 2)
         return float(bound_along(shapes, row, self.limit.radius, (turn, size), limits)[0])
 

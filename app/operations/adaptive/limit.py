@@ -114,11 +114,8 @@ class EngagementLimit:
         With e so much, the half turn goes round a centre e beside that of the one before, and finds (radius of the
         ground cleared so far - e) clear.
         """
-        low, high = 0.0, turn + self.radius
-        for _ in range(60):
-            middle = (low + high) / 2
-            if turn + self.radius - middle >= self.clear_needed(turn + middle):
-                low = middle
-            else:
-                high = middle
-        return low
+        r, cosine = self.radius, math.cos(self.planned)
+        # turn + r - e = clear_needed(turn + e), squared: what is left of e is linear
+        clear = turn + r - self.slack
+        grown = clear * clear - turn * turn - r * r - 2 * turn * r * cosine
+        return max(0.0, grown / (2 * (clear + turn + r * cosine)))

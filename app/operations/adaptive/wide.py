@@ -39,9 +39,6 @@ _SPARE = math.radians(0.25)
 _MOST, _TURNS = 1500, 40
 """Ways in one part, and how often one leaves a wall."""
 
-_LOOKED, _SWEPT = 33, 2.0
-"""Places that are looked at on the arc in which the cutter turns away from a wall, and radians of it."""
-
 _AIR = math.radians(2.0)
 
 _ROUND = 1.3
@@ -227,16 +224,9 @@ class WideClearing:
 
     def _most(self, start: Heading) -> tuple[float, Heading]:
         """Return the greatest angle along the arc in which the cutter turns away from a wall, and where that is."""
-        on = [self._arc_on(start, k) for k in range(_LOOKED)]
-        met = [self.front.met(each.place, each.ahead) or 0.0 for each in on]
-        found = int(np.argmax(met))
-        return met[found], on[found]
-
-    def _arc_on(self, start: Heading, number: int) -> Heading:
-        """Return one of the places on the arc in which the cutter turns away from a wall."""
-        ahead = start.ahead + number * _SWEPT / (_LOOKED - 1)
         cx, cy = start.left(self.turn)
-        return Heading(cx + self.turn * math.sin(ahead), cy - self.turn * math.cos(ahead), ahead)
+        most, ahead = self.front.most((cx, cy), self.turn, start.ahead)
+        return most, Heading(cx + self.turn * math.sin(ahead), cy - self.turn * math.cos(ahead), ahead)
 
     def _turned(self, start: Heading) -> Heading:
         """Cut along that arc up to where the most is engaged; return where that is."""
