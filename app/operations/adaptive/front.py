@@ -30,6 +30,9 @@ _BARE = 0.01
 the walls.
 """
 
+_AIR = 0.01
+"""Radians of a bound that is as good as none: the metal is as thin as above."""
+
 _LOOKED, _SWEPT = 33, 2.0
 """Places that are looked at on an arc in which the cutter turns away from a wall, and radians of it."""
 
@@ -113,6 +116,10 @@ class MetalFront:
         shapes = self._within(centre, turn)
         most, where = last_on_arc(shapes, (*centre, turn, ahead), self.limit.radius, scan)
         return max(float(most), 0.0), float(where)
+
+    def is_air(self, row: Rows) -> bool:
+        """Tell whether a row (8,) is over clear ground."""
+        return self.bound(row, _AIR) <= _AIR
 
     def bound(self, row: Rows, enough: float) -> float:
         """Return a bound of the engaged angle along a row (8,), radians; no better than `enough` if it is below, and no

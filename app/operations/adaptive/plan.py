@@ -22,6 +22,7 @@ from .path_builder import CutRun, PathBuilder
 from .ring import RingProof, rounded, sharp_corners
 from .spiral import spiral
 from .walk import AxisTree, AxisWalk, WalkStop, trees
+from .wall_stretches import stretches
 from .wide_place import WidePlace, WideStart, wide_place
 
 Floats = NDArray[np.float64]
@@ -186,16 +187,24 @@ def _path(
     discs = walk.discs
     paths, unproven = _rings(area, discs, limit, progress.part(0.5, 0.9))
     first = discs.each[0]
-    way = PathBuilder(limit, discs, area.task.farthest, area.task.fastest)
+    way = PathBuilder(limit, discs, area.task.farthest, area.task.fastest, wide.front if wide is not None else None)
     way.begin(_first_turns(area, first, limit))
     if wide is not None:
-        way.go_on(wide.rows, wide.clear)
+        way.go_on(wide.rows, wide.clear, wide.pose)
+        paths = _left_of(paths, wide, way)
     for number in range(1, len(discs)):
         way.slice(number)
-    walls = wide.walls if wide is not None else ()
-    unproven += [_begin(path) for path in paths if not way.ring(path, walls)]
+    unproven += way.finish()
+    unproven += [_begin(path) for path in paths if not way.ring(path)]
     region = int(area.task.walls.region[area.room.distances.nearest(np.array([first.centre]))[1][0]])
     return ConnectedPath(tuple(way.done()), region, tuple(walk.stops), tuple(unproven))
+
+
+def _left_of(paths: Sequence[Rows], wide: WidePlace, way: PathBuilder) -> list[Rows]:
+    """Have the stretches cut that are left of ways along walls; return the ways that are left as a whole."""
+    found = [stretches(path, wide.walls, way.discs, way.limit, wide.pose.turn) for path in paths]
+    way.leave_for([each for parts in found if parts is not None for each in parts])
+    return [path for path, parts in zip(paths, found, strict=True) if parts is None]
 
 
 def _first_turns(area: _PlannedArea, first: ClearedDisc, limit: EngagementLimit) -> Rows:

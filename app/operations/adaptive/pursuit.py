@@ -16,10 +16,13 @@ from ...geometry.primitives import Rows
 from .cleared_discs import Point, WallClearance
 from .front import MetalFront
 
-_STEP, _FIRST, _GROWS = 0.06, 0.01, 0.08
+_STEP, _FIRST, _GROWS = 0.06, 0.04, 0.08
 """Radii of the cutter from one place to the next: at most, and at first, where the way bends the most; and by what
 share of what is gone they grow.
 """
+
+_SHORT = 0.03
+"""Radii of the cutter; a place that is so near to the last one is left out: digits turn short arcs."""
 
 _RIGHT = 1.0
 """Radii of the cutter; the least radius of a turn to the right, where metal draws back."""
@@ -84,8 +87,9 @@ class Pursuit:
             if after is None:
                 return []
             if self._over(after) > 0.0:
-                way.append(self._last(way[-1], step))
-                return way
+                last = self._last(way[-1], step)
+                near = len(way) > 1 and math.dist(way[-1].place, last.place) < _SHORT * radius
+                return [*(way[:-1] if near else way), last]
             way.append(after)
             gone += step
         return []

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +21,6 @@ Flags = NDArray[np.bool_]
 
 _LOOKED = 0.1
 """Radii of the cutter between places along walls that are looked at."""
-
-_ON = 1e-6
-"""mm; nearer to a way than that is on it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,20 +120,3 @@ class WallPath:
             here = self.headings[k]
             still[k] = not front.is_clear(here.place, here.ahead)
         return still
-
-
-def gone_already(rows: Rows, swept: Sequence[WallPath]) -> list[tuple[list[float], bool]]:
-    """Return the pieces of a way along walls, and of each whether one of some other ways goes there as well."""
-    found: list[tuple[list[float], bool]] = []
-    for row in rows:
-        shares = {0.0, 1.0}
-        for wall in swept:
-            for x, y in wall.rows[:, :2].tolist():
-                share = fraction_on(row.tolist(), (x, y))
-                if math.dist(point_on(row.tolist(), share), (x, y)) < _ON:
-                    shares.add(share)
-        for begin, end in pairwise(sorted(shares)):
-            for part in part_of(row, begin, end):
-                x, y = point_on(part.tolist(), 0.5)
-                found.append((part.tolist(), any(wall.nearest((x, y))[1] < _ON for wall in swept)))
-    return found

@@ -39,7 +39,8 @@ _SPARE = math.radians(0.25)
 _MOST, _TURNS = 1500, 40
 """Ways in one part, and how often one leaves a wall."""
 
-_AIR = math.radians(2.0)
+_TOUCH = math.radians(2.0)
+"""Radians that may be engaged on a way to metal: slivers along walls."""
 
 _ROUND = 1.3
 """Times as long as straight on the way along a clear wall is still taken: it needs no turns."""
@@ -184,12 +185,12 @@ class WideClearing:
         assert self._pose is not None
         pose = PathPose(end.x, end.y, end.ahead - math.pi / 2, self.turn)
         rows = np.array(smooth_way(self._pose, pose, (), (*end.left(self.turn), self.turn))).reshape(-1, 8)
-        if any(self.front.bound(row, _AIR) > _AIR for row in rows[:-1]):
+        if any(self.front.bound(row, _TOUCH) > _TOUCH for row in rows[:-1]):
             return None
         return rows if not len(rows) or self.front.bound(rows[-1], self.limit.planned) <= self.limit.planned else None
 
     def _link_row(self, row: Rows) -> None:
-        air = self.front.bound(row, _AIR) <= _AIR
+        air = self.front.is_air(row)
         if not air:
             self.front.sweep(row[None])
         self.rows.append(row)
@@ -200,12 +201,14 @@ class WideClearing:
         wall, at = self.walls[number], start
         for _ in range(_TURNS):
             end, met = self._follow(wall, at)
+            # before the span is cut: where the cutter has stood its whole rim counts as clear
+            away = self._most(wall.heading(end))[1]
             self._cut(wall.span(at, end))
             if not met:
                 self._stand(wall.heading(end))
                 self._at = (number, end)
                 return
-            number, at = self._pursue(self._turned(wall.heading(end)))
+            number, at = self._pursue(self._turned(wall.heading(end), away))
             wall = self.walls[number]
         raise NotWithinLimit
 
@@ -228,9 +231,8 @@ class WideClearing:
         most, ahead = self.front.most((cx, cy), self.turn, start.ahead)
         return most, Heading(cx + self.turn * math.sin(ahead), cy - self.turn * math.cos(ahead), ahead)
 
-    def _turned(self, start: Heading) -> Heading:
-        """Cut along that arc up to where the most is engaged; return where that is."""
-        end = self._most(start)[1]
+    def _turned(self, start: Heading, end: Heading) -> Heading:
+        """Cut along the arc in which the cutter turns away from a wall, up to a place on it; return that."""
         if math.dist(start.place, end.place) > _SAME:
             self._cut(np.array([[*start.place, *end.place, *start.left(self.turn), self.turn, 1.0]]))
         return end

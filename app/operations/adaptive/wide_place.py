@@ -39,12 +39,16 @@ class WidePlace:
         clear: (n,) which of them are over clear ground.
         discs: (m,) of which points of the axis the discs are clear then.
         walls: ways along walls that the rows have gone.
+        pose: in which the path is at their end.
+        front: what is clear then.
     """
 
     rows: Rows
     clear: NDArray[np.bool_]
     discs: NDArray[np.bool_]
     walls: Sequence[WallPath]
+    pose: PathPose
+    front: MetalFront
 
 
 @dataclass(frozen=True)
@@ -79,10 +83,10 @@ def wide_place(
     paths = [WallPath.of(rounded(ring, turn), limit.radius) for ring in rings]
     clearing = WideClearing(limit, room, turn, paths, front)
     try:
-        clearing.cut(start.pose, progress)
+        end = clearing.cut(start.pose, progress)
     except NotWithinLimit:
         return None
-    return WidePlace(np.array(clearing.rows), np.array(clearing.clear), discs, paths)
+    return WidePlace(np.array(clearing.rows), np.array(clearing.clear), discs, paths, end, front)
 
 
 def _about(rings: Sequence[Ring], first: ClearedDisc) -> list[Ring]:
