@@ -201,7 +201,7 @@ class _Prover:
     def _down(self, end: Floats, size: float) -> None:
         """Take a way down, straight or along a slope: at its end the cutter stands in a hole of its own size."""
         x, y, z = end.tolist()
-        if clear_radius(self._shapes(z), (x, y, self._radius)) >= self._radius - _LEVEL:
+        if clear_radius(self._shapes(z), (x, y, self._radius)) >= self._radius - _CRACK:
             return
         self._entries += not self._entering
         self._entering = True

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ...geometry.primitives import Rows, lengths, points_at, sweeps
 from ...toolpath.engagement.rim_kernels import (
     bound_along,
+    covers_disc,
     last_on_arc,
     last_uncovered,
     shapes_near,
@@ -37,6 +38,9 @@ _LOOKED, _SWEPT = 33, 2.0
 """Places that are looked at on an arc in which the cutter turns away from a wall, and radians of it."""
 
 _RECENT = 4
+
+_SQUARE = 2e-4
+"""mm; half the side of squares that are not divided to see whether a disc is clear."""
 
 _ABOUT = 0.8
 """Radii of the cutter: so far round a place shapes are looked up at once, and serve until the cutter has left it."""
@@ -74,6 +78,15 @@ class MetalFront:
     def _add(self, shapes: Floats) -> None:
         self.table = np.concatenate([self.table, shapes])
         self._place = (math.inf, math.inf)
+
+    def forget(self, count: int) -> None:
+        """Take nothing as clear but the first shapes."""
+        self.table = self.table[:count]
+        self._place = (math.inf, math.inf)
+
+    def covers(self, disc: tuple[float, float, float]) -> bool:
+        """Tell whether a disc (x, y, radius) is surely clear."""
+        return bool(covers_disc(shapes_near(self.table, disc), disc, _SQUARE))
 
     def near(self, place: Point) -> Floats:
         """Return the shapes that the rim of a cutter may meet at a place."""

@@ -14,10 +14,10 @@ _FINENESS = 8e-4
 """mm that a clear disc is taken to be smaller than it is when a path is paid for with it: what the digits of an NC
 program move path and disc at most, both together."""
 
-_SPARE = math.radians(0.35)
+_SPARE = math.radians(0.15)
 """Radians that the limit is not used by: in tight corners digits move the angle the most, and proofs need some room."""
 
-_LESS = math.radians(0.25)
+_LESS = math.radians(0.15)
 
 _LEAST_CENTRE = 0.002
 """mm; the least radius of a path that all controls know as an arc is 0.005 mm, and the tip of a corner needs a few."""

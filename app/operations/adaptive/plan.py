@@ -23,7 +23,7 @@ from .ring import RingProof, rounded, sharp_corners
 from .spiral import spiral
 from .walk import AxisTree, AxisWalk, WalkStop, trees
 from .wall_stretches import stretches
-from .wide_place import WidePlace, WideStart, wide_place
+from .wide_place import WidePlace, WideStart, swept_discs, wide_place
 
 Floats = NDArray[np.float64]
 
@@ -182,7 +182,8 @@ def _path(
     area: _PlannedArea, tree: AxisTree, limit: EngagementLimit, wide: WidePlace | None, progress: Progress
 ) -> ConnectedPath:
     walk = AxisWalk(limit, area.room, area.axis)
-    swept = wide.discs if wide is not None else np.zeros(len(area.axis.points), np.bool_)
+    none = np.zeros(len(area.axis.points), np.bool_)
+    swept = swept_discs(wide, area.axis, tree, limit) if wide is not None else none
     walk.along(tree, swept, progress.part(0.0, 0.5))
     discs = walk.discs
     paths, unproven = _rings(area, discs, limit, progress.part(0.5, 0.9))
@@ -202,7 +203,7 @@ def _path(
 
 def _left_of(paths: Sequence[Rows], wide: WidePlace, way: PathBuilder) -> list[Rows]:
     """Have the stretches cut that are left of ways along walls; return the ways that are left as a whole."""
-    found = [stretches(path, wide.walls, way.discs, way.limit, wide.pose.turn) for path in paths]
+    found = [stretches(path, wide, way.discs) for path in paths]
     way.leave_for([each for parts in found if parts is not None for each in parts])
     return [path for path, parts in zip(paths, found, strict=True) if parts is None]
 

@@ -67,14 +67,14 @@ class Pursuit:
     Attributes:
         front: the metal.
         room: distances from walls.
-        turn: radius of the arc in which the cutter turns along a wall, mm.
-        inner: mm from the walls that its centre keeps.
+        turns: radius of the arc in which the cutter turns along a wall, and mm from the walls that its centre keeps.
+        aim: the angle, radians.
     """
 
     front: MetalFront
     room: WallClearance
-    turn: float
-    inner: float
+    turns: tuple[float, float]
+    aim: float
 
     def along(self, start: Heading) -> list[Heading]:
         """Return places of a way that begins at the limit, up to where it turns along a wall; empty where there is no
@@ -96,7 +96,8 @@ class Pursuit:
 
     def _over(self, at: Heading) -> float:
         """Return by how much the turn from here goes over a wall, mm."""
-        return self.inner + self.turn - self.room.at(at.left(self.turn)) - self.room.leave - _SAME
+        turn, inner = self.turns
+        return inner + turn - self.room.at(at.left(turn)) - self.room.leave - _SAME
 
     def _last(self, at: Heading, step: float) -> Heading:
         low, high, found = 0.0, step, at
@@ -127,7 +128,7 @@ class Pursuit:
             return least
         if met > math.pi - _SAME:
             return None
-        return max(least, ahead + met - self.front.limit.pursued)
+        return max(least, ahead + met - self.aim)
 
 
 def arcs_through(way: list[Heading]) -> Rows:

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from ...geometry.distance import DistanceField
-from ...geometry.primitives import Rows, fraction_on, point_on
+from ...geometry.primitives import Rows, fraction_on, lengths
 from ...toolpath.linking.bridge import part_of
 from .cleared_discs import ClearedDiscs, Point
 from .limit import EngagementLimit
 from .link import PathPose
-from .wall_path import WallPath
+from .wide_place import WidePlace
 
 _ON = 1e-6
 """mm; nearer to a way than that is on it."""
+
+_NEAR, _SHORT = 1e-3, 1e-7
 
 _BESIDE = 1e-3
 """mm by which a disc may miss a stretch that it touches."""
@@ -62,15 +63,9 @@ def _right(row: list[float], end: int) -> float:
     return outward if row[7] > 0 else outward + math.pi
 
 
-def stretches(
-    path: Rows, swept: Sequence[WallPath], discs: ClearedDiscs, limit: EngagementLimit, turn: float
-) -> list[WallStretch] | None:
-    """Return what of a closed way some other ways do not go along; None where that is all of it.
-
-    Args:
-        turn: radius of the arcs in which the cutter comes to a stretch and leaves, mm.
-    """
-    pieces = _gone_already(path, swept)
+def stretches(path: Rows, wide: WidePlace, discs: ClearedDiscs) -> list[WallStretch] | None:
+    """Return what of a closed way is not clear after a wide place is; None where that is all of it."""
+    pieces = _pieces(path, wide)
     first = next((k for k, (_, gone) in enumerate(pieces) if gone), None)
     if first is None:
         return None
@@ -80,6 +75,7 @@ def stretches(
             found.append([])
         else:
             found[-1].append(row)
+    limit, turn = wide.front.limit, wide.pose.turn
     return [WallStretch(rows := np.array(each), _last(rows, discs, limit), turn) for each in found if each]
 
 
@@ -92,18 +88,24 @@ def _last(rows: Rows, discs: ClearedDiscs, limit: EngagementLimit) -> int:
     return int(numbers[-1]) if len(numbers) else -1
 
 
-def _gone_already(rows: Rows, swept: Sequence[WallPath]) -> list[tuple[list[float], bool]]:
-    """Return the pieces of a way along walls, and of each whether one of some other ways goes there as well."""
+def _pieces(path: Rows, wide: WidePlace) -> list[tuple[list[float], bool]]:
+    """Return the pieces of a way along walls, and of each whether it is clear."""
+    on = _ends_on(path, wide)
     found: list[tuple[list[float], bool]] = []
-    for row in rows:
-        shares = {0.0, 1.0}
-        for wall in swept:
-            for x, y in wall.rows[:, :2].tolist():
-                share = fraction_on(row.tolist(), (x, y))
-                if math.dist(point_on(row.tolist(), share), (x, y)) < _ON:
-                    shares.add(share)
+    for row, places in zip(path, on, strict=True):
+        shares = {0.0, 1.0, *(fraction_on(row.tolist(), place) for place in places)}
         for begin, end in pairwise(sorted(shares)):
-            for part in part_of(row, begin, end):
-                x, y = point_on(part.tolist(), 0.5)
-                found.append((part.tolist(), any(wall.nearest((x, y))[1] < _ON for wall in swept)))
+            parts = part_of(row, begin, end)
+            found += [(part.tolist(), wide.front.is_air(part)) for part in parts if lengths(part[None])[0] > _SHORT]
+    return found
+
+
+def _ends_on(path: Rows, wide: WidePlace) -> list[list[Point]]:
+    """Return for each row of a way along walls the places on it at which rows of a wide place begin."""
+    starts = wide.rows[:, :2]
+    away, row = DistanceField.of(path).nearest(starts, _NEAR)
+    found: list[list[Point]] = [[] for _ in path]
+    for k in np.flatnonzero(away < _ON):
+        x, y = starts[k].tolist()
+        found[row[k]].append((x, y))
     return found

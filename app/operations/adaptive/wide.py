@@ -3,8 +3,8 @@
 A disc's arc is engaged by the limit in one place, and by two thirds of it on average. Here the cutter follows a wall
 until so much is engaged as may be, turns away in an arc, and follows the edge of the metal (`pursuit`) until it comes
 to a wall again. All of a part is cleared so in which there is room for the arcs in which it turns along walls; corners
-and necks are left to discs. Each row is bounded before it counts; where one has too much, all of it is given up, and
-discs clear the part.
+and necks are left to discs. Each row is bounded before it counts; where one has too much, its way is given up, and
+discs clear what stands there.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from .pursuit import Heading, Pursuit, arcs_through
 from .wall_path import WallPath
 
 Flags = NDArray[np.bool_]
+Floats = NDArray[np.float64]
 
 _BEFORE = (0.1, 0.3, 0.7)
 """Radii of the cutter: so far before metal the cutter comes to the wall; what is clear enough is taken."""
@@ -33,8 +34,11 @@ _BEFORE = (0.1, 0.3, 0.7)
 _CLEAR = 0.5
 """Radii of the cutter along a wall without metal, after which a way has ended."""
 
-_SPARE = math.radians(0.25)
+_SPARE = math.radians(0.1)
 """Radians that a bound may be above the planned angle."""
+
+_AIMS = (0.0, math.radians(1.5), math.radians(5.0))
+"""Radians less than planned that a way is tried with, one after the other."""
 
 _MOST, _TURNS = 1500, 40
 """Ways in one part, and how often one leaves a wall."""
@@ -70,6 +74,7 @@ class WideClearing:
         walls: the ways along them.
         front: what is clear.
         rows, clear: the path so far, and whether each row is over clear ground.
+        refused: stretches that are left to discs, as no way there keeps the limit.
     """
 
     limit: EngagementLimit
@@ -79,42 +84,66 @@ class WideClearing:
     front: MetalFront
     rows: list[Rows] = field(default_factory=list)
     clear: list[bool] = field(default_factory=list)
+    refused: list[Stretch] = field(default_factory=list)
     _uncut: list[Flags] = field(default_factory=list)
     _pose: PathPose | None = None
     _at: tuple[int, float] | None = None
+    _aim: float = 0.0
 
     def cut(self, pose: PathPose, progress: Progress) -> PathPose:
-        """Clear all; return where the path ends.
+        """Clear all that can be cleared; return where the path ends.
 
         Args:
             pose: where it begins.
 
         Raises:
-            NotWithinLimit: there is no such path.
             Cancelled: by progress.
         """
         self._pose = pose
         everywhere = np.array([-math.inf, -math.inf, math.inf, math.inf])
         self._uncut = [wall.uncut(self.front, np.ones(len(wall.places), np.bool_), everywhere) for wall in self.walls]
-        first = max(1, self._left())
-        for _ in range(_MOST):
-            left = self._left()
-            if not left:
-                return self._pose
-            progress.step(1 - left / first, "Clear along the metal")
-            self._one()
-        raise NotWithinLimit
+        first, ways = max(1, self._left()), 0
+        while ways < _MOST and self._one():
+            ways += 1
+            progress.step(1 - self._left() / first, "Clear along the metal")
+        return self._pose
+
+    @property
+    def uncut(self) -> Floats:
+        """(n, 2) places of the cutter along walls at which metal stands."""
+        found = [wall.points[uncut] for wall, uncut in zip(self.walls, self._uncut, strict=True)]
+        return np.concatenate([np.empty((0, 2)), *found])
 
     def _left(self) -> int:
         return sum(int(each.sum()) for each in self._uncut)
 
-    def _one(self) -> None:
-        """Cut one way."""
-        before, begin = self._left(), len(self.rows)
-        stretch, start = self._go()
-        self._way(stretch.wall, start)
-        cut = np.array(self.rows[begin:])
-        around = boxes(cut)
+    def _one(self) -> bool:
+        """Cut one way, or refuse it; tell whether there was one."""
+        for less in _AIMS:
+            before = len(self.rows), len(self.front.table), self._pose, self._at, self._uncut
+            going = self._go()
+            if going is None:
+                return False
+            self._aim = self.limit.pursued - less
+            try:
+                self._way(going[0].wall, going[1])
+                self._look_again(before[0])
+            except NotWithinLimit:
+                del self.rows[before[0] :], self.clear[before[0] :]
+                self.front.forget(before[1])
+                _, _, self._pose, self._at, self._uncut = before
+            else:
+                return True
+        self.refused.append(going[0])
+        return True
+
+    def _look_again(self, begin: int) -> None:
+        """Look for metal along walls near the rows from one on.
+
+        Raises:
+            NotWithinLimit: as much stands as before.
+        """
+        before, around = self._left(), boxes(np.array(self.rows[begin:]))
         near = np.array([*(around[:, :2].min(axis=0)), *(around[:, 2:].max(axis=0))])
         near += np.array([-1, -1, 1, 1]) * 2 * self.limit.radius
         self._uncut = [wall.uncut(self.front, each, near) for wall, each in zip(self.walls, self._uncut, strict=True)]
@@ -129,10 +158,10 @@ class WideClearing:
                 # no more than touched so far: where least stands
                 begins = np.array([np.argmin([self.front.bare(at.place, at.ahead) for at in wall.headings])])
             found += [Stretch(k, float(wall.places[j])) for j in begins]
-        return found
+        return [each for each in found if each not in self.refused]
 
-    def _go(self) -> tuple[Stretch, float]:
-        """Go to the nearest metal that can be gone to over clear ground."""
+    def _go(self) -> tuple[Stretch, float] | None:
+        """Go to the nearest metal that can be gone to over clear ground; None where there is none."""
         found = self._stretches()
         found.sort(key=lambda each: min(self._away(each), self._on(each)))
         for stretch in found:
@@ -144,7 +173,7 @@ class WideClearing:
                 return stretch, start
             if on < math.inf:
                 return stretch, self._along_clear(stretch, on)
-        raise NotWithinLimit
+        return None
 
     def _away(self, stretch: Stretch) -> float:
         assert self._pose is not None
@@ -218,7 +247,7 @@ class WideClearing:
         while at - last < _CLEAR * self.limit.radius or (last == start and at - start < self.limit.radius):
             if at - start > wall.length:
                 return start + wall.length, False
-            if self._most(wall.heading(at))[0] > self.limit.pursued:
+            if self._most(wall.heading(at))[0] > self._aim:
                 return self._where(wall, max(start, at - step), at), True
             if self._met(wall, at) > 0.0:
                 last = at
@@ -245,7 +274,7 @@ class WideClearing:
         """Return where along a wall the cutter must turn away."""
         while high - low > 1e-6:
             middle = (low + high) / 2
-            if self._most(wall.heading(middle))[0] > self.limit.pursued:
+            if self._most(wall.heading(middle))[0] > self._aim:
                 high = middle
             else:
                 low = middle
@@ -254,7 +283,7 @@ class WideClearing:
     def _pursue(self, start: Heading) -> tuple[int, float]:
         """Cut along the metal; return the wall path to which it comes, and where."""
         inner = self.room.leave + self.limit.radius
-        way = Pursuit(self.front, self.room, self.turn, inner).along(start)
+        way = Pursuit(self.front, self.room, (self.turn, inner), self._aim).along(start)
         if not way:
             raise NotWithinLimit
         last = way[-1]

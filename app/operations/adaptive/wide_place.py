@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from ...core.progress import Progress
 from ...geometry.offset.offset import Ring, offset_levels
@@ -18,13 +19,19 @@ from .front import MetalFront
 from .limit import EngagementLimit
 from .link import PathPose
 from .ring import rounded
+from .walk import AxisTree
 from .wall_path import WallPath
-from .wide import NotWithinLimit, WideClearing
+from .wide import WideClearing
+
+Floats = NDArray[np.float64]
 
 _TURN = 2 / 3
 """Of the cutter's radius: that of the arcs in which it turns along walls."""
 
 _CHORD = 1e-3
+
+_BESIDE = 0.1
+"""Radii of the cutter that metal may be farther than the cutter is in a disc, and still be of that disc."""
 
 _WORTH = 0.1
 """Radii of the cutter by which the farthest disc must stick out of the first one."""
@@ -37,7 +44,7 @@ class WidePlace:
     Attributes:
         rows: (n, 8) from the end of the first spiral on.
         clear: (n,) which of them are over clear ground.
-        discs: (m,) of which points of the axis the discs are clear then.
+        discs: (m,) of which points of the axis the discs are clear then, as far as walls tell.
         walls: ways along walls that the rows have gone.
         pose: in which the path is at their end.
         front: what is clear then.
@@ -82,11 +89,19 @@ def wide_place(
     front.add_disc(*first.centre, first.reach)
     paths = [WallPath.of(rounded(ring, turn), limit.radius) for ring in rings]
     clearing = WideClearing(limit, room, turn, paths, front)
-    try:
-        end = clearing.cut(start.pose, progress)
-    except NotWithinLimit:
+    end = clearing.cut(start.pose, progress)
+    if not clearing.rows:
         return None
+    discs &= _far_from(clearing.uncut, axis, limit.radius)
     return WidePlace(np.array(clearing.rows), np.array(clearing.clear), discs, paths, end, front)
+
+
+def _far_from(uncut: Floats, axis: RoughAxis, radius: float) -> NDArray[np.bool_]:
+    """Return which points of an axis have no metal, at places of the cutter along walls, where their discs touch."""
+    if not len(uncut):
+        return np.ones(len(axis.points), np.bool_)
+    away, _ = cKDTree(uncut).query(axis.points)
+    return np.asarray(away > axis.reach - radius + _BESIDE * radius)
 
 
 def _about(rings: Sequence[Ring], first: ClearedDisc) -> list[Ring]:
@@ -110,3 +125,14 @@ def _within(rings: Sequence[Ring], axis: RoughAxis) -> NDArray[np.bool_]:
     for ring in rings[1:]:
         inside &= ~np.asarray(shapely.contains_xy(_outline(ring), x, y))
     return inside
+
+
+def swept_discs(wide: WidePlace, axis: RoughAxis, tree: AxisTree, limit: EngagementLimit) -> NDArray[np.bool_]:
+    """Return of which points of the axis the discs are clear: those that others are to be paid with surely are."""
+    swept = wide.discs.copy()
+    for node in reversed(tree.order[1:]):
+        children = tree.children(node)
+        if swept[node] and not (children and swept[children].all()):
+            x, y = axis.points[node].tolist()
+            swept[node] = wide.front.covers((x, y, float(axis.reach[node]) - limit.slack))
+    return swept

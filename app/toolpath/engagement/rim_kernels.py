@@ -425,3 +425,53 @@ def clear_radius(shapes, place):
         else:
             high = middle
     return low
+
+
+@kernel(f"boolean({_SHAPES}, int64, float64, float64, float64)", counts=False)
+def _holds_square(shapes, k, x, y, half):
+    """Tell whether shape k, which is convex, holds a square."""
+    return (
+        _holds(shapes, k, x - half, y - half, 0.0)
+        and _holds(shapes, k, x + half, y - half, 0.0)
+        and _holds(shapes, k, x - half, y + half, 0.0)
+        and _holds(shapes, k, x + half, y + half, 0.0)
+    )
+
+
+@kernel(f"int64({_SHAPES}, int64, float64, float64, float64)", counts=False)
+def _holding(shapes, known, x, y, half):
+    """Return a shape that holds a square, `known` if it does; -1 where none does."""
+    if known >= 0 and _holds_square(shapes, known, x, y, half):
+        return known
+    for k in range(len(shapes)):
+        if _holds_square(shapes, k, x, y, half):
+            return k
+    return -1
+
+
+@kernel(f"boolean({_SHAPES}, UniTuple(float64, 3), float64)")
+def covers_disc(shapes, disc, finest):
+    """Tell whether shapes surely cover a disc (x, y, radius), mm: squares that no shape holds are divided.
+
+    Args:
+        finest: mm, half the side of a square that is not divided.
+    """
+    x, y, reach = disc
+    stack, count, known = np.empty((4 * _STACK, 3)), 1, -1
+    stack[0] = x, y, reach
+    while count > 0:
+        count -= 1
+        at_x, at_y, half = stack[count]
+        off_x, off_y = max(abs(at_x - x) - half, 0.0), max(abs(at_y - y) - half, 0.0)
+        if off_x * off_x + off_y * off_y >= reach * reach:
+            continue
+        known = _holding(shapes, known, at_x, at_y, half)
+        if known >= 0:
+            continue
+        half /= 2
+        if half < finest or count + 4 > len(stack):
+            return False
+        for k in range(4):
+            stack[count] = at_x + (half if k % 2 else -half), at_y + (half if k // 2 else -half), half
+            count += 1
+    return True
