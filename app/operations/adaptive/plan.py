@@ -23,6 +23,7 @@ from .ring import RingProof, rounded, sharp_corners
 from .spiral import spiral
 from .walk import AxisTree, AxisWalk, WalkStop, trees
 from .wall_stretches import stretches
+from .wide import WayWorth
 from .wide_place import WidePlace, WideStart, swept_discs, wide_place
 
 Floats = NDArray[np.float64]
@@ -169,7 +170,7 @@ def _complete(axis: RoughAxis, level: OffsetLevel, room: WallClearance) -> Rough
 def _part(area: _PlannedArea, tree: AxisTree, limit: EngagementLimit, progress: Progress) -> ConnectedPath:
     """Return the quicker path of a part: by discs alone, or with its wide places cleared along the metal."""
     by_discs = _path(area, tree, limit, None, progress.part(0.0, 0.3))
-    wide = _wide(area, tree, limit, progress.part(0.3, 0.8))
+    wide = _wide(area, tree, by_discs, limit, progress.part(0.3, 0.8))
     if wide is None:
         return by_discs
     other = _path(area, tree, limit, wide, progress.part(0.8, 1.0))
@@ -212,12 +213,16 @@ def _first_turns(area: _PlannedArea, first: ClearedDisc, limit: EngagementLimit)
     return spiral(first.centre, first.reach - limit.radius, limit, max(limit.least_turn, area.turns[1]))
 
 
-def _wide(area: _PlannedArea, tree: AxisTree, limit: EngagementLimit, progress: Progress) -> WidePlace | None:
-    """Return how the wide place about the root is cleared, None where there is none, or no such way."""
+def _wide(
+    area: _PlannedArea, tree: AxisTree, by_discs: ConnectedPath, limit: EngagementLimit, progress: Progress
+) -> WidePlace | None:
+    """Return how the wide place about the root is cleared, None where there is none, or discs are quicker."""
     first = AxisWalk(limit, area.room, area.axis).begin(tree)
-    end = _first_turns(area, first, limit)[-1]
+    turns = _first_turns(area, first, limit)
+    end, faster = turns[-1], area.task.faster
     pose = PathPose(end[2], end[3], math.atan2(end[3] - first.y, end[2] - first.x), first.reach - limit.radius)
-    return wide_place(area.task.walls, area.room, area.axis, WideStart(limit, first, pose), progress)
+    worth = WayWorth(by_discs.effort(faster) - float(lengths(turns).sum()), faster)
+    return wide_place(area.task.walls, area.room, area.axis, WideStart(limit, first, pose, worth), progress)
 
 
 def _begin(path: Rows) -> Point:

@@ -32,7 +32,7 @@ _LONGEST = 400
 
 _HALVINGS = 30
 
-_TOLERANCE, _TURNED = 0.001, 1.2e-3
+_TOLERANCE, _TURNED = 0.001, 2e-3
 """mm that arcs leave the places of a way by, and radians that they turn off it: the angle changes by as many."""
 
 _SAME = 1e-6

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.progress import Progress
-from ...geometry.primitives import Rows, boxes
+from ...geometry.primitives import Rows, boxes, lengths
 from .cleared_discs import Point, WallClearance
 from .front import MetalFront
 from .limit import EngagementLimit
@@ -49,7 +49,16 @@ _TOUCH = math.radians(2.0)
 _ROUND = 1.3
 """Times as long as straight on the way along a clear wall is still taken: it needs no turns."""
 
+_SHARE = 0.7
+"""Of the way to metal that lies right ahead that the cutter goes on along a wall before it looks again."""
+
+_NEAR, _HALVINGS = 1e-4, 40
+"""Radians below the angle that are near enough to it."""
+
 _SAME = 1e-5
+
+_LOOSE = 0.1
+"""Of the effort by discs alone that ways may take more than their part of it."""
 
 
 class NotWithinLimit(Exception):
@@ -64,6 +73,24 @@ class Stretch:
     begin: float
 
 
+@dataclass(frozen=True)
+class WayWorth:
+    """What clearing may cost.
+
+    Attributes:
+        effort: of what discs need for the same, mm at the tool's feed.
+        faster: times that feed over clear ground.
+    """
+
+    effort: float
+    faster: float
+
+    def lost(self, rows: Sequence[Rows], clear: Sequence[bool], done: float) -> bool:
+        """Tell whether rows, some over clear ground, have cost much more than the share that they have done."""
+        size = lengths(np.array(rows)) / np.where(clear, self.faster, 1.0)
+        return float(size.sum()) > (done + _LOOSE) * self.effort
+
+
 @dataclass
 class WideClearing:
     """Clears a wide part.
@@ -73,6 +100,7 @@ class WideClearing:
         turn: radius of the arcs in which the cutter turns along walls, mm.
         walls: the ways along them.
         front: what is clear.
+        worth: what the path may cost.
         rows, clear: the path so far, and whether each row is over clear ground.
         refused: stretches that are left to discs, as no way there keeps the limit.
     """
@@ -82,6 +110,7 @@ class WideClearing:
     turn: float
     walls: Sequence[WallPath]
     front: MetalFront
+    worth: WayWorth
     rows: list[Rows] = field(default_factory=list)
     clear: list[bool] = field(default_factory=list)
     refused: list[Stretch] = field(default_factory=list)
@@ -90,8 +119,8 @@ class WideClearing:
     _at: tuple[int, float] | None = None
     _aim: float = 0.0
 
-    def cut(self, pose: PathPose, progress: Progress) -> PathPose:
-        """Clear all that can be cleared; return where the path ends.
+    def cut(self, pose: PathPose, progress: Progress) -> PathPose | None:
+        """Clear all that can be cleared; return where the path ends, None where discs are quicker.
 
         Args:
             pose: where it begins.
@@ -105,7 +134,10 @@ class WideClearing:
         first, ways = max(1, self._left()), 0
         while ways < _MOST and self._one():
             ways += 1
-            progress.step(1 - self._left() / first, "Clear along the metal")
+            done = 1 - self._left() / first
+            progress.step(done, "Clear along the metal")
+            if self.rows and self.worth.lost(self.rows, self.clear, done):
+                return None
         return self._pose
 
     @property
@@ -243,16 +275,28 @@ class WideClearing:
 
     def _follow(self, wall: WallPath, start: float) -> tuple[float, bool]:
         """Return up to where the cutter may follow a wall, and whether it must turn away there."""
-        at, last, step = start, start, wall.spacing / 2
+        at, last, free, before, step = start, start, start, start, wall.spacing / 2
         while at - last < _CLEAR * self.limit.radius or (last == start and at - start < self.limit.radius):
             if at - start > wall.length:
                 return start + wall.length, False
-            if self._most(wall.heading(at))[0] > self._aim:
-                return self._where(wall, max(start, at - step), at), True
+            most = self._most(wall.heading(at))[0]
+            if most > self._aim:
+                return self._where(wall, before, at), True
             if self._met(wall, at) > 0.0:
                 last = at
-            at += step
-        return max(last, start + step), False
+            elif free <= last:
+                free = at
+            before = at
+            at += max(step, self._on_to(most)) if most > 0.0 else step
+        return max(free, start + step), False
+
+    def _on_to(self, most: float) -> float:
+        """Return how far the cutter may go on, mm, that is engaged by an angle, at least: its arc comes so much nearer
+        to metal that lies ahead.
+        """
+        r, turn = self.limit.radius, self.turn
+        clear = [math.sqrt(turn * turn + r * r + 2 * turn * r * math.cos(angle)) for angle in (most, self._aim)]
+        return _SHARE * (clear[0] - clear[1])
 
     def _most(self, start: Heading) -> tuple[float, Heading]:
         """Return the greatest angle along the arc in which the cutter turns away from a wall, and where that is."""
@@ -271,13 +315,18 @@ class WideClearing:
         return self.front.met(here.place, here.ahead) or 0.0
 
     def _where(self, wall: WallPath, low: float, high: float) -> float:
-        """Return where along a wall the cutter must turn away."""
-        while high - low > 1e-6:
-            middle = (low + high) / 2
-            if self._most(wall.heading(middle))[0] > self._aim:
-                high = middle
+        """Return where along a wall the cutter must turn away: at the aim, and not above."""
+        below, above = (self._most(wall.heading(at))[0] - self._aim for at in (low, high))
+        for k in range(_HALVINGS):
+            if high - low < _SAME or -_NEAR <= below <= 0.0:
+                break
+            share = 0.5 if k % 3 == 2 else min(0.98, max(0.02, (below + _NEAR / 2) / (below - above)))
+            middle = low + share * (high - low)
+            found = self._most(wall.heading(middle))[0] - self._aim
+            if found > 0.0:
+                high, above = middle, found
             else:
-                low = middle
+                low, below = middle, found
         return low
 
     def _pursue(self, start: Heading) -> tuple[int, float]:

@@ -21,7 +21,7 @@ from .link import PathPose
 from .ring import rounded
 from .walk import AxisTree
 from .wall_path import WallPath
-from .wide import WideClearing
+from .wide import WayWorth, WideClearing
 
 Floats = NDArray[np.float64]
 
@@ -60,11 +60,12 @@ class WidePlace:
 
 @dataclass(frozen=True)
 class WideStart:
-    """How it begins: the limit, the disc that is clear, and where the path is then."""
+    """How it begins: the limit, the disc that is clear, where the path is then, and what the rest may cost."""
 
     limit: EngagementLimit
     first: ClearedDisc
     pose: PathPose
+    worth: WayWorth
 
 
 def wide_place(
@@ -88,9 +89,9 @@ def wide_place(
     front = MetalFront(limit)
     front.add_disc(*first.centre, first.reach)
     paths = [WallPath.of(rounded(ring, turn), limit.radius) for ring in rings]
-    clearing = WideClearing(limit, room, turn, paths, front)
+    clearing = WideClearing(limit, room, turn, paths, front, start.worth)
     end = clearing.cut(start.pose, progress)
-    if not clearing.rows:
+    if end is None or not clearing.rows:
         return None
     discs &= _far_from(clearing.uncut, axis, limit.radius)
     return WidePlace(np.array(clearing.rows), np.array(clearing.clear), discs, paths, end, front)
