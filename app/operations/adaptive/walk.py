@@ -64,38 +64,28 @@ class AxisWalk:
         """Clear all of a tree, from its root on.
 
         Args:
-            swept: (n,) points of the axis whose discs are clear already, beside the root's; all of them joined to it.
+            swept: (n,) points of the axis whose discs are clear already, beside the root's: they need no arc.
 
         Raises:
             Cancelled: by progress.
         """
-        self.discs.add(self.begin(tree))
-        waiting = self._from_swept(tree, swept)
+        number = self.discs.add(self.begin(tree))
+        waiting = [(tree.root, child, number) for child in reversed(tree.children(tree.root))]
         done = 0
         while waiting:
             before, node, payer = waiting.pop()
             chain = [before, node]
-            while len(on := tree.children(chain[-1])) == 1:
-                chain += on
-            done += len(chain)
+            if swept[node]:
+                (x, y), reach = _place(self.axis.points[node], self.axis.reach[node])
+                last: int | None = self.discs.add(ClearedDisc(x, y, reach, payer, True))
+            else:
+                while len(on := tree.children(chain[-1])) == 1 and not swept[on[0]]:
+                    chain += on
+                last = self._follow(chain, payer)
+            done += len(chain) - 1
             progress.step(min(1.0, done / len(tree.order)), "Clear along the axis")
-            last = self._follow(chain, payer)
             if last is not None:
                 waiting += [(chain[-1], child, last) for child in reversed(tree.children(chain[-1]))]
-
-    def _from_swept(self, tree: AxisTree, swept: NDArray[np.bool_]) -> list[tuple[int, int, int]]:
-        """Return what is to be followed, the first last: (point, the one behind it, number of the disc there)."""
-        found: list[tuple[int, int, int]] = []
-        waiting = [(tree.root, 0)]
-        while waiting:
-            node, number = waiting.pop()
-            for child in reversed(tree.children(node)):
-                if swept[child]:
-                    (x, y), reach = _place(self.axis.points[child], self.axis.reach[child])
-                    waiting.append((child, self.discs.add(ClearedDisc(x, y, reach, number, True))))
-                else:
-                    found.append((node, child, number))
-        return found[::-1]
 
     def fits(self, centre: Point, reach: float, payer: int) -> bool:
         """Tell whether the arc round a place keeps the limit, if a disc pays for it."""

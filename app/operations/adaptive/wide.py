@@ -40,6 +40,9 @@ _SPARE = math.radians(0.1)
 _AIMS = (0.0, math.radians(1.5), math.radians(5.0))
 """Radians less than planned that a way is tried with, one after the other."""
 
+_IDLE = 4
+"""Ways, one after the other, that need not bring the cutter farther along walls: they cut where metal is blunt."""
+
 _MOST, _TURNS = 1500, 40
 """Ways in one part, and how often one leaves a wall."""
 
@@ -57,8 +60,8 @@ _NEAR, _HALVINGS = 1e-4, 40
 
 _SAME = 1e-5
 
-_LOOSE = 0.1
-"""Of the effort by discs alone that ways may take more than their part of it."""
+_WORTH, _LOOSE = 0.85, 0.05
+"""Of the effort by discs alone for what is done that ways may take, and of all of it that they may take besides."""
 
 
 class NotWithinLimit(Exception):
@@ -88,7 +91,7 @@ class WayWorth:
     def lost(self, rows: Sequence[Rows], clear: Sequence[bool], done: float) -> bool:
         """Tell whether rows, some over clear ground, have cost much more than the share that they have done."""
         size = lengths(np.array(rows)) / np.where(clear, self.faster, 1.0)
-        return float(size.sum()) > (done + _LOOSE) * self.effort
+        return float(size.sum()) > (_WORTH * done + _LOOSE) * self.effort
 
 
 @dataclass
@@ -118,6 +121,7 @@ class WideClearing:
     _pose: PathPose | None = None
     _at: tuple[int, float] | None = None
     _aim: float = 0.0
+    _idle: int = 0
 
     def cut(self, pose: PathPose, progress: Progress) -> PathPose | None:
         """Clear all that can be cleared; return where the path ends, None where discs are quicker.
@@ -173,13 +177,14 @@ class WideClearing:
         """Look for metal along walls near the rows from one on.
 
         Raises:
-            NotWithinLimit: as much stands as before.
+            NotWithinLimit: as much stands as some ways before.
         """
         before, around = self._left(), boxes(np.array(self.rows[begin:]))
         near = np.array([*(around[:, :2].min(axis=0)), *(around[:, 2:].max(axis=0))])
         near += np.array([-1, -1, 1, 1]) * 2 * self.limit.radius
         self._uncut = [wall.uncut(self.front, each, near) for wall, each in zip(self.walls, self._uncut, strict=True)]
-        if self._left() >= before:
+        self._idle = self._idle + 1 if self._left() >= before else 0
+        if self._idle > _IDLE:
             raise NotWithinLimit
 
     def _stretches(self) -> list[Stretch]:
