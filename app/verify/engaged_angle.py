@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.primitives import lengths, points_at, sweeps
 from ..model.motion import MotionKind
-from ..toolpath.engagement.rim_kernels import bound_along, clear_radius
+from ..toolpath.engagement.rim_kernels import bound_along, clear_radius, covers_disc
 from ..toolpath.engagement.swath_shapes import swath_shapes
 
 Floats = NDArray[np.float64]
@@ -43,6 +43,9 @@ in another one, as much may be between their centres: two of the coarsest digits
 
 _WHOLE = 1e-4
 """mm; a disc that is smaller by less than what its arcs sweep needs no sectors beside it."""
+
+_SQUARE = 2e-4
+"""mm; half the side of squares that are not divided to see whether the cutter stands on clear ground."""
 
 _TIGHT = math.radians(0.02)
 
@@ -201,7 +204,7 @@ class _Prover:
     def _down(self, end: Floats, size: float) -> None:
         """Take a way down, straight or along a slope: at its end the cutter stands in a hole of its own size."""
         x, y, z = end.tolist()
-        if clear_radius(self._shapes(z), (x, y, self._radius)) >= self._radius - _CRACK:
+        if covers_disc(self._shapes(z), (x, y, self._radius - _CRACK), _SQUARE):
             return
         self._entries += not self._entering
         self._entering = True

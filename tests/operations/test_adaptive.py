@@ -34,6 +34,8 @@ from tests.part_shapes import bulged, circle, fig2, random_star, square
 R, ANGLE = 3.0, math.radians(53.13)
 LIMIT = EngagementLimit(R, ANGLE)
 MORE = math.radians(0.1)
+HARDLY = 0.02
+"""Radians of the rim that metal of half a micrometre takes: what ways along metal leave may be as thick."""
 
 Floats = NDArray[np.float64]
 
@@ -166,7 +168,7 @@ def test_a_whole_area_is_cleared_within_the_limit(name: str) -> None:
     rows, clear = path_of(part)
     seen = engaged(rows, R)
     assert max(float(each.max()) for each in seen[2:]) < ANGLE + MORE
-    assert max((float(each.max()) for each, free in zip(seen, clear, strict=True) if free), default=0.0) == 0.0
+    assert max((float(each.max()) for each, free in zip(seen, clear, strict=True) if free), default=0.0) < HARDLY
     area, cut = area_of(contours), swept(rows, R)
     left = area.buffer(-R, quad_segs=64).buffer(R - 1e-3, quad_segs=64).difference(cut)
     assert left.buffer(-TIPS.get(name, 0.006)).is_empty

@@ -14,8 +14,10 @@ _FINENESS = 8e-4
 """mm that a clear disc is taken to be smaller than it is when a path is paid for with it: what the digits of an NC
 program move path and disc at most, both together."""
 
-_SPARE = math.radians(0.15)
-"""Radians that the limit is not used by: in tight corners digits move the angle the most, and proofs need some room."""
+_SPARE, _COARSE_SPARE = math.radians(0.15), math.radians(0.35)
+"""Radians that the limit is not used by, with fine digits and with coarse ones: in tight corners digits move the angle
+the most, and proofs need some room.
+"""
 
 _LESS = math.radians(0.15)
 
@@ -77,7 +79,7 @@ class EngagementLimit:
     @property
     def planned(self) -> float:
         """The angle that paths are planned with, radians."""
-        return self.angle - _SPARE
+        return self.angle - (_COARSE_SPARE if self.grid is not None or self.coarser > 1.0 else _SPARE)
 
     @property
     def pursued(self) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -216,7 +217,12 @@ def _first_turns(area: _PlannedArea, first: ClearedDisc, limit: EngagementLimit)
 def _wide(
     area: _PlannedArea, tree: AxisTree, by_discs: ConnectedPath, limit: EngagementLimit, progress: Progress
 ) -> WidePlace | None:
-    """Return how the wide place about the root is cleared, None where there is none, or discs are quicker."""
+    """Return how the wide place about the root is cleared, None where there is none, or discs are quicker.
+
+    Coarse digits turn short arcs by too much for it.
+    """
+    if limit.grid is not None:
+        return None
     first = AxisWalk(limit, area.room, area.axis).begin(tree)
     turns = _first_turns(area, first, limit)
     end, faster = turns[-1], area.task.faster

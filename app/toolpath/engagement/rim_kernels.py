@@ -21,6 +21,7 @@ from ...geometry.sort_kernels import order_of
 _SHAPES = "float64[:, ::1]"
 _HALF, _TURN = math.pi / 2, 2 * math.pi
 _STACK = 64
+_CIRCLE = "UniTuple(float64, 3)"
 _RIM = "UniTuple(float64, 7)"  # at both ends of a piece its centre and where its front half begins; its radius
 _A_HAIR = 1e-10  # radians
 _ROUNDING = 1e-12  # radians between stretches that end and begin at one place
@@ -171,7 +172,9 @@ def shapes_near(shapes, disc):
     return found[:count].copy()
 
 
-@kernel(f"float64({_SHAPES}, int64, UniTuple(float64, 3), float64, UniTuple(float64, 2), float64[:, ::1])", counts=False)
+@kernel(
+    f"float64({_SHAPES}, int64, UniTuple(float64, 3), float64, UniTuple(float64, 2), float64[:, ::1])", counts=False
+)
 def _begin_of(shapes, k, circle, less, window, out):
     """Return where the stretch of a part of a circle begins that shape k covers, and in which the end of the part
     lies, which the shape holds.
@@ -311,7 +314,7 @@ def _gap_end(shapes, rim, less, reached, out):
 
 @kernel(f"float64({_SHAPES}, {_RIM}, float64, float64, float64[:, :, ::1])", counts=False)
 def _covered_from(shapes, rim, less, place, out):
-    """Return from where on one shape covers the rim up to a place at both ends of a piece; the place where none does."""
+    """Return from where on one shape covers the rim up to a place at both ends of a piece; the place if none does."""
     best, held = place, False
     for k in range(len(shapes)):
         # what does not hold where the best one so far begins, begins no sooner
