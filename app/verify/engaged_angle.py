@@ -3,7 +3,8 @@
 Only the motions that were read back count, and what these motions themselves have cleared; all else is metal. Nothing
 is known here of how the path was made. Cleared ground is kept as discs and sectors: an arc round c clears the ring
 between rho - r and rho + r in its sector, so where the ground within rho - r of c is clear already the whole sector is,
-and where sectors and discs that hold c cover a circle round it there is nothing left inside. Along an arc no more of
+and where sectors and discs that hold c cover a circle round it there is nothing left inside. Other arcs and lines
+clear convex pieces of what they sweep (`swath_shapes`). Along an arc no more of
 the rim can be engaged than lies farther from c than the ground is clear all round; lines, and arcs for which that is
 too much, are bounded piece by piece (`rim_kernels`).
 
