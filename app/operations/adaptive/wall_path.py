@@ -43,7 +43,7 @@ class WallPath:
     @cached_property
     def ends(self) -> Floats:
         """(n + 1,) where rows begin, and the length of all, mm."""
-        return np.append(0.0, np.cumsum(lengths(self.rows)))
+        return np.concatenate([np.zeros(1), np.cumsum(lengths(self.rows))])
 
     @property
     def length(self) -> float:
@@ -53,7 +53,8 @@ class WallPath:
     @cached_property
     def places(self) -> Floats:
         """(m,) the places that are looked at, mm from the beginning."""
-        return np.arange(count := max(8, math.ceil(self.length / self.spacing))) * (self.length / count)
+        count = max(8, math.ceil(self.length / self.spacing))
+        return np.arange(count, dtype=np.float64) * (self.length / count)
 
     @cached_property
     def headings(self) -> tuple[Heading, ...]:

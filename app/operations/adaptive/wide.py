@@ -168,9 +168,10 @@ class WideClearing:
                 del self.rows[before[0] :], self.clear[before[0] :]
                 self.front.forget(before[1])
                 _, _, self._pose, self._at, self._uncut = before
+                if less == _AIMS[-1]:
+                    self.refused.append(going[0])
             else:
                 return True
-        self.refused.append(going[0])
         return True
 
     def _look_again(self, begin: int) -> None:

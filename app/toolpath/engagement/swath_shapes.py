@@ -66,7 +66,7 @@ def _of_arc(row: list[float], radius: float) -> list[tuple[float, ...]]:
     half = sweep / count / 2
     # the wedge's tip: deep, within the ring, and no side of the wedge may come nearer to the centre than it does
     tip = min(max(reach - _DEEP * radius, abs(turn - radius) + 1e-9), reach * math.cos(half))
-    made = [_disc(*row[:2], radius), _disc(*row[2:4], radius)]
+    made = [_disc(row[0], row[1], radius), _disc(row[2], row[3], radius)]
     for k in range(count):
         ahead = first + (2 * k + 1) * half
         if k:
