@@ -46,6 +46,9 @@ _BESIDE = 0.5
 
 _CHORD = 1e-3
 
+_SHORT, _KINK = 1e-4, 2e-3
+"""mm of rows that have no direction to speak of, and radians by which the others may turn where they meet."""
+
 
 @dataclass(frozen=True, eq=False)
 class ConnectedPath:
@@ -177,7 +180,22 @@ def _part(area: _PlannedArea, tree: AxisTree, limit: EngagementLimit, progress: 
     other = _path(area, tree, limit, wide, progress.part(0.8, 1.0))
     worse = len(other.unproven) > len(by_discs.unproven) or len(other.stops) > len(by_discs.stops)
     faster = area.task.faster
-    return other if not worse and other.effort(faster) < by_discs.effort(faster) else by_discs
+    better = not worse and other.effort(faster) < by_discs.effort(faster)
+    return other if better and all(_is_smooth(run.rows) for run in other.runs) else by_discs
+
+
+def _is_smooth(rows: Rows) -> bool:
+    """Tell whether rows (n, 8) touch one another where they meet, but for those too short to have a direction."""
+    long = rows[lengths(rows) > _SHORT]
+    begin, end = (_ahead(long, column) for column in (0, 2))
+    return bool((np.abs((begin[1:] - end[:-1] + math.pi) % math.tau - math.pi) < _KINK).all())
+
+
+def _ahead(rows: Rows, column: int) -> Floats:
+    """Return the directions of travel at the beginnings (column 0) or ends (2) of rows, radians."""
+    along = np.arctan2(rows[:, 3] - rows[:, 1], rows[:, 2] - rows[:, 0])
+    out = np.arctan2(rows[:, column + 1] - rows[:, 5], rows[:, column] - rows[:, 4])
+    return np.asarray(np.where(rows[:, 7] == 0, along, out + rows[:, 7] * math.pi / 2), np.float64)
 
 
 def _path(
