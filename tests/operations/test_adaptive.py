@@ -179,7 +179,7 @@ def test_a_whole_area_is_cleared_within_the_limit(name: str) -> None:
 def test_paths_are_lines_and_arcs_that_touch(name: str) -> None:
     (part,) = planned(SHAPES[name])
     for run in part.runs:
-        rows = run.rows[np.array([size(row) for row in run.rows]) > 1e-4]
+        rows = run.rows[np.array([size(row) for row in run.rows]) > 1e-6]
         assert np.abs(run.rows[1:, :2] - run.rows[:-1, 2:4]).max() < 1e-7
         ahead = np.array([at(row, np.array([0.0, 1.0]))[1] for row in rows])
         turn = (ahead[1:, 0] - ahead[:-1, 1] + math.pi) % math.tau - math.pi
