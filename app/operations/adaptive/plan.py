@@ -239,7 +239,7 @@ def _wide(
 
     Coarse digits turn short arcs by too much for it.
     """
-    if limit.grid is not None:
+    if limit.grid is not None or limit.coarser > 1.0:
         return None
     first = AxisWalk(limit, area.room, area.axis).begin(tree)
     turns = _first_turns(area, first, limit)
