@@ -3,7 +3,8 @@
 Only the motions that were read back count, and what these motions themselves have cleared; all else is metal. Nothing
 is known here of how the path was made. Cleared ground is kept as discs and sectors: an arc round c clears the ring
 between rho - r and rho + r in its sector, so where the ground within rho - r of c is clear already the whole sector is,
-and where sectors and discs that hold c cover a circle round it there is nothing left inside. Along an arc no more of
+and where sectors and discs that hold c cover a circle round it there is nothing left inside. Other arcs and lines
+clear convex pieces of what they sweep (`swath_shapes`). Along an arc no more of
 the rim can be engaged than lies farther from c than the ground is clear all round; lines, and arcs for which that is
 too much, are bounded piece by piece (`rim_kernels`).
 
@@ -22,7 +23,8 @@ from numpy.typing import NDArray
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.primitives import lengths, points_at, sweeps
 from ..model.motion import MotionKind
-from ..toolpath.engagement.rim_kernels import bound_along, clear_radius
+from ..toolpath.engagement.rim_kernels import bound_along, clear_radius, covers_disc
+from ..toolpath.engagement.swath_shapes import swath_shapes
 
 Floats = NDArray[np.float64]
 
@@ -41,8 +43,11 @@ _CRACK = 4e-3
 """mm by which a sector counts as wider than its arc: the cutter is round at both ends of the arc. Where an arc goes on
 in another one, as much may be between their centres: two of the coarsest digits each way."""
 
-_WHOLE = 1e-3
+_WHOLE = 1e-4
 """mm; a disc that is smaller by less than what its arcs sweep needs no sectors beside it."""
+
+_SQUARE = 2e-4
+"""mm; half the side of squares that are not divided to see whether the cutter stands on clear ground."""
 
 _TIGHT = math.radians(0.02)
 
@@ -195,13 +200,13 @@ class _Prover:
                 self._above.append(found)
         if abs(fall) <= _LEVEL and row[7] != 0:
             self._clear_by_arc(row, low, shapes, clear)
+        elif abs(fall) <= _LEVEL:
+            self._level(low).add(swath_shapes(row[None], self._radius))
 
     def _down(self, end: Floats, size: float) -> None:
         """Take a way down, straight or along a slope: at its end the cutter stands in a hole of its own size."""
         x, y, z = end.tolist()
-        shapes = self._shapes(z)
-        held = shapes[np.hypot(shapes[:, 0] - x, shapes[:, 1] - y) + self._radius <= shapes[:, 2]]
-        if len(held):
+        if covers_disc(self._shapes(z), (x, y, self._radius - _CRACK), _SQUARE):
             return
         self._entries += not self._entering
         self._entering = True
@@ -254,9 +259,10 @@ class _Prover:
         return bound, share, clear
 
     def _clear_by_arc(self, row: Floats, z: float, shapes: Floats, clear: float) -> None:
-        """Take as clear what an arc has swept, as far as it makes sectors and discs."""
+        """Take as clear what an arc has swept: sectors and discs where it is clear within, else shapes of the ring."""
         x, y, turn = row[4:7].tolist()
         if clear < turn - self._radius + _CRACK:
+            self._level(z).add(swath_shapes(row[None], self._radius))
             return
         sectors = _sectors(row, self._radius, max(clear, self._radius - turn))
         reach = turn + self._radius

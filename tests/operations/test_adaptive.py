@@ -34,6 +34,8 @@ from tests.part_shapes import bulged, circle, fig2, random_star, square
 R, ANGLE = 3.0, math.radians(53.13)
 LIMIT = EngagementLimit(R, ANGLE)
 MORE = math.radians(0.1)
+HARDLY = 0.02
+"""Radians of the rim that metal of half a micrometre takes: what ways along metal leave may be as thick."""
 
 Floats = NDArray[np.float64]
 
@@ -166,7 +168,7 @@ def test_a_whole_area_is_cleared_within_the_limit(name: str) -> None:
     rows, clear = path_of(part)
     seen = engaged(rows, R)
     assert max(float(each.max()) for each in seen[2:]) < ANGLE + MORE
-    assert max((float(each.max()) for each, free in zip(seen, clear, strict=True) if free), default=0.0) == 0.0
+    assert max((float(each.max()) for each, free in zip(seen, clear, strict=True) if free), default=0.0) < HARDLY
     area, cut = area_of(contours), swept(rows, R)
     left = area.buffer(-R, quad_segs=64).buffer(R - 1e-3, quad_segs=64).difference(cut)
     assert left.buffer(-TIPS.get(name, 0.006)).is_empty
@@ -177,7 +179,7 @@ def test_a_whole_area_is_cleared_within_the_limit(name: str) -> None:
 def test_paths_are_lines_and_arcs_that_touch(name: str) -> None:
     (part,) = planned(SHAPES[name])
     for run in part.runs:
-        rows = run.rows[np.array([size(row) for row in run.rows]) > 1e-4]
+        rows = run.rows[np.array([size(row) for row in run.rows]) > 1e-6]
         assert np.abs(run.rows[1:, :2] - run.rows[:-1, 2:4]).max() < 1e-7
         ahead = np.array([at(row, np.array([0.0, 1.0]))[1] for row in rows])
         turn = (ahead[1:, 0] - ahead[:-1, 1] + math.pi) % math.tau - math.pi

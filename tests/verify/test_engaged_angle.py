@@ -35,8 +35,8 @@ def by_hand(*motions: tuple[float, ...], radius: float = R) -> CutterPath:
     return CutterPath(np.concatenate([end[:1], end[:-1]]), end, centre, kind, radius, 0.0)
 
 
-def pocket(depth: float = 2.0) -> Job:
-    walls = polygon_contour([(0, 0), (22, 0), (22, 14), (0, 14)])
+def pocket(depth: float = 2.0, high: float = 14.0) -> Job:
+    walls = polygon_contour([(0, 0), (22, 0), (22, high), (0, high)])
     part = Part().with_entities(tuple(Entity(k, c, "0") for k, c in enumerate(walls.primitives, 1)))
     cut = CutParameters(1, depth=depth, stepdown=2.0)
     return Job(part, tools=(Tool(1, 2 * R),), operations=(AdaptiveOperation(cut, ANGLE),))
@@ -129,7 +129,9 @@ def test_a_spoiled_program_is_not_proven(kept: CutterPath, how: str) -> None:
     assert prove_engagement(SPOILED[how](kept), ANGLE).above
 
 
-def test_hardly_an_arc_can_be_moved(kept: CutterPath) -> None:
+def test_hardly_an_arc_can_be_moved() -> None:
+    """Of a slot that discs alone clear, as there is no room to turn along its walls."""
+    kept = path_of(compute(pocket(high=9.0)).moves)
     arcs = cutting_arcs(kept)
     spoiled = [bool(prove_engagement(moved(kept, k, j), ANGLE).above) for j, k in pairwise(arcs) if j + 1 < k]
     assert len(spoiled) >= 4 and sum(spoiled) >= 0.7 * len(spoiled)
@@ -139,3 +141,21 @@ def test_rings_are_far_above() -> None:
     job = replace(pocket(), operations=(PocketOperation(CutParameters(1), 1.2),))
     proof = prove_engagement(path_of(compute(job).moves), ANGLE)
     assert proof.above and proof.greatest.angle > math.radians(150)
+
+
+def test_a_way_down_onto_ground_that_several_arcs_have_cleared_is_no_entry(kept: CutterPath) -> None:
+    """Before, one disc had to hold the cutter: ways down in wide places counted as entries, the next turn with them."""
+    last = kept.end[-1].copy()
+    middle = np.array([11.0, 5.0])
+    up, over, down = ((*last[:2], 5.0), (*middle, 5.0), (*middle, float(kept.end[:, 2].min())))
+    end = np.concatenate([kept.end, [up, over, down]])
+    start = np.concatenate([kept.start, [last, up, over]])
+    more = np.full(3, MoveKind.LINE, kept.kind.dtype)
+    again = replace(
+        kept,
+        start=start,
+        end=end,
+        centre=np.concatenate([kept.centre, np.full((3, kept.centre.shape[1]), math.nan)]),
+        kind=np.concatenate([kept.kind, more]),
+    )
+    assert prove_engagement(again, ANGLE).entries == prove_engagement(kept, ANGLE).entries == 1

@@ -75,12 +75,14 @@ class ClearedDisc:
     Attributes:
         x, y, reach: mm.
         payer: number of that disc; -1: the one that the first spiral clears.
+        swept: whether it is clear anyway, and needs no arc.
     """
 
     x: float
     y: float
     reach: float
     payer: int
+    swept: bool = False
 
     @property
     def centre(self) -> Point:

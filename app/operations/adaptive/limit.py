@@ -14,8 +14,12 @@ _FINENESS = 8e-4
 """mm that a clear disc is taken to be smaller than it is when a path is paid for with it: what the digits of an NC
 program move path and disc at most, both together."""
 
-_SPARE = math.radians(0.35)
-"""Radians that the limit is not used by: in tight corners digits move the angle the most, and proofs need some room."""
+_SPARE, _COARSE_SPARE = math.radians(0.15), math.radians(0.35)
+"""Radians that the limit is not used by, with fine digits and with coarse ones: in tight corners digits move the angle
+the most, and proofs need some room.
+"""
+
+_LESS = math.radians(0.15)
 
 _LEAST_CENTRE = 0.002
 """mm; the least radius of a path that all controls know as an arc is 0.005 mm, and the tip of a corner needs a few."""
@@ -75,7 +79,12 @@ class EngagementLimit:
     @property
     def planned(self) -> float:
         """The angle that paths are planned with, radians."""
-        return self.angle - _SPARE
+        return self.angle - (_COARSE_SPARE if self.grid is not None or self.coarser > 1.0 else _SPARE)
+
+    @property
+    def pursued(self) -> float:
+        """The angle that ways along the metal's edge are planned with, radians: arcs are not quite these ways."""
+        return self.planned - _LESS
 
     @property
     def depth(self) -> float:
@@ -107,11 +116,8 @@ class EngagementLimit:
         With e so much, the half turn goes round a centre e beside that of the one before, and finds (radius of the
         ground cleared so far - e) clear.
         """
-        low, high = 0.0, turn + self.radius
-        for _ in range(60):
-            middle = (low + high) / 2
-            if turn + self.radius - middle >= self.clear_needed(turn + middle):
-                low = middle
-            else:
-                high = middle
-        return low
+        r, cosine = self.radius, math.cos(self.planned)
+        # turn + r - e = clear_needed(turn + e), squared: what is left of e is linear
+        clear = turn + r - self.slack
+        grown = clear * clear - turn * turn - r * r - 2 * turn * r * cosine
+        return max(0.0, grown / (2 * (clear + turn + r * cosine)))

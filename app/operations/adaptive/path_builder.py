@@ -11,13 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.distance import DistanceField
-from ...geometry.primitives import Rows, distances, within_half_turn
+from ...geometry.primitives import Rows, distances, lengths, within_half_turn
 from ...toolpath.build import split_row
 from ...toolpath.linking.bridge import foot, fraction_at
 from .chips import DiscArc, feed_pieces
 from .cleared_discs import ClearedDisc, ClearedDiscs, Point
+from .front import MetalFront
 from .limit import EngagementLimit
 from .link import Circle, PathPose, Row, smooth_way, way_in
+from .wall_stretches import WallStretch
 
 _NOTHING = 1e-6
 
@@ -45,18 +47,21 @@ class PathBuilder:
         limit, discs: of the part.
         farthest: mm that the cutter goes over clear ground at most before it goes through the air instead.
         fastest: times the tool's feed at most, where less is engaged than at the limit.
+        front: what is clear, where more is than the discs; ways over clear ground are then proven by it.
     """
 
     limit: EngagementLimit
     discs: ClearedDiscs
     farthest: float
     fastest: float = 1.0
+    front: MetalFront | None = None
     runs: list[CutRun] = field(default_factory=list)
     _rows: list[Row] = field(default_factory=list)
     _clear: list[bool] = field(default_factory=list)
     _times: list[float] = field(default_factory=list)
     _pose: PathPose | None = None
     _in: int = 0
+    _stretches: list[WallStretch] = field(default_factory=list)
 
     def begin(self, spiral: Rows) -> None:
         """Begin with the spiral that clears the first disc."""
@@ -65,9 +70,24 @@ class PathBuilder:
         x, y, _, _ = spiral[-1, [2, 3, 4, 5]]
         self._stand((float(x), float(y)), 0)
 
+    def go_on(self, rows: Rows, clear: NDArray[np.bool_], pose: PathPose) -> None:
+        """Go along rows (n, 8), n >= 1, that begin where the path ends, (n,) of them over clear ground, up to a pose.
+
+        The cutter stands then in the disc that lies the farthest round the last place.
+        """
+        for row, air in zip(rows.tolist(), clear.tolist(), strict=True):
+            self._cut(tuple(row), clear=air)
+        self._pose, self._in = pose, int(np.argmax(self.discs.depth_in((pose.x, pose.y))))
+
+    def leave_for(self, stretches: Sequence[WallStretch]) -> None:
+        """Take stretches along walls, each to be cut as soon as the disc before it is clear."""
+        self._stretches = list(stretches)
+
     def slice(self, number: int) -> None:
-        """Clear a disc by the arc that its payer leaves of its circle."""
+        """Clear a disc by the arc that its payer leaves of its circle; nothing is to do where it is clear."""
         disc = self.discs.each[number]
+        if disc.swept:
+            return
         paying = self.discs.each[disc.payer]
         turn = disc.reach - self.limit.radius
         half = _half(disc, paying, self.limit)
@@ -88,6 +108,33 @@ class PathBuilder:
             self._cut((*a, *b, *disc.centre, turn, 1.0), piece.times)
             a = b
         self._stand(a, number)
+        if self.front is not None:
+            self.front.add_disc(*disc.centre, disc.reach)
+        self._along_walls(number)
+
+    def _along_walls(self, number: int) -> None:
+        """Cut the stretches along walls for which a disc was the last that had to be clear."""
+        for stretch in [each for each in self._stretches if each.after == number]:
+            if self._stretch(stretch, self.limit.planned):
+                self._stretches.remove(stretch)
+
+    def _stretch(self, stretch: WallStretch, most: float) -> bool:
+        """Cut a stretch, if no more than an angle is engaged there so far, radians; tell whether it was cut."""
+        assert self.front is not None
+        if any(self.front.bound(row, most) > most for row in stretch.rows):
+            return False
+        begin, end = stretch.poses
+        self._go(begin, self._in, begin.circle(1.0))
+        for row in stretch.rows:
+            self._cut(row.tolist())
+        self.front.sweep(stretch.rows)
+        self._pose = end
+        return True
+
+    def finish(self) -> list[Point]:
+        """Cut the stretches along walls that are left; return where those begin that the limit cannot be kept on."""
+        waiting, self._stretches = self._stretches, []
+        return [each.place for each in waiting if not self._stretch(each, self.limit.angle)]
 
     def ring(self, path: Rows) -> bool:
         """Go along a ring, from where a disc that was cleared touches it; False where none does."""
@@ -104,7 +151,7 @@ class PathBuilder:
         angle = math.atan2(y - disc.y, x - disc.x)
         self._go(PathPose(x, y, angle, disc.reach - self.limit.radius), number)
         for each in rows:
-            self._cut(tuple(each.tolist()))
+            self._cut(each.tolist())
         self._stand((x, y), number)
         return True
 
@@ -132,25 +179,44 @@ class PathBuilder:
         angle = math.atan2(place[1] - disc.y, place[0] - disc.x)
         self._pose, self._in = PathPose(*place, angle, max(math.dist(place, disc.centre), _NOTHING)), number
 
-    def _cut(self, row: Sequence[float], times: float = 1.0) -> None:
+    def _cut(self, row: Sequence[float], times: float = 1.0, clear: bool = False) -> None:
         self._rows.append(tuple(row))  # type: ignore[arg-type]
-        self._clear.append(False)
+        self._clear.append(clear)
         self._times.append(times)
 
-    def _go(self, pose: PathPose, number: int) -> None:
-        """Bring the cutter to a pose within a disc: over discs that overlap, or through the air."""
+    def _go(self, pose: PathPose, number: int, into: Circle | None = None) -> None:
+        """Bring the cutter to a pose within a disc: over discs that overlap, or through the air.
+
+        Args:
+            into: the circle in which its centre may be where the way comes in; None = the disc's.
+        """
         if self._pose is None:
             return
-        over = self._over(self._in, number)
-        stops = [(self._pose.x, self._pose.y), *over, (pose.x, pose.y)]
-        if sum(math.dist(a, b) for a, b in pairwise(stops)) > self.farthest:
+        room = into or self._room(number)
+        rows = self._way(pose, number, room)
+        if rows is None:
             self._end()
-            rows = way_in(pose, self._room(number))
-        else:
-            rows = smooth_way(self._pose, pose, over, self._room(number))
+            rows = way_in(pose, room)
         self._rows += rows
         self._clear += [True] * len(rows)
         self._times += [1.0] * len(rows)
+
+    def _way(self, pose: PathPose, number: int, room: Circle) -> list[Row] | None:
+        """Return the way over clear ground to a pose, None where through the air is quicker."""
+        assert self._pose is not None
+        over = self._over(self._in, number)
+        if self.front is not None:
+            ways = (smooth_way(self._pose, pose, stops, room) for stops in ((), over))
+            return next((rows for rows in ways if self._is_way(rows, self.front)), None)
+        stops = [(self._pose.x, self._pose.y), *over, (pose.x, pose.y)]
+        if sum(math.dist(a, b) for a, b in pairwise(stops)) > self.farthest:
+            return None
+        return smooth_way(self._pose, pose, over, room)
+
+    def _is_way(self, rows: list[Row], front: MetalFront) -> bool:
+        """Tell whether rows are over clear ground, and no longer than a way through the air."""
+        way = np.array(rows).reshape(-1, 8)
+        return float(lengths(way).sum()) <= self.farthest and all(front.is_air(row) for row in way)
 
     def _end(self) -> None:
         if self._rows:

@@ -19,7 +19,7 @@ from ...toolpath.narrow_regions import finest, necks, too_small
 from ...toolpath.operation_context import ANY_DIGITS, OperationContext, ProgramDigits, check_depth, levels_of
 from ..from_outside import know_as_clear, open_stock
 from .limit import DigitGrid, EngagementLimit
-from .passes import DiscPasses, farthest, nearest_first
+from .passes import DiscPasses, clear_feed, farthest, nearest_first
 from .plan import ClearingTask, ConnectedPath, least_turn, mirrored, mirrored_part, plan
 
 _INCH = 2.54
@@ -71,7 +71,8 @@ def adaptive(context: OperationContext, index: int, progress: Progress) -> None:
         limit = replace(limit, grid=limit.grid.mirrored())
     stock = open_stock(context, operation, area)
     seen = stock if climb or stock is None else stock.mirrored()
-    task = ClearingTask(walls, cut.stock_to_leave, farthest(label, levels), seen, operation.fastest_cut)
+    faster = clear_feed(label) / label.feed
+    task = ClearingTask(walls, cut.stock_to_leave, farthest(label, levels), seen, operation.fastest_cut, faster)
     parts = plan(task, limit, progress.part(0.05, 0.9))
     if not climb:
         parts = tuple(mirrored_part(part) for part in parts)

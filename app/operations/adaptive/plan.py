@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,15 +13,19 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
-from ...geometry.primitives import Primitives, Rows, sample
+from ...geometry.primitives import Primitives, Rows, lengths, sample
 from ...toolpath.machining_areas import BoxSides
 from .axis import RoughAxis, rough_axis
-from .cleared_discs import ClearedDiscs, Point, WallClearance
+from .cleared_discs import ClearedDisc, ClearedDiscs, Point, WallClearance
 from .limit import EngagementLimit
+from .link import PathPose
 from .path_builder import CutRun, PathBuilder
 from .ring import RingProof, rounded, sharp_corners
 from .spiral import spiral
 from .walk import AxisTree, AxisWalk, WalkStop, trees
+from .wall_stretches import stretches
+from .wide import WayWorth
+from .wide_place import WidePlace, WideStart, swept_discs, wide_place
 
 Floats = NDArray[np.float64]
 
@@ -41,6 +46,9 @@ _BESIDE = 0.5
 
 _CHORD = 1e-3
 
+_SHORT, _KINK = 1e-4, 2e-3
+"""mm of rows that have no direction to speak of, and radians by which the others may turn where they meet."""
+
 
 @dataclass(frozen=True, eq=False)
 class ConnectedPath:
@@ -59,6 +67,11 @@ class ConnectedPath:
     stops: tuple[WalkStop, ...] = ()
     unproven: tuple[Point, ...] = ()
 
+    def effort(self, faster: float) -> float:
+        """Return how long it takes, as mm at the tool's feed; over clear ground the cutter is so many times faster."""
+        size = [lengths(run.rows) / np.where(run.clear, faster, run.times) for run in self.runs]
+        return sum(float(each.sum()) for each in size)
+
 
 @dataclass(frozen=True)
 class ClearingTask:
@@ -70,6 +83,7 @@ class ClearingTask:
         farthest: mm that the cutter goes over clear ground rather than through the air.
         stock: beside which it begins, where the area goes on past its edges; None = the area does not.
         fastest: times the tool's feed at most, where less is engaged than at the limit.
+        faster: times the tool's feed over clear ground.
     """
 
     walls: Primitives
@@ -77,6 +91,7 @@ class ClearingTask:
     farthest: float
     stock: BoxSides | None = None
     fastest: float = 1.0
+    faster: float = 4.0
 
 
 def plan(task: ClearingTask, limit: EngagementLimit, progress: Progress = NO_PROGRESS) -> tuple[ConnectedPath, ...]:
@@ -157,18 +172,81 @@ def _complete(axis: RoughAxis, level: OffsetLevel, room: WallClearance) -> Rough
 
 
 def _part(area: _PlannedArea, tree: AxisTree, limit: EngagementLimit, progress: Progress) -> ConnectedPath:
+    """Return the quicker path of a part: by discs alone, or with its wide places cleared along the metal."""
+    by_discs = _path(area, tree, limit, None, progress.part(0.0, 0.3))
+    wide = _wide(area, tree, by_discs, limit, progress.part(0.3, 0.8))
+    if wide is None:
+        return by_discs
+    other = _path(area, tree, limit, wide, progress.part(0.8, 1.0))
+    worse = len(other.unproven) > len(by_discs.unproven) or len(other.stops) > len(by_discs.stops)
+    faster = area.task.faster
+    better = not worse and other.effort(faster) < by_discs.effort(faster)
+    return other if better and all(_is_smooth(run.rows) for run in other.runs) else by_discs
+
+
+def _is_smooth(rows: Rows) -> bool:
+    """Tell whether rows (n, 8) touch one another where they meet, but for those too short to have a direction."""
+    long = rows[lengths(rows) > _SHORT]
+    begin, end = (_ahead(long, column) for column in (0, 2))
+    return bool((np.abs((begin[1:] - end[:-1] + math.pi) % math.tau - math.pi) < _KINK).all())
+
+
+def _ahead(rows: Rows, column: int) -> Floats:
+    """Return the directions of travel at the beginnings (column 0) or ends (2) of rows, radians."""
+    along = np.arctan2(rows[:, 3] - rows[:, 1], rows[:, 2] - rows[:, 0])
+    out = np.arctan2(rows[:, column + 1] - rows[:, 5], rows[:, column] - rows[:, 4])
+    return np.asarray(np.where(rows[:, 7] == 0, along, out + rows[:, 7] * math.pi / 2), np.float64)
+
+
+def _path(
+    area: _PlannedArea, tree: AxisTree, limit: EngagementLimit, wide: WidePlace | None, progress: Progress
+) -> ConnectedPath:
     walk = AxisWalk(limit, area.room, area.axis)
-    walk.along(tree, progress.part(0.0, 0.5))
+    none = np.zeros(len(area.axis.points), np.bool_)
+    swept = swept_discs(wide, area.axis, tree, limit) if wide is not None else none
+    walk.along(tree, swept, progress.part(0.0, 0.5))
     discs = walk.discs
     paths, unproven = _rings(area, discs, limit, progress.part(0.5, 0.9))
     first = discs.each[0]
-    way = PathBuilder(limit, discs, area.task.farthest, area.task.fastest)
-    way.begin(spiral(first.centre, first.reach - limit.radius, limit, max(limit.least_turn, area.turns[1])))
+    way = PathBuilder(limit, discs, area.task.farthest, area.task.fastest, wide.front if wide is not None else None)
+    way.begin(_first_turns(area, first, limit))
+    if wide is not None:
+        way.go_on(wide.rows, wide.clear, wide.pose)
+        paths = _left_of(paths, wide, way)
     for number in range(1, len(discs)):
         way.slice(number)
+    unproven += way.finish()
     unproven += [_begin(path) for path in paths if not way.ring(path)]
     region = int(area.task.walls.region[area.room.distances.nearest(np.array([first.centre]))[1][0]])
     return ConnectedPath(tuple(way.done()), region, tuple(walk.stops), tuple(unproven))
+
+
+def _left_of(paths: Sequence[Rows], wide: WidePlace, way: PathBuilder) -> list[Rows]:
+    """Have the stretches cut that are left of ways along walls; return the ways that are left as a whole."""
+    found = [stretches(path, wide, way.discs) for path in paths]
+    way.leave_for([each for parts in found if parts is not None for each in parts])
+    return [path for path, parts in zip(paths, found, strict=True) if parts is None]
+
+
+def _first_turns(area: _PlannedArea, first: ClearedDisc, limit: EngagementLimit) -> Rows:
+    return spiral(first.centre, first.reach - limit.radius, limit, max(limit.least_turn, area.turns[1]))
+
+
+def _wide(
+    area: _PlannedArea, tree: AxisTree, by_discs: ConnectedPath, limit: EngagementLimit, progress: Progress
+) -> WidePlace | None:
+    """Return how the wide place about the root is cleared, None where there is none, or discs are quicker.
+
+    Coarse digits turn short arcs by too much for it.
+    """
+    if limit.grid is not None or limit.coarser > 1.0:
+        return None
+    first = AxisWalk(limit, area.room, area.axis).begin(tree)
+    turns = _first_turns(area, first, limit)
+    end, faster = turns[-1], area.task.faster
+    pose = PathPose(end[2], end[3], math.atan2(end[3] - first.y, end[2] - first.x), first.reach - limit.radius)
+    worth = WayWorth(by_discs.effort(faster) - float(lengths(turns).sum()), faster)
+    return wide_place(area.task.walls, area.room, area.axis, WideStart(limit, first, pose, worth), progress)
 
 
 def _begin(path: Rows) -> Point:

@@ -52,27 +52,38 @@ class AxisWalk:
     discs: ClearedDiscs = field(default_factory=ClearedDiscs)
     stops: list[WalkStop] = field(default_factory=list)
 
-    def along(self, tree: AxisTree, progress: Progress) -> None:
-        """Clear all of a tree, from its root on.
-
-        Raises:
-            Cancelled: by progress.
-        """
+    def begin(self, tree: AxisTree) -> ClearedDisc:
+        """Return the first disc, that of the root."""
         (x, y), reach = _place(self.axis.points[tree.root], self.axis.reach[tree.root])
         if self.limit.grid is not None:
             (x, y), radius = self.limit.grid.nearest((x, y)), self.limit.radius
             reach = radius + self.limit.grid.within(min(reach, self.room.at((x, y))) - radius)
-        self.discs.add(ClearedDisc(x, y, reach, -1))
-        waiting = [(tree.root, child, 0) for child in reversed(tree.children(tree.root))]
+        return ClearedDisc(x, y, reach, -1)
+
+    def along(self, tree: AxisTree, swept: NDArray[np.bool_], progress: Progress) -> None:
+        """Clear all of a tree, from its root on.
+
+        Args:
+            swept: (n,) points of the axis whose discs are clear already, beside the root's: they need no arc.
+
+        Raises:
+            Cancelled: by progress.
+        """
+        number = self.discs.add(self.begin(tree))
+        waiting = [(tree.root, child, number) for child in reversed(tree.children(tree.root))]
         done = 0
         while waiting:
             before, node, payer = waiting.pop()
             chain = [before, node]
-            while len(on := tree.children(chain[-1])) == 1:
-                chain += on
-            done += len(chain)
+            if swept[node]:
+                (x, y), reach = _place(self.axis.points[node], self.axis.reach[node])
+                last: int | None = self.discs.add(ClearedDisc(x, y, reach, payer, True))
+            else:
+                while len(on := tree.children(chain[-1])) == 1 and not swept[on[0]]:
+                    chain += on
+                last = self._follow(chain, payer)
+            done += len(chain) - 1
             progress.step(min(1.0, done / len(tree.order)), "Clear along the axis")
-            last = self._follow(chain, payer)
             if last is not None:
                 waiting += [(chain[-1], child, last) for child in reversed(tree.children(chain[-1]))]
 
