@@ -12,16 +12,18 @@ from ...framework.commands import Commands
 from ...views.canvas.canvas import Canvas
 from ...views.canvas.modes import CanvasMode
 
-_NAMES = {
-    "pocket": "Pocket",
-    "outside": "Outside",
-    "inside": "Inside",
-    "on": "On line",
-    "drill": "Drill",
-    "engrave": "Engrave",
-    "vcarve": "V-carve",
+_WAYS = {
+    "pocket": ("Pocket", "Clear the area within the selected curves"),
+    "outside": ("Outside", "Cut along the selected curves, on their outer side: what is within them stays whole"),
+    "inside": ("Inside", "Cut along the selected curves, on their inner side: what is around them stays whole"),
+    "on": ("On line", "Cut with the tool's middle on the selected curves"),
+    "drill": ("Drill", "Drill the selected circles"),
+    "engrave": ("Engrave", "Engrave along the selected curves"),
+    "vcarve": ("V-carve", "Carve the area within the selected curves with a V cutter, from wall to wall"),
 }
-"""The ways that are offered, by the commands' names, in the ribbon's words: short, for it lies over the drawing."""
+"""The ways that are offered, by the commands' names: in the ribbon's words, short, for it lies over the drawing, and in
+those of its tips.
+"""
 
 _GAP_PX = 14
 """Between the ribbon and the selection, so that grips can be taken."""
@@ -45,7 +47,7 @@ class SelectionRibbon(QWidget):
         give_ground(self, "selectionRibbon")
         self.setCursor(Qt.CursorShape.ArrowCursor)
         row = h_box(self, (4, 4, 4, 4), 2)
-        self.buttons = {way: self._button(way, name, commands) for way, name in _NAMES.items()}
+        self.buttons = {way: self._button(way, commands) for way in _WAYS}
         for button in self.buttons.values():
             row.addWidget(button)
         self.hide()
@@ -53,12 +55,13 @@ class SelectionRibbon(QWidget):
         for signal in (canvas.prompt_changed, canvas.tool_changed, canvas.view_changed, canvas.mode_changed):
             signal.connect(self.place)
 
-    def _button(self, way: str, name: str, commands: Commands) -> QToolButton:
+    def _button(self, way: str, commands: Commands) -> QToolButton:
+        name, tip = _WAYS[way]
         button = QToolButton()
         button.setText(name)
         button.setProperty("role", "ribbon")
         button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        button.setToolTip("Have an operation added for the selected curves")
+        button.setToolTip(tip)
         button.clicked.connect(lambda: commands[f"machine_{way}"].trigger())
         return button
 
