@@ -254,7 +254,7 @@ class _Reported(_Shown):
         return self.told.data
 
     def __str__(self) -> str:
-        return self.told.summary()
+        return "\n".join(self.told.summary())
 
 
 @dataclass(frozen=True, eq=False, repr=False)

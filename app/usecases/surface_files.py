@@ -71,7 +71,7 @@ class MadeScene:
     def lines(self) -> tuple[str, ...]:
         """What was made, for people."""
         more = () if self.curves is None else self.curves.lines()
-        return (self.report.summary(), *more, *(() if self.better is None else better_lines(self.better)))
+        return (*self.report.summary(), *more, *(() if self.better is None else better_lines(self.better)))
 
     @property
     def counts(self) -> bool:

@@ -50,8 +50,8 @@ def save(path: Path, family: str = "Block", style: str = "Regular") -> None:
 
 def forget_fonts() -> None:
     """Forget which fonts are installed."""
-    typeface._files.cache_clear()
-    typeface._installed.cache_clear()
+    for known in (typeface._files, typeface._faces, typeface._installed):
+        known.cache_clear()
 
 
 @pytest.fixture

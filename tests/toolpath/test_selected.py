@@ -138,10 +138,11 @@ def test_a_curve_that_is_open_cannot_be_a_pocket_and_is_told() -> None:
     )
 
 
-def test_named_circles_that_a_drill_does_not_drill_count() -> None:
-    told = [each for each in compute(job(DrillOperation(cut("circles:6-8", tool=2)))).findings if each.counts]
-    assert "1 circle is left out: 8 mm (1)" in told[0].text.replace("of other diameters ", "")
-    assert not [each for each in compute(job(DrillOperation(cut("inner", tool=2)))).findings if each.counts]
+def test_named_circles_are_drilled_however_wide_they_are_and_their_width_is_told() -> None:
+    named = [each.text for each in compute(job(DrillOperation(cut("circles:6-8", tool=2)))).findings]
+    assert "Holes come out 6 mm wide, as T2 is; drawn are 8 mm (1)." in named
+    others = [each.text for each in compute(job(DrillOperation(cut("inner", tool=2)))).findings]
+    assert any("2 circles are left out: 8 mm (1), 10 mm (1)" in text for text in others)
 
 
 def test_a_number_stays_with_its_curve_through_edits_and_undo() -> None:

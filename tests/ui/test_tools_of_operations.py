@@ -43,8 +43,8 @@ ALL_OFF = "every operation of the job is switched off, so nothing is cut; switch
 
 
 NO_CONE = (
-    "T1 {} is a {} cutter; a {} operation needs a V cutter with its angle{}: choose another tool, or give it kind and "
-    "tip_angle."
+    "T1 {} is a {} cutter; a {} operation needs a V cutter with its angle{}: choose another tool, or make this one a "
+    "V cutter."
 )
 OTHER_TOOL = "T1 {} is a {}; a {} operation needs a {}: choose another tool, or give it another kind."
 NOT_EXACTLY = {

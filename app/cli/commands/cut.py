@@ -43,7 +43,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     ensure_window(arguments.window, ready)
     done = cut(ready.setup, requested_look(arguments), progress.part(0.25, 0.95))
     report = cut_report(done, ready)
-    lines = [report.summary(), *finding_lines(report.findings), *_warning_lines(report.warnings)]
+    lines = [*report.summary(), *finding_lines(report.findings), *_warning_lines(report.warnings)]
     texts = by_path(outputs, cut_texts(done, report, ready.programs[0].name, set(outputs)))
     counts = any(finding.counts for finding in report.findings)
     return CommandOutcome(texts, lines, counts).delivered(arguments, progress)

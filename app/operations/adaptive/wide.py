@@ -139,7 +139,7 @@ class WideClearing:
         while ways < _MOST and self._one():
             ways += 1
             done = 1 - self._left() / first
-            progress.step(done, "Clear along the metal")
+            progress.step(done, "Clear along the axis")
             if self.rows and self.worth.lost(self.rows, self.clear, done):
                 return None
         return self._pose

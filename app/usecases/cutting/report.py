@@ -82,9 +82,9 @@ class CutReport:
         """Return it as JSON text."""
         return json.dumps(self.data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
-    def summary(self) -> str:
+    def summary(self) -> list[str]:
         """Return it in a few lines for people, without the findings."""
-        return "\n".join(_summary(self.data))
+        return list(_summary(self.data))
 
 
 @dataclass(frozen=True, eq=False)

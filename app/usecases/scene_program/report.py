@@ -54,9 +54,9 @@ class SurfaceReport:
         """Return it as JSON text."""
         return json.dumps(self.data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
-    def summary(self) -> str:
+    def summary(self) -> list[str]:
         """Return it in a few lines for people."""
-        return "\n".join(_summary(self.data))
+        return list(_summary(self.data))
 
 
 def surface_report(computed: ComputedScene, written: WrittenScene | None = None) -> SurfaceReport:
