@@ -252,7 +252,9 @@ def test_a_level_sheet_is_followed_as_far_as_it_goes(tmp_path: Path) -> None:
 
 def test_a_mesh_that_was_cut_off_is_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "part.stl").write_bytes(stl(np.tile(pocketed_block(), (10, 1, 1)))[:2000])
-    (tmp_path / "s.toml").write_text(SCENE.format(stock=BLOCK, shape=MESH, place="", apart="pitch", pitch=4, passes="", tool=""))
+    (tmp_path / "s.toml").write_text(
+        SCENE.format(stock=BLOCK, shape=MESH, place="", apart="pitch", pitch=4, passes="", tool="")
+    )
     assert main(["surface", str(tmp_path / "s.toml"), "-o", str(tmp_path / "s.ngc")]) == 2
     said = [line for line in capsys.readouterr().err.splitlines() if line.startswith("hitofude: ")]
     assert said == [
