@@ -200,6 +200,8 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     _end_jobs(workers)
     _settle()
     window.canvas.set_view(view)
+    wiring.focus_keeper._shown.stop()
+    wiring.focus_keeper._give_back()  # now, and not in the next test
     _forget_habits(wiring)
 
 
