@@ -227,7 +227,7 @@ class _Limit:
 
     def upright(self, reach: CornerReach) -> Floats:
         """Return what it may straight up, mm."""
-        return self.square * np.hypot(1.0, np.minimum(reach.rise, STEEPEST))
+        return np.asarray(self.square * np.hypot(1.0, reach.rise))
 
     def doubtful(self, reach: CornerReach, step: float) -> Mask:
         """Return where metal is not yet known to stand too high, but within what steps may have missed: a step up a
@@ -238,8 +238,10 @@ class _Limit:
 
 
 def _highest(requested: FamilyRequest) -> float:
-    """Return how high ridges may stand in corners, square to what is cut, mm."""
-    return requested.most if requested.ridge is None else BENT * requested.ridge
+    """Return how high ridges may stand in corners, square to what is cut, mm; where no height was asked for, twice what
+    they may elsewhere, as they lie where a slope ends and what is cut is level.
+    """
+    return BENT * (requested.most if requested.ridge is None else requested.ridge)
 
 
 def _ridges(requested: FamilyRequest, across: Floats, grid: Grid) -> Floats:
