@@ -25,6 +25,7 @@ from ..gcode.posts import load_post
 from ..geometry.distance import DistanceField
 from ..geometry.outlines import polygon_contour
 from ..geometry.primitives import contour_rows
+from ..geometry.sample import Box
 from ..geometry.transform import Similarity, transformed
 from ..model.chamfer_operation import ChamferOperation
 from ..model.curve_selectors import OnLayer
@@ -47,7 +48,6 @@ SIDEWAYS = 0.005
 
 _LEAST_OUT = 0.01
 """mm; what stands out by less cannot be sawn off."""
-Window = tuple[float, float, float, float]
 
 _PLUG, _BLOCK = "plug", "block"
 """Layers of the plug's drawing: its contours, and the block that it is made of."""
@@ -258,7 +258,7 @@ def _check_sizes(sizes: InlayOptions, depth: float, tool: Tool, rate: float) -> 
         )
 
 
-def _block_round(box: tuple[float, float, float, float], room: float) -> Contour:
+def _block_round(box: Box, room: float) -> Contour:
     """Return the block that a plug is made of, round the mirrored extent of the contours, mm."""
     x0, y0, x1, y1 = -box[2] - room, box[1] - room, -box[0] + room, box[3] + room
     return polygon_contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
@@ -319,7 +319,7 @@ def fit_of(
     )
 
 
-def _in_whole_cells(box: Window) -> Window:
+def _in_whole_cells(box: Box) -> Box:
     """Return a box, x0, y0, x1, y1, made larger by as much as its cells are, so that those of its mirror image lie upon
     them, too.
     """
@@ -327,7 +327,7 @@ def _in_whole_cells(box: Window) -> Window:
     return grid.x0, grid.y0, grid.x0 + grid.cols * grid.pitch, grid.y0 + grid.rows * grid.pitch
 
 
-def _cells(made: CutProgram, window: Window, progress: Progress) -> CutProgram:
+def _cells(made: CutProgram, window: Box, progress: Progress) -> CutProgram:
     return cut(made.setup, CutOptions(_CELLS, window, trace=False, judge=False), progress)
 
 

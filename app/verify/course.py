@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..gcode.interpreter.program import NcProgram
 from ..gcode.timing.extent import at_home, from_nowhere_of, nowhere_of
 from ..geometry.kernels import build_tree, query_box
+from ..geometry.sample import Box
 from ..model.motion import Floats, MotionKind, Motions
 from ..model.motion_path import reach
 from ..simulation.cutter import Cutter
@@ -142,8 +143,6 @@ LOOKS = 256
 
 MOST = 3000
 """Ways of one kind that are looked at closer in a program."""
-
-Box = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, eq=False)

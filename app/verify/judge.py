@@ -172,9 +172,8 @@ def judge(judging: JudgementInput, certificate: Certificate | None, progress: Pr
     else:
         cell = judging.grid.pitch**2
         reachable_mm2, unreachable_mm2 = (float(np.count_nonzero(mask)) * cell for mask in masks.values())
-        found = {
-            kind: places_of(mask, height, judging.grid) for kind, mask, height in _standing(judging, masks, deviation)
-        }
+        heights = {SpotKind.LEFT: _over_reach(judging.part_target, deviation), SpotKind.UNREACHABLE: deviation}
+        found = {kind: places_of(mask, heights[kind], judging.grid) for kind, mask in masks.items()}
         left_spots = [_left(judging, place, kind) for kind, (places, _) in found.items() for place in places]
         counts = {kind: count for kind, (_, count) in found.items()}
     discs = (spot.disc_mm for spot in left_spots if spot.kind is SpotKind.UNREACHABLE)
@@ -268,16 +267,9 @@ def _worst(judging: JudgementInput, spots: tuple[Spot, ...], gouged: int) -> Gou
     return Gouge(float(depths.depth[k]), x, y, z, int(depths.move[k]), 0)
 
 
-def _standing(
-    judging: JudgementInput, masks: Mapping[SpotKind, Mask], deviation: NDArray[np.float32]
-) -> Iterator[tuple[SpotKind, Mask, NDArray[np.float32]]]:
-    """Yield each kind of what is left with how high it stands: over the part, and within reach where no tool gets down
-    to that over what tools leave at best.
-    """
-    target = judging.part_target
-    over = deviation if target.standing is None else np.where(target.reach, deviation, target.standing)
-    yield SpotKind.LEFT, masks[SpotKind.LEFT], over
-    yield SpotKind.UNREACHABLE, masks[SpotKind.UNREACHABLE], deviation
+def _over_reach(target: PartTarget, deviation: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return how high metal stands over the part, and where no tool gets down to that over what tools leave at best."""
+    return deviation if target.standing is None else np.where(target.reach, deviation, target.standing)
 
 
 def _left(judging: JudgementInput, place: CellPlace, kind: SpotKind) -> Spot:

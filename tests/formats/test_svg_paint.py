@@ -148,6 +148,17 @@ def test_other_areas_as_large_as_the_page_are_read(body: str) -> None:
     assert len(drawing.part.entities) == 4 + bool(more) and len(told) == ("black" in body)
 
 
+@pytest.mark.parametrize(
+    "disc", ['<circle cx="40" cy="50" r="50" {}/>', '<ellipse cx="90" cy="50" rx="100" ry="50" {}/>']
+)
+def test_a_white_disc_as_large_as_the_page_is_a_shape(disc: str) -> None:
+    """It does not cover the page's corners: a coaster, a badge."""
+    body = disc.format('fill="white"') + '<rect x="30" y="40" width="9" height="4"/>'
+    square = 'width="50mm" height="50mm" viewBox="-10 0 100 100" xmlns="http://www.w3.org/2000/svg"'
+    drawing = read(body, MOVED if "ellipse" in disc else square)
+    assert len(drawing.part.entities) == 5 and not drawing.left_out
+
+
 def test_shapes_beyond_the_page_are_told() -> None:
     body = '<circle cx="9" cy="9" r="4"/><circle cx="-15" cy="9" r="4"/><circle cx="9" cy="120" r="4"/>'
     drawing = read(body + '<circle cx="190" cy="99" r="4"/>', MOVED)

@@ -261,9 +261,11 @@ def test_what_cut_says_is_within_reach_agrees_with_an_independent_closing(tmp_pa
 
 def valley(bottom: float) -> np.ndarray:
     """Triangles of two planes of 60 degrees, wider than a stock of 20 mm, that meet at y = bottom, at height -20."""
-    across = np.array([-8.0, bottom, 28.0])
-    rise = lambda x, y: math.sqrt(3.0) * np.abs(y - bottom) - 20  # noqa: E731
-    return meshed(rise, np.array([-8.0, 28.0]), across)
+
+    def height(_: np.ndarray, y: np.ndarray) -> np.ndarray:
+        return math.sqrt(3.0) * np.abs(y - bottom) - 20
+
+    return meshed(height, np.array([-8.0, 28.0]), np.array([-8.0, bottom, 28.0]))
 
 
 @pytest.mark.parametrize(("degrees", "missed"), [(3, 0.084), (90, 0.0)])

@@ -12,7 +12,7 @@ import shapely
 from ...core import tolerances
 from ...core.errors import HitofudeError
 from ...geometry.affine import Affine, transformed
-from ...geometry.sample import sample
+from ...geometry.sample import Box, sample
 from ...model.curves import Curve
 from ..drawing_account import MOST_CURVES
 from .lengths import LengthBasis
@@ -97,6 +97,15 @@ def seen_of(curves: Sequence[Curve], filled: bool, clips: Iterable[Clip]) -> See
         return Seen.PART
 
 
+def covers(curves: Sequence[Curve], page: Box, spare: float) -> bool:
+    """Tell whether the area within a shape's outlines holds all of a page, but for so many mm beside its edges."""
+    try:
+        with np.errstate(all="ignore"):
+            return bool(_filled(curves).buffer(spare, join_style="mitre").covers(shapely.box(*page)))
+    except (ValueError, shapely.errors.GEOSException):  # numbers beyond all measure
+        return False
+
+
 def _seen(curves: Sequence[Curve], filled: bool, clips: Iterable[Clip]) -> Seen:
     area, told = None, Seen.WHOLE
     drawn = shapely.MultiLineString([sample(curve) for curve in curves])
@@ -153,19 +162,20 @@ class ClipReader(Generic[State]):
         Args:
             style: of the element. state: inside it, but with the style that its clips begin with.
         """
-        found = (self._read(written, state) for written in style.clips)
-        return tuple(clip for clip in found if clip is not True)
+        return tuple(clip for written in style.clips for clip in self._read(written, state))
 
-    def _read(self, written: str, state: State) -> Any:
-        """Return one clip; True where it hides nothing, since there is none of that name."""
+    def _read(self, written: str, state: State) -> tuple[Clip, ...]:
+        """Return one clip; nothing where there is none of that name, since that hides nothing."""
         name = written.partition("#")[2].strip(" \"')") if written.startswith("url(") else ""
-        node = self._ids.get(name) if name else None
+        if not name:
+            return (None,)
+        node = self._ids.get(name)
         if node is None:
-            return True if name else None
+            return ()
         key = (name, state.to)
         if key not in self._known:
             self._known[key] = self._area_or_none(node, state)
-        return self._known[key]
+        return (self._known[key],)
 
     def _area_or_none(self, node: Node, state: State) -> Clip:
         self._count = 0

@@ -9,15 +9,17 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import NoReturn
 
+import numpy as np
+
 from ...core import tolerances
 from ...core.errors import InputError
 from ...geometry.affine import IDENTITY, Affine, transformed
-from ...geometry.sample import Box
+from ...geometry.sample import Box, bounds_of_all
 from ...model.curves import Circle, Curve, Ellipse, Line, Point, Spline
 from ...model.part import Layer
 from ..drawing_account import MOST_CURVES, LayeredCurve
 from ..dxf.splines import MOST_POINTS
-from .clips import Clip, ClipReader, Seen, seen_of, viewport_clip
+from .clips import Clip, ClipReader, Seen, covers, seen_of, viewport_clip
 from .generator import INKSCAPE, SODIPODI
 from .joined import beziers_joined, joined
 from .lengths import FONT_LENGTH, LengthBasis, Viewport
@@ -362,7 +364,7 @@ class SvgWalker:
             return
         layer = state.layer or "0"
         box = _box_of(curves)
-        if self._is_ground(style, box):
+        if self._is_ground(style, curves, box):
             content.ground = [LayeredCurve(curve, layer) for curve in curves]
             return
         content.beyond += _apart(box, self._page)
@@ -377,10 +379,10 @@ class SvgWalker:
         if len(content.curves) > MOST_CURVES:
             self._refuse(node, _TOO_MUCH)
 
-    def _is_ground(self, style: SvgStyle, box: Box | None) -> bool:
+    def _is_ground(self, style: SvgStyle, curves: list[Curve], box: Box | None) -> bool:
         """Tell whether a shape without an outline covers the page, is white, and the first one of the drawing."""
         content = self._sheet
-        if style.outlined or not _covers(box, self._page):
+        if style.outlined or not _covers(curves, box, self._page):
             return False
         white = style.colour_of_fill == WHITE and not (content.curves or content.ground)
         content.page_wide += not white
@@ -422,27 +424,19 @@ def _page_box(root: Node, to: Affine, view: Viewport) -> Box | None:
 
 
 def _box_of(curves: list[Curve]) -> Box | None:
-    """Return a box that holds some curves, as wide as their handles and circles; None where one has no place."""
-    places: list[Point] = []
-    for curve in curves:
-        if isinstance(curve, Line):
-            places += (curve.start, curve.end)
-        elif isinstance(curve, Spline):
-            places += curve.control_points
-        else:
-            (x, y), reach = curve.centre, math.hypot(*curve.major) if isinstance(curve, Ellipse) else curve.radius
-            places += ((x - reach, y - reach), (x + reach, y + reach))
-    xs, ys = zip(*places, strict=True)
-    box = min(xs), min(ys), max(xs), max(ys)
-    return box if all(map(math.isfinite, (*box, sum(xs), sum(ys)))) else None
+    """Return the box of some curves; None where one has no place."""
+    with np.errstate(all="ignore"):
+        box = bounds_of_all(curves)
+    return box if box is not None and all(map(math.isfinite, box)) else None
 
 
-def _covers(box: Box | None, page: Box | None) -> bool:
-    """Tell whether a box holds all of a page, but for a little."""
+def _covers(curves: list[Curve], box: Box | None, page: Box | None) -> bool:
+    """Tell whether a shape in a box holds all of a page, but for a little: a round one does not hold the corners."""
     if box is None or page is None:
         return False
     spare = _GROUND * max(page[2] - page[0], page[3] - page[1])
-    return all(box[k] <= page[k] + spare and box[k + 2] >= page[k + 2] - spare for k in (0, 1))
+    wide = all(box[k] <= page[k] + spare and box[k + 2] >= page[k + 2] - spare for k in (0, 1))
+    return wide and covers(curves, page, spare)
 
 
 def _apart(box: Box | None, page: Box | None) -> bool:

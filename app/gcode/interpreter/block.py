@@ -96,7 +96,7 @@ class Grammar(Enum):
     def of(cls, rules: DialectRules) -> Grammar:
         """Return that of a control."""
         if rules.fanuc_flow:
-            return cls.MACRO_B if rules.vacant else cls.FREE
+            return cls.MACRO_B if rules.macro_b else cls.FREE
         return cls.NGC if rules.ngc_flow else cls.PLAIN
 
 

@@ -380,7 +380,7 @@ class Control:
 
     def _miss_kept(self, key: int) -> None:
         """Tell of a parameter that the control keeps, where the program reads it and has not set it."""
-        if self.rules.vacant and key in _KEPT:
+        if self.rules.macro_b and key in _KEPT:
             self.warn(
                 f"#{key} is set nowhere before; what the control keeps in it counts there, and is not known here."
             )
@@ -392,7 +392,7 @@ class Control:
         """
         value = self._own_parameter(key)
         if key in self.requested and isinstance(key, int) and self._is_the_machines(key):
-            taken = "not set" if value is None and self.rules.vacant else f"{value or 0.0:g}"
+            taken = "not set" if value is None and self.rules.macro_b else f"{value or 0.0:g}"
             self.warn(f"#{key} is what the control knows when the program runs; it is taken to be {taken} here.")
         return value
 
@@ -406,7 +406,7 @@ class Control:
             return self.modal.tool not in self.tool_table
         if 5161 <= key <= 5183:
             return self.homes["G28" if key < 5180 else "G30"] == (0.0, 0.0, 0.0)
-        return key in _PLACES or (self.rules.vacant and key >= _SYSTEM)
+        return key in _PLACES or (self.rules.macro_b and key >= _SYSTEM)
 
     def _own_parameter(self, key: Key) -> float | None:
         if key in self.set_parameters.values:
@@ -415,7 +415,7 @@ class Control:
         axis = _PLACES.get(key)
         if isinstance(key, str):
             return self._named(key) if key.startswith("_") else None
-        if self.rules.vacant and key in _IN_FORCE:
+        if self.rules.macro_b and key in _IN_FORCE:
             return self._in_force(key)
         if key < 5001:
             self._miss_kept(key)

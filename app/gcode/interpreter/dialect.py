@@ -35,7 +35,7 @@ class DialectRules:
         calls: how deep subroutines may call one another.
         longest_line: bytes of a line, its end not counted where that is one byte.
         parameters: the largest number of a parameter.
-        vacant: a parameter that nobody has set is no number, as in Macro B, and not 0.
+        macro_b: it has Fanuc's macro B: operators of its own, and a parameter that nobody has set is vacant and not 0.
         missing: G words that other dialects have and this one refuses.
     """
 
@@ -52,7 +52,7 @@ class DialectRules:
     calls: int = MANY
     longest_line: int = MANY
     parameters: int = 99_999
-    vacant: bool = False
+    macro_b: bool = False
     missing: frozenset[str] = frozenset()
 
 
@@ -148,7 +148,7 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         dwell_unit_s=0.001,
         length_from_tool=False,
         splines="G6.2",
-        vacant=True,
+        macro_b=True,
     ),
     Dialect.HAAS: DialectRules(
         "Haas",
@@ -159,7 +159,7 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         dwell_unit_s=0.001,
         length_from_tool=False,
         splines="",
-        vacant=True,
+        macro_b=True,
     ),
     Dialect.MACH3: DialectRules("Mach3", length_from_tool=False, splines="", ngc_flow=False, fanuc_flow=True),
 }

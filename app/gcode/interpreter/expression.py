@@ -68,7 +68,7 @@ class Parameters:
             rules: which numbers there are, and whether those that nobody has set are vacant. #1 to #30, in macro B to
                 #33, belong to the subroutine that is running.
         """
-        self._unset = math.nan if rules.vacant else 0.0
+        self._unset = math.nan if rules.macro_b else 0.0
         self._largest = rules.parameters
         local_numbers = 33 if rules.fanuc_flow else 30
         self._system, self._assign = system, assign

@@ -102,7 +102,7 @@ def warn_of_numbers(control: Control, data: bytes) -> None:
             f"lengths without a decimal point count in {control.rules.least_mm:g} mm or {control.rules.least_inch:g} "
             "in here."
         )
-    second = _BLOCK_BEHIND.search(data, 0, LOOKED_AT) if control.rules.vacant else None
+    second = _BLOCK_BEHIND.search(data, 0, LOOKED_AT) if control.rules.macro_b else None
     if second is not None:
         control.line = data.count(b"\n", 0, second.end()) + 1
         control.warn(
@@ -227,7 +227,7 @@ def obey_macro(flow: Flow, control: Control, code: str) -> int:
     begun = _WORDS.match(code)
     assert begun is not None
     word = begun[1] or begun[2]
-    values = ValueReader(code, control.options.limits.nesting, control.rules.vacant)
+    values = ValueReader(code, control.options.limits.nesting, control.rules.macro_b)
     values.at = begun.end()
     if word == "goto":
         _goto(flow, control, values)

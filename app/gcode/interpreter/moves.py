@@ -551,7 +551,7 @@ def _canned_cycle(control: Control, block: Block) -> Cycle:
         spindle=control.modal.spindle,
         unit_mm=control.unit,
         fanuc=fanuc,
-        planes_stay=control.rules.vacant,
+        planes_stay=control.rules.macro_b,
     )
 
 

@@ -290,7 +290,7 @@ class InterpreterRun:
 
     def _done(self, parsed: ParsedLine) -> bool:
         """Do a line's block; False at the end of the program."""
-        if self._rules.vacant:
+        if self._rules.macro_b:
             stop_at_alarm(parsed)
         control, block = self._control, block_of(parsed, self._control.parameters)
         if self._watch is None:

@@ -38,6 +38,7 @@ _LOOKED, _SWEPT = 33, 2.0
 """Places that are looked at on an arc in which the cutter turns away from a wall, and radians of it."""
 
 _RECENT = 4
+"""Shapes added last among which the disc at the path's end is."""
 
 _SQUARE = 2e-4
 """mm; half the side of squares that are not divided to see whether a disc is clear."""
@@ -100,13 +101,20 @@ class MetalFront:
 
     def is_clear(self, place: Point, ahead: float) -> bool:
         """Tell whether no metal stands before a cutter that goes in a direction, radians."""
-        circle, window = (*place, self.limit.radius), (ahead - math.pi / 2, math.pi)
-        return float(last_uncovered(self.near(place), circle, window, _BARE)) < 0.0
+        return self._last(place, ahead, _BARE) < 0.0
+
+    def _last(self, place: Point, ahead: float, least: float) -> float:
+        """Return up to where metal stands on the rim's front half, radians from its right end; -1 where none does."""
+        return float(last_uncovered(self.near(place), *self._front(place, ahead), least))
+
+    def _front(self, place: Point, ahead: float) -> tuple[tuple[float, float, float], tuple[float, float]]:
+        """Return the rim, and where its front half begins and how far it goes, radians."""
+        return (*place, self.limit.radius), (ahead - math.pi / 2, math.pi)
 
     def bare(self, place: Point, ahead: float) -> float:
         """Return how much of the rim's front half is in metal at a place, radians."""
-        circle, window = (*place, self.limit.radius), (ahead - math.pi / 2, math.pi)
-        return float(uncovered(self.near(place), circle, 0.0, window))
+        rim, half = self._front(place, ahead)
+        return float(uncovered(self.near(place), rim, 0.0, half))
 
     def met(self, place: Point, ahead: float) -> float | None:
         """Return up to where metal stands on the rim's front half, radians from its right end; None where none does.
@@ -114,8 +122,7 @@ class MetalFront:
         Args:
             ahead: direction of travel, radians.
         """
-        circle, window = (*place, self.limit.radius), (ahead - math.pi / 2, math.pi)
-        found = float(last_uncovered(self.near(place), circle, window, _HAIR))
+        found = self._last(place, ahead, _HAIR)
         return found if found >= 0.0 else None
 
     def most(self, centre: Point, turn: float, ahead: float) -> tuple[float, float]:

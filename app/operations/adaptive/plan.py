@@ -14,6 +14,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ...geometry.primitives import Primitives, Rows, lengths, sample
+from ...toolpath.leads.contour_path import headings_at
 from ...toolpath.machining_areas import BoxSides
 from .axis import RoughAxis, rough_axis
 from .cleared_discs import ClearedDisc, ClearedDiscs, Point, WallClearance
@@ -187,15 +188,9 @@ def _part(area: _PlannedArea, tree: AxisTree, limit: EngagementLimit, progress: 
 def _is_smooth(rows: Rows) -> bool:
     """Tell whether rows (n, 8) touch one another where they meet, but for those too short to have a direction."""
     long = rows[lengths(rows) > _SHORT]
-    begin, end = (_ahead(long, column) for column in (0, 2))
-    return bool((np.abs((begin[1:] - end[:-1] + math.pi) % math.tau - math.pi) < _KINK).all())
-
-
-def _ahead(rows: Rows, column: int) -> Floats:
-    """Return the directions of travel at the beginnings (column 0) or ends (2) of rows, radians."""
-    along = np.arctan2(rows[:, 3] - rows[:, 1], rows[:, 2] - rows[:, 0])
-    out = np.arctan2(rows[:, column + 1] - rows[:, 5], rows[:, column] - rows[:, 4])
-    return np.asarray(np.where(rows[:, 7] == 0, along, out + rows[:, 7] * math.pi / 2), np.float64)
+    begin, end = (headings_at(long, np.full(len(long), fraction)) for fraction in (0.0, 1.0))
+    across = begin[1:, 1] * end[:-1, 0] - begin[1:, 0] * end[:-1, 1]
+    return bool((np.abs(np.arctan2(across, (begin[1:] * end[:-1]).sum(axis=1))) < _KINK).all())
 
 
 def _path(

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...geometry.distance import DistanceField
 from ...geometry.primitives import Rows, fraction_on, lengths
+from ...toolpath.leads.contour_path import headings_at
 from ...toolpath.linking.bridge import part_of
 from .cleared_discs import ClearedDiscs, Point
 from .limit import EngagementLimit
@@ -19,7 +20,11 @@ from .wide_place import WidePlace
 _ON = 1e-6
 """mm; nearer to a way than that is on it."""
 
-_NEAR, _SHORT = 1e-3, 1e-7
+_NEAR = 1e-3
+"""mm from a way that is looked at for rows on it."""
+
+_SHORT = 1e-7
+"""mm; a shorter piece is none."""
 
 _BESIDE = 1e-3
 """mm by which a disc may miss a stretch that it touches."""
@@ -48,19 +53,17 @@ class WallStretch:
     @property
     def poses(self) -> tuple[PathPose, PathPose]:
         """The poses at its beginning and at its end."""
-        first, last = self.rows[0].tolist(), self.rows[-1].tolist()
+        (x0, y0), (x1, y1) = self.rows[0, :2].tolist(), self.rows[-1, 2:4].tolist()
         return (
-            PathPose(first[0], first[1], _right(first, 0), self.turn),
-            PathPose(last[2], last[3], _right(last, 2), self.turn),
+            PathPose(x0, y0, _right(self.rows[0], 0.0), self.turn),
+            PathPose(x1, y1, _right(self.rows[-1], 1.0), self.turn),
         )
 
 
-def _right(row: list[float], end: int) -> float:
-    """Return the direction to the right of the way at an end of a row, radians."""
-    if row[7] == 0:
-        return math.atan2(row[3] - row[1], row[2] - row[0]) - math.pi / 2
-    outward = math.atan2(row[end + 1] - row[5], row[end] - row[4])
-    return outward if row[7] > 0 else outward + math.pi
+def _right(row: Rows, fraction: float) -> float:
+    """Return the direction to the right of the way at a fraction of a row (8,), radians."""
+    x, y = headings_at(row[None], np.array([fraction]))[0].tolist()
+    return math.atan2(-x, y)
 
 
 def stretches(path: Rows, wide: WidePlace, discs: ClearedDiscs) -> list[WallStretch] | None:

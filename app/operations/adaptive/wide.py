@@ -59,6 +59,7 @@ _NEAR, _HALVINGS = 1e-4, 40
 """Radians below the angle that are near enough to it."""
 
 _SAME = 1e-5
+"""mm along a wall: places that differ by no more are one."""
 
 _WORTH, _LOOSE = 0.85, 0.05
 """Of the effort by discs alone for what is done that ways may take, and of all of it that they may take besides."""

@@ -15,14 +15,17 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from ...core.progress import Progress
 from ...simulation.cutter import Cutter
-from ...simulation.field.workpiece import Grid
+from ...simulation.field.target import cutter_profile
 from .reach import FamilyReach, TipGrid
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-TipHeights = Callable[[Floats], Floats]
-"""How low a cutter's tip comes at places (n, 2), mm, in the coordinates of the grid; -inf where nothing is in reach."""
+TipHeights = Callable[[Floats, Progress], Floats]
+"""How low a cutter's tip comes at places (n, 2), mm, in the coordinates of the grid, and never less than it does; -inf
+where nothing is in reach.
+"""
 
 LEVELS = (2, 8)
 """Parts of a cell that places lie apart, one look after the other."""
@@ -57,92 +60,85 @@ Doubtful = Callable[[CornerReach, float], NDArray[np.bool_]]
 """Which places are worth a closer look, given what is known of them, and the step between places looked at, mm."""
 
 
-def corner_reach(
-    tips: TipHeights, cells: TipGrid, requested: FamilyReach, places: Floats, doubtful: Doubtful
-) -> CornerReach:
-    """Return how low a tool cuts at places (n, 2), without stock to leave.
+@dataclass(frozen=True, eq=False)
+class CornerTool:
+    """A tool over surfaces, without stock to leave.
 
-    Args:
-        cells: how low its tip comes by cells, which says where to look.
+    Attributes:
+        requested: where it may go. tips: how low its tip comes. cells: the same by cells, which says where to look.
     """
-    finest = LEVELS[-1]
-    stand = _by_cells(cells, requested.cutter, places) * finest
+
+    requested: FamilyReach
+    tips: TipHeights
+    cells: TipGrid
+
+    def tip(self, places: Floats, progress: Progress) -> Floats:
+        """Return heights of the tip at places (n, 2); infinite where the tool may not be."""
+        heights = np.maximum(self.tips(places, progress), self.requested.lowest)
+        if self.requested.area is not None:
+            heights[~shapely.contains_xy(self.requested.area, places)] = np.inf
+        return heights
+
+    def centres(self, steps: Ints) -> Floats:
+        """Return places (n, 2), so many of the finest steps from the first cell's centre."""
+        grid = self.cells.grid
+        origin = np.array([grid.x0, grid.y0]) + grid.pitch / 2
+        return np.asarray(origin + steps * (grid.pitch / LEVELS[-1]))
+
+
+def corner_reach(tool: CornerTool, places: Floats, doubtful: Doubtful, progress: Progress) -> CornerReach:
+    """Return how low a tool cuts at places (n, 2).
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    finest, pitch = LEVELS[-1], tool.cells.grid.pitch
+    stand = _by_cells(tool, places) * finest
     found = CornerReach(np.full(len(places), np.inf), np.zeros(len(places)))
     part = np.arange(len(places))
-    for parts in LEVELS:
-        look = _CloseLook(tips, cells.grid, requested, finest // parts)
-        seen, stand[part] = look.at(places[part], stand[part])
+    for level, parts in enumerate(LEVELS):
+        share = progress.part(level / len(LEVELS), (level + 1) / len(LEVELS))
+        seen, stand[part] = _looked(tool, places[part], stand[part], finest // parts, share)
         found.put(part, seen)
-        part = np.nonzero(doubtful(found, cells.grid.pitch / parts))[0]
+        part = np.nonzero(doubtful(found, pitch / parts))[0]
         if not len(part):
             break
     return found
 
 
-@dataclass(frozen=True, eq=False)
-class _CloseLook:
-    """One look: the tool dropped some steps round where it was known to cut lowest.
+def _looked(tool: CornerTool, places: Floats, stand: Ints, stride: int, progress: Progress) -> tuple[CornerReach, Ints]:
+    """Return what is within reach at places, and from where.
 
-    Attributes:
-        grid: of the cells. stride: of one step, in the finest ones.
+    Args:
+        stand: from where each was cut lowest so far, as of `CornerTool.centres`. stride: of one step round that.
     """
-
-    tips: TipHeights
-    grid: Grid
-    requested: FamilyReach
-    stride: int
-
-    def at(self, places: Floats, stand: Ints) -> tuple[CornerReach, Ints]:
-        """Return what is within reach at places, and from where, in the finest steps from the first cell's centre."""
-        starts, which = np.unique(stand, axis=0, return_inverse=True)
-        around = (starts[:, None] + _square() * self.stride).reshape(-1, 2)
-        found, number = np.unique(around, axis=0, return_inverse=True)
-        centres = self._centres(found)
-        heights, choices = self._tip(centres), number.reshape(len(starts), -1)
-        cutter, best = self.requested.cutter, np.empty(len(places), np.int64)
-        low, far = np.empty(len(places)), np.empty(len(places))
-        for part in _portions(len(places), choices.shape[1]):
-            mine = choices[which[part]]
-            away = np.hypot(*(centres[mine] - places[part, None]).transpose(2, 0, 1))
-            over = heights[mine] + cutter.lift + cutter.heights(away)
-            lowest = (np.arange(len(mine)), np.argmin(over, axis=1))
-            low[part], far[part], best[part] = over[lowest], away[lowest], mine[lowest]
-        return CornerReach(low, _slopes(cutter, far)), found[best]
-
-    def _centres(self, steps: Ints) -> Floats:
-        grid = self.grid
-        origin = np.array([grid.x0, grid.y0]) + grid.pitch / 2
-        return np.asarray(origin + steps * (grid.pitch / LEVELS[-1]))
-
-    def _tip(self, places: Floats) -> Floats:
-        """Return heights of the tip at places; infinite where the tool may not be."""
-        heights = np.maximum(self.tips(places), self.requested.lowest)
-        if self.requested.area is not None:
-            heights[~shapely.contains_xy(self.requested.area, places)] = np.inf
-        return heights
+    starts, which = np.unique(stand, axis=0, return_inverse=True)
+    found, number = np.unique((starts[:, None] + _square() * stride).reshape(-1, 2), axis=0, return_inverse=True)
+    centres, cutter = tool.centres(found), tool.requested.cutter
+    heights, choices = tool.tip(centres, progress), number.reshape(len(starts), -1)
+    low, far, best = np.empty(len(places)), np.empty(len(places)), np.empty(len(places), np.int64)
+    for part in _portions(len(places), choices.shape[1]):
+        mine = choices[which[part]]
+        away = np.hypot(*(centres[mine] - places[part, None]).transpose(2, 0, 1))
+        over = heights[mine] + cutter.lift + cutter.heights(away)
+        lowest = (np.arange(len(mine)), np.argmin(over, axis=1))
+        low[part], far[part], best[part] = over[lowest], away[lowest], mine[lowest]
+    return CornerReach(low, _slopes(cutter, far)), found[best]
 
 
-def _by_cells(cells: TipGrid, cutter: Cutter, places: Floats) -> Ints:
+def _by_cells(tool: CornerTool, places: Floats) -> Ints:
     """Return the column and row (n, 2) of the cell from which a tool cuts lowest at each place, as cells have it."""
-    grid = cells.grid
-    offsets, profile = _disc(cutter, grid.pitch)
+    grid, heights = tool.cells.grid, tool.cells.heights
+    profile = cutter_profile(tool.requested.cutter, grid.pitch)
+    within = np.isfinite(profile)
+    offsets, profile = np.argwhere(within)[:, ::-1] - len(profile) // 2, profile[within]
     own = ((places - (grid.x0, grid.y0)) / grid.pitch).astype(np.int64)
     found = np.empty_like(own)
     for part in _portions(len(places), len(offsets)):
         around = own[part, None] + offsets
         cols, rows = np.clip(around[..., 0], 0, grid.cols - 1), np.clip(around[..., 1], 0, grid.rows - 1)
-        best = np.argmin(cells.heights[rows, cols] + profile, axis=1)
-        found[part] = own[part] + offsets[best]
+        found[part] = own[part] + offsets[np.argmin(heights[rows, cols] + profile, axis=1)]
     return found
-
-
-def _disc(cutter: Cutter, step: float) -> tuple[Ints, Floats]:
-    """Return steps (m, 2) within a cutter's radius, and its profile there, mm."""
-    most = int(cutter.radius / step)
-    along = np.arange(-most, most + 1)
-    offsets = np.stack(np.meshgrid(along, along), axis=-1).reshape(-1, 2)
-    profile = cutter.heights(np.hypot(*offsets.T) * step)
-    return offsets[np.isfinite(profile)], profile[np.isfinite(profile)]
 
 
 def _square() -> Ints:

@@ -17,9 +17,8 @@ from .reach import FamilyReach
 
 Floats = NDArray[np.float64]
 
-
 TIP_ERROR = 1e-3
-"""How near to the surfaces a tool is dropped to look at corners, mm: a hundredth of the smallest ridge that is told."""
+"""How near to the surfaces a tool is dropped to look at corners, mm: a tenth of what counts as left at all."""
 
 
 def left_in(computed: ComputedScene, workpiece: Workpiece, progress: Progress = NO_PROGRESS) -> SceneLeft:
@@ -57,12 +56,12 @@ def _asked(computed: ComputedScene, family: ComputedFamily) -> FamilyRequest:
 
 
 def _tips(computed: ComputedScene, family: ComputedFamily) -> TipHeights:
-    """Return how low a family's cutter comes over the surfaces, program coordinates."""
+    """Return how low a family's cutter comes over the surfaces, program coordinates, and not less."""
     origin = np.array(computed.origin)
 
-    def heights(places: Floats) -> Floats:
-        dropped = drop(computed.facets.facets, family.tool, places + origin[:2], TIP_ERROR)
-        return np.asarray(dropped.height - origin[2])
+    def heights(places: Floats, progress: Progress) -> Floats:
+        dropped = drop(computed.facets.facets, family.tool, places + origin[:2], TIP_ERROR, progress)
+        return np.asarray(dropped.height + TIP_ERROR - origin[2])
 
     return heights
 

@@ -19,7 +19,7 @@ from ...model.finding import Finding, FindingKind
 from ...simulation.field.workpiece import Grid, Workpiece
 from ...verify.judgement import places_of
 from ...verify.parts import TOLERANCE
-from .corner_reach import CornerReach, TipHeights, corner_reach
+from .corner_reach import CornerReach, CornerTool, TipHeights, corner_reach
 from .reach import FamilyReach, Floats, Heights, SurfaceGrid, TipGrid, slopes, tip_heights
 from .ridges import MOST, ridges
 
@@ -132,14 +132,18 @@ def left_of(
     grid = workpiece.grid
     sheet = SurfaceGrid.of(triangles, grid)
     on = np.isfinite(sheet.heights)
-    tips = _tips(triangles, grid, requested, progress)
-    allowed, low = _allowed(sheet, error, requested, tips)
+    families = _reached(triangles, grid, requested, progress.part(0.0, 0.6))
+    low = np.minimum.reduce([each.low for each in families], initial=np.float32(np.inf))
     over = np.where(on & np.isfinite(low), workpiece.heights - np.where(np.isfinite(low), low, 0.0), 0.0).astype(
         np.float32
     )
     with np.errstate(invalid="ignore"):
-        mask = _wide(over > allowed)
-    over, mask = _closer(workpiece, sheet, (over, mask, low), error, list(zip(requested, tips, strict=True)))
+        seen = _Standing(over, _wide(over > _allowed(sheet, error, families, low)))
+        corners = on & (low > sheet.heights + TOLERANCE) & ~seen.mask
+    finishing = [each for each in families if not each.requested.requested.leave]
+    limits = [_CornerLimit.of(each, error) for each in finishing if each.requested.tips is not None]
+    seen = _closer(workpiece, seen, corners, limits, progress.part(0.6, 1.0))
+    over, mask = seen.over, seen.mask
     found, count = places_of(mask, over, grid)
     ridge = _ridge(sheet, over, mask, low, requested)
     within = min((_level(each) * BENT + each.chord for each in requested), default=0.0) + TOLERANCE + error
@@ -153,95 +157,115 @@ def left_of(
     return SceneLeft(area, count, found[0].worst, found[0].disc_mm, x, y, ridge, within, grid.pitch, rim, short)
 
 
-def _tips(
+@dataclass(frozen=True, eq=False)
+class _ReachedFamily:
+    """A family of passes by cells: how low its tool's tip comes, and how low it cuts from there."""
+
+    requested: FamilyRequest
+    tips: TipGrid
+    low: Heights
+
+
+def _reached(
     triangles: Floats, grid: Grid, requested: Sequence[FamilyRequest], progress: Progress
-) -> list[tuple[TipGrid, Heights]]:
-    """Return of each family how low its tool's tip comes, and how low it cuts from there."""
+) -> list[_ReachedFamily]:
     found = []
     for number, each in enumerate(requested):
         share = progress.part(number / len(requested), (number + 1) / len(requested))
         share.step(0.0, "Looking for what is left")
         tips = tip_heights(triangles, grid, each.requested, share)
-        found.append((tips, tips.reached(each.requested.cutter, grid, share)))
+        found.append(_ReachedFamily(each, tips, tips.reached(each.requested.cutter, grid, share)))
     return found
 
 
-def _allowed(
-    area: SurfaceGrid, error: float, requested: Sequence[FamilyRequest], tips: Sequence[tuple[TipGrid, Heights]]
-) -> tuple[Floats, Heights]:
-    """Return how much higher than within reach metal may stand, mm straight up, and how low is within reach."""
-    grid, found = area.grid, [reached for _, reached in tips]
-    low = np.minimum.reduce(found, initial=np.float32(np.inf))
+def _allowed(area: SurfaceGrid, error: float, families: Sequence[_ReachedFamily], low: Heights) -> Floats:
+    """Return how much higher than within reach metal may stand, mm straight up."""
+    grid = area.grid
     allowed = np.full(low.shape, np.inf)
     own = slopes(area.heights, grid.pitch)
-    for each, mine in zip(requested, found, strict=True):
+    for family in families:
+        each = family.requested
         highest = np.minimum(BENT * _ridges(each, _across(own, each), grid), each.most)
-        here = _upright(area, mine, each, highest + each.chord + TOLERANCE + error)
-        allowed = np.minimum(allowed, np.where(mine <= low + TOLERANCE, here, np.inf))
-        allowed = np.minimum(allowed, here)
-    return allowed, low
-
-
-def _closer(
-    workpiece: Workpiece,
-    area: SurfaceGrid,
-    seen: tuple[Heights, Mask, Heights],
-    error: float,
-    requested: Sequence[tuple[FamilyRequest, tuple[TipGrid, Heights]]],
-) -> tuple[Heights, Mask]:
-    """Return how high metal stands over what is within reach, and where it is left, after a closer look at corners.
-
-    Args:
-        seen: both by cells alone, and how low is within reach by them.
-    """
-    over, mask, low = seen
-    looked = [(each, tips) for each, (tips, _) in requested if each.tips is not None and not each.requested.leave]
-    allowed = [_highest(each) + each.chord + TOLERANCE + error for each, _ in looked]
-    with np.errstate(invalid="ignore"):
-        corner = np.isfinite(area.heights) & (low > area.heights + TOLERANCE) & ~mask
-        # cells may tell what is within reach too high, too: as much as a side rises within one
-        cells = np.flatnonzero(corner & (over > min(allowed, default=np.inf) - area.grid.pitch))
-    if not len(cells):
-        return over, mask
-    worst = cells[np.argsort(-over.ravel()[cells], kind="stable")[:MOST_PLACES]]
-    own = np.unravel_index(worst, over.shape)
-    places = np.column_stack([area.grid.xs()[own[1]], area.grid.ys()[own[0]]])
-    metal, lowest, highest = workpiece.heights[own], np.full(len(places), np.inf), np.full(len(places), np.inf)
-    for (each, tips), square in zip(looked, allowed, strict=True):
-        assert each.tips is not None
-        limit = _Limit(metal, square)
-        reach = corner_reach(each.tips, tips, each.requested, places, limit.doubtful)
-        lowest, highest = np.minimum(lowest, reach.low), np.minimum(highest, limit.upright(reach))
-    over, mask = over.copy(), mask.copy()
-    over[own] = metal - lowest
-    mask[own] = over[own] > highest
-    return over, mask
+        allowed = np.minimum(allowed, _upright(area, family.low, each, highest + each.chord + TOLERANCE + error))
+    return allowed
 
 
 @dataclass(frozen=True, eq=False)
-class _Limit:
-    """How high metal (n,) stands in corners, mm, and how high it may over what is within reach, square to that."""
+class _Standing:
+    """How high metal stands over what is within reach, (rows, cols) mm straight up, and where it is left."""
 
-    metal: Heights
+    over: Heights
+    mask: Mask
+
+
+@dataclass(frozen=True, eq=False)
+class _CornerLimit:
+    """How high metal may stand in corners over what one family's tool reaches.
+
+    Attributes:
+        family: which has `tips`, and leaves no stock. square: the height, square to what is cut, mm.
+    """
+
+    family: _ReachedFamily
     square: float
 
+    @staticmethod
+    def of(family: _ReachedFamily, error: float) -> _CornerLimit:
+        """Return it for surfaces that may be off by an error, mm.
+
+        Where no height of ridges was asked for they may be twice as high as elsewhere: they lie where a slope ends and
+        what is cut is level.
+        """
+        each = family.requested
+        highest = BENT * (each.most if each.ridge is None else each.ridge)
+        return _CornerLimit(family, highest + each.chord + TOLERANCE + error)
+
+    def reach(self, places: Floats, metal: Heights, progress: Progress) -> CornerReach:
+        """Return what is within reach at places (n, 2), mm, where the metal is so high."""
+        family = self.family.requested
+        assert family.tips is not None
+
+        def doubtful(reach: CornerReach, step: float) -> Mask:
+            """Return where metal does not stand too high yet, but within a step up a side as steep as corners have."""
+            over, most = metal - reach.low, self.upright(reach)
+            return np.asarray((over <= most) & (over + SIDE * step > most))
+
+        return corner_reach(CornerTool(family.requested, family.tips, self.family.tips), places, doubtful, progress)
+
     def upright(self, reach: CornerReach) -> Floats:
-        """Return what it may straight up, mm."""
+        """Return the height straight up, mm."""
         return np.asarray(self.square * np.hypot(1.0, reach.rise))
 
-    def doubtful(self, reach: CornerReach, step: float) -> Mask:
-        """Return where metal is not yet known to stand too high, but within what steps may have missed: a step up a
-        side as steep as a corner's usually are.
-        """
-        over, most = self.metal - reach.low, self.upright(reach)
-        return np.asarray((over <= most) & (over + SIDE * step > most))
 
+def _closer(
+    workpiece: Workpiece, seen: _Standing, corners: Mask, limits: Sequence[_CornerLimit], progress: Progress
+) -> _Standing:
+    """Return what is seen after a closer look at corners.
 
-def _highest(requested: FamilyRequest) -> float:
-    """Return how high ridges may stand in corners, square to what is cut, mm; where no height was asked for, twice what
-    they may elsewhere, as they lie where a slope ends and what is cut is level.
+    Args:
+        seen: by cells. corners: (rows, cols) cells that are none of what is left, and where a tool touches two sides.
+
+    Raises:
+        Cancelled: the job was asked to stop.
     """
-    return BENT * (requested.most if requested.ridge is None else requested.ridge)
+    grid = workpiece.grid
+    # cells may tell what is within reach too high, too: as much as a side rises within one
+    least = min((each.square for each in limits), default=np.inf) - grid.pitch
+    cells = np.flatnonzero(corners & (seen.over > least))
+    if not len(cells):
+        return seen
+    worst = cells[np.argsort(-seen.over.ravel()[cells], kind="stable")[:MOST_PLACES]]
+    own = np.unravel_index(worst, corners.shape)
+    places = np.column_stack([grid.xs()[own[1]], grid.ys()[own[0]]])
+    metal, lowest, highest = workpiece.heights[own], np.full(len(places), np.inf), np.full(len(places), np.inf)
+    for number, limit in enumerate(limits):
+        share = progress.part(number / len(limits), (number + 1) / len(limits))
+        reach = limit.reach(places, metal, share)
+        lowest, highest = np.minimum(lowest, reach.low), np.minimum(highest, limit.upright(reach))
+    closer = _Standing(seen.over.copy(), seen.mask.copy())
+    closer.over[own] = metal - lowest
+    closer.mask[own] = closer.over[own] > highest
+    return closer
 
 
 def _ridges(requested: FamilyRequest, across: Floats, grid: Grid) -> Floats:

@@ -29,8 +29,8 @@ GOUGE_METHOD = (
 )
 LEFT_METHOD = (
     "the written text cut out of the stock, on cells, beside the lowest that the same tools reach: the surfaces' "
-    "heights closed by their profiles; ridges of up to twice what the pitch leaves on a plane of that slope are none "
-    "of it"
+    "heights closed by their profiles, and in corners what the tools cut from single places on the surfaces; "
+    "ridges of up to twice what the pitch leaves on a plane of that slope are none of it"
 )
 _LENGTHS = {"cut": Purpose.CONTOUR, "link": Purpose.LINK, "plunge": Purpose.PLUNGE, "rapid": Purpose.RAPID}
 _KINDS = {"G0": MotionKind.RAPID, "G1": MotionKind.LINE, "G2": MotionKind.ARC_CW, "G3": MotionKind.ARC_CCW}

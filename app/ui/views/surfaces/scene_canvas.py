@@ -34,7 +34,6 @@ from .scene_raster import (
     SceneLayer,
     SceneRaster,
     SceneStyle,
-    own_colours,
     raster,
 )
 from .shown_scene import ScenePicture
@@ -319,7 +318,7 @@ class SceneCanvas(QWidget):
             ]
         for row, (colour, name, line) in enumerate(entries):
             y = _EDGE + row * step
-            if self._picture is not None and own_colours(self._picture, self.colour_by):
+            if self._picture is not None and self._picture.compound and self.colour_by is SceneColourBy.SURFACE:
                 self._paint_swatch(painter, colour, QRectF(_EDGE, y + step / 2 - 6, 24, 12))
             pen = QPen(colour, 2.0 if line is LineType.SOLID else 1.6)
             if line is not LineType.SOLID:

@@ -122,12 +122,6 @@ class SceneStyle:
     coarse: bool = False
 
 
-def own_colours(picture: ScenePicture, by: SceneColourBy) -> bool:
-    """Return whether surfaces have colours of their own; one alone is grey, so that its paths are seen on it."""
-    several = len(picture.owner) > 0 and bool(picture.owner.min() < picture.owner.max())
-    return several and by is SceneColourBy.SURFACE
-
-
 def raster(picture: ScenePicture, style: SceneStyle, size: tuple[int, int]) -> SceneRaster:
     """Return a picture painted; `size` is width and height, px of the screen."""
     from . import picture_kernels as kernels
@@ -144,7 +138,7 @@ def raster(picture: ScenePicture, style: SceneStyle, size: tuple[int, int]) -> S
         fine_depths, fine_owners = np.full(fine, -np.inf, np.float32), np.full(fine, -1, np.int16)
         lights, shown = np.zeros(fine, np.float32), np.ones(int(picture.owner.max()) + 1, np.bool_)
         kernels.fill(picture.triangles, picture.owner, shown, fine_frame, fine_depths, fine_owners, lights)
-        own = own_colours(picture, style.colour_by)
+        own = picture.compound and style.colour_by is SceneColourBy.SURFACE
         inks = np.array([(style.inks.surfaces[n] if own else style.inks.rapid)[::-1] for n in range(len(shown))])
         kernels.tint(
             fine_depths, fine_owners, lights, inks.astype(np.float64), SURFACE_STRENGTH, depths, owners, pixels

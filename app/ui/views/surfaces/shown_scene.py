@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -26,7 +27,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class ScenePicture:
     """What is painted.
 
@@ -46,6 +47,11 @@ class ScenePicture:
     lows: Floats
     tool: Floats
     pitch: float = np.inf
+
+    @cached_property
+    def compound(self) -> bool:
+        """Whether it is of several surfaces, which are told apart by colours; one alone is grey under its paths."""
+        return len(self.owner) > 0 and bool(self.owner.min() < self.owner.max())
 
     @property
     def shows(self) -> bool:
