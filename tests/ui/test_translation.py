@@ -16,6 +16,7 @@ from app.core.settings import Language, load_settings
 from app.drafting.document import Document
 from app.ui.framework.catalogue import set_language, tr
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
+from app.ui.framework.figures import counted
 from app.ui.framework.legend import LegendRow
 from app.ui.framework.samples import PathLineKind
 from app.ui.framework.theme import TEXT_PX
@@ -337,6 +338,21 @@ def test_what_is_drawn_is_answered_in_japanese(line: str) -> None:
     document.run(line)
     set_language("ja")
     assert not re.search(r"[A-Za-z]{3}", tr(document.log[-1].reply)), document.log[-1].reply
+
+
+@pytest.mark.parametrize("lines", ["1 line", "7 lines"])
+@pytest.mark.parametrize("motions", ["1 motion", "7 motions"])
+@pytest.mark.parametrize("found", ["", ", 1 error", ", 2 errors, 1 warning"])
+def test_what_is_said_of_a_program_that_was_opened_is_japanese(lines: str, motions: str, found: str) -> None:
+    set_language("ja")
+    assert not re.search(r"[A-Za-z]{3}", tr(f"{lines}, {motions}{found}."))
+
+
+@pytest.mark.parametrize(("surfaces", "tools", "families"), [(1, 2, 1), (5, 1, 3)])
+def test_what_is_said_of_a_scene_that_was_opened_is_japanese(surfaces: int, tools: int, families: int) -> None:
+    made_of = (counted(surfaces, "surface"), counted(tools, "tool"), counted(families, "family", "families"))
+    set_language("ja")
+    assert not re.search(r"[A-Za-z]{3}", tr(f"{made_of[0]}, {made_of[1]}, 1 of {made_of[2]} of passes switched on"))
 
 
 def test_a_chosen_item_stays_chosen_when_its_name_changes(qtbot) -> None:
