@@ -311,3 +311,11 @@ def test_programs_follow_each_other() -> None:
     both = one.followed(two, 7)
     assert [(each.first, each.motion) for each in both.contacts] == [(0, 0), (7, 7)]
     assert both.least == {1: 23.0}
+
+
+def test_touches_far_from_each_other_along_a_wall_are_two_contacts() -> None:
+    """The tool leaves the wall in between, to where its holder is free."""
+    path = [(-30, -30, 5), (-30, -30, -12.5), (-9, -30, -12.5), (-9, -17, -12.5), (-30, -17, -12.5)]
+    path += [(-30, 17, -12.5), (-9, 17, -12.5), (-9, 30, -12.5)]
+    contacts = look(polyline(path), piece=block(high=8.0)).contacts
+    assert [(contact.first, contact.count) for contact in contacts] == [(1, 3), (5, 2)]

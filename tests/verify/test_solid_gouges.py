@@ -122,9 +122,13 @@ def test_a_floor_that_is_too_deep_is_told_in_seconds(cells: int) -> None:
     assert done.judgement.gouge.count == 1
 
 
-def test_stock_to_leave_counts_to_the_depth() -> None:
-    done = judged(pocketing(-0.2, 0.4, -3.7), 512, leave=0.3)
-    assert done.judgement is not None and done.judgement.gouge.max_mm == pytest.approx(0.7, abs=1e-3)
+@pytest.mark.parametrize("cells", [64, 512])
+@pytest.mark.parametrize(("beyond", "deep"), [(0.4, 0.7), (-0.1, 0.2), (-0.29, 0.01), (-0.3, None)])
+def test_stock_to_leave_counts_to_the_depth(cells: int, beyond: float, deep: float | None) -> None:
+    done = judged(pocketing(-0.3, beyond, -3.7), cells, leave=0.3)
+    assert done.judgement is not None and bool(done.judgement.gouge.count) == (deep is not None)
+    if deep is not None:
+        assert done.judgement.gouge.max_mm == pytest.approx(deep, abs=1e-3)
 
 
 def test_walls_that_are_asked_too_far_apart_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
