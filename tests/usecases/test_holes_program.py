@@ -244,6 +244,17 @@ def test_a_left_handed_thread_is_proven_and_one_of_the_wrong_hand_is_found(flute
     assert not wrong.clean and report_of(wrong)["operations"][1]["cut_thread"]["lead_off_mm"] == pytest.approx(2.0)
 
 
+@pytest.mark.parametrize("through", [0.0, 1.5])
+def test_a_tap_that_stays_short_of_its_depth_or_of_its_way_through_is_found(through: float) -> None:
+    made = made_of(TAP.replace("through = 0.5", "through = 2") + f"through = {through}\n")
+    assert made.clean and report_of(made)["operations"][1]["cut_thread"]["bare_mm"] == 0
+    operations = made.job.operations
+    deeper = replace(operations[1], through=through + 0.25)
+    short = finish(compute(made.job), replace(made.job, operations=(operations[0], deeper, *operations[2:])))
+    assert not short.clean
+    assert report_of(short)["operations"][1]["cut_thread"]["bare_mm"] == pytest.approx(0.25)
+
+
 def test_a_thread_on_a_boss() -> None:
     pocket = '[[operation]]\nkind = "pocket"\ntool = 1\ndepth = 9\n'
     thread = '[[operation]]\nkind = "thread"\ntool = 6\ndepth = 8\nthread = "M16"\nexternal = true\n'
