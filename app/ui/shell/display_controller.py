@@ -110,8 +110,15 @@ class DisplayController(QObject):
 
     @property
     def shown_document(self) -> ShownDocument | None:
-        """What is at the front in place of the drawing and its job; None = these."""
-        told = (each.controller.shown_document for each in self._tellers if each.view is self.view)
+        """What is at the front in place of the drawing and its job: the view's own, or the scene that its program is to
+        come of; None = these.
+        """
+        told = self._told_of(self.view)
+        return self._told_of(View.SURFACES) if told is None and self.on_scene() else told
+
+    def _told_of(self, view: View) -> ShownDocument | None:
+        """Return what the controllers say that a view shows in place of the drawing."""
+        told = (each.controller.shown_document for each in self._tellers if each.view is view)
         return next((document for document in told if document is not None), None)
 
     @property
