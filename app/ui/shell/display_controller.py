@@ -14,6 +14,7 @@ from ...drafting.expressions.words import name_text
 from ...geometry.sample import bounds, union
 from ...model.finding import Finding
 from ...model.part import Part
+from ..framework.catalogue import active_language
 from ..framework.computation import ComputationState
 from ..framework.controller import Controller, OfferedMend, ShownDocument
 from ..framework.missing import NOTHING
@@ -50,6 +51,11 @@ class _Teller:
 
     view: View
     controller: Controller
+
+
+def _within(name: str) -> str:
+    """Return the name of a change as it stands behind a verb: small in English, elsewhere as it is looked up."""
+    return name[0].lower() + name[1:] if active_language() == "en" else name
 
 
 START_PROMPT = "Choose a file or a sample, begin a part, or type a line such as  rect 0,0 80,50"
@@ -190,7 +196,7 @@ class DisplayController(QObject):
         undo = ("" if scene.document.isUndoAvailable() else None) if on_scene else document.undo_name
         redo = ("" if scene.document.isRedoAvailable() else None) if on_scene else document.redo_name
         for action, what, verb in (("undo", undo, "&Undo"), ("redo", redo, "&Redo")):
-            text = f"{verb} {what[0].lower()}{what[1:]}" if what else verb
+            text = f"{verb} {_within(what)}" if what else verb
             actions[action].setText(text)
             actions[action].setToolTip(f"{text.replace('&', '')} ({actions[action].shortcut().toString()})")
             actions[action].setEnabled(what is not None)
