@@ -337,6 +337,23 @@ def test_a_word_stands_in_its_area_or_below_one_that_is_small(area, filled, at):
     assert place_at(area, QSize(50, 20), filled).topLeft() == at
 
 
+@pytest.fixture
+def in_japanese(wiring):
+    wiring.window_.actions_["language_ja"].trigger()
+    yield
+    wiring.window_.actions_["language_en"].trigger()
+
+
+@pytest.mark.usefixtures("in_japanese")
+def test_words_are_as_large_as_they_are_in_japanese(qtbot, plate):
+    proposed(qtbot, plate)
+    told = plate.purpose_words
+    qtbot.waitUntil(lambda: len(told.words) == 4, timeout=WAIT_MS)
+    plate.window_.grab()
+    qtbot.waitUntil(lambda: all(word.size() == word.sizeHint() for word in told.words), timeout=WAIT_MS)
+    assert words_of(plate)[2] == "ポケット加工"
+
+
 def test_words_are_gone_while_a_tool_is_in_hand_and_over_paths(qtbot, plate):
     proposed(qtbot, plate)
     told, window = plate.purpose_words, plate.window_

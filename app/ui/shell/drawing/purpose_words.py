@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QPoint, QRect, QRectF, QSize, Qt
+from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QPainterPath
 from PySide6.QtWidgets import QMenu, QToolButton
 
@@ -133,6 +133,13 @@ class PurposeWords(QObject):
         self._document.subscribe(self._follow)
         for signal in (canvas.prompt_changed, canvas.tool_changed, canvas.view_changed, canvas.mode_changed):
             signal.connect(self.place)
+        canvas.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Stay as large as the words are: they are looked up in another language when they are painted."""
+        if event.type() == QEvent.Type.LayoutRequest and any(word.size() != word.sizeHint() for word in self.words):
+            self.place()
+        return super().eventFilter(watched, event)
 
     def _follow(self, change: DocumentChange) -> None:
         """Look for the areas of another job; those of the one before are gone at once where the drawing is another."""
