@@ -30,6 +30,10 @@ _LETTER = re.compile(r"[A-Za-z]")
 _COLON = re.compile(": ")
 _TOOL = re.compile(r"(?<![A-Za-z])T$")
 """What stands before number and name of a tool."""
+_CHANGED = re.compile(r"\bChange $")
+"""What stands before the name of a field, which is written small there."""
+_NUMBERED = re.compile(r"(T\d+ +)(\S.*)")
+"""A tool as lists have it: its number, and its name."""
 _AREA = re.compile(r"\bmm2\b")
 _TYPED, _OFFERED = re.compile(r"(?:one of|expected|expected are) $"), re.compile(r"(?:choose|try|use|write) $")
 """What stands before words to choose one of, which have to be typed as they are; the second, where it is a list."""
@@ -101,7 +105,12 @@ class Catalogue:
         with_key = _KEY_TIP.fullmatch(words)
         if with_key and with_key.group(1) in self._entries:
             return f"{self._entries[with_key.group(1)]} {with_key.group(2)}"
-        return self._sentence(words) or self._placed(words) or self._matched(words, self._joints if joints else ())
+        return (
+            self._sentence(words)
+            or self._placed(words)
+            or self._numbered(words)
+            or self._matched(words, self._joints if joints else ())
+        )
 
     def _sentence(self, words: str) -> str | None:
         """Return what is an entry, or several lines or sentences that are; no entry swallows a sentence that is one."""
@@ -120,6 +129,12 @@ class Catalogue:
                 place = words[: colon.start()]
                 return f"{self.look_up(place) or place}: {found}"
         return None
+
+    def _numbered(self, words: str) -> str | None:
+        """Return a tool by number and name, where the name is an entry."""
+        tool = _NUMBERED.fullmatch(words)
+        name = self.look_up(tool[2]) if tool is not None else None
+        return f"{tool[1]}{name}" if tool is not None and name is not None else None
 
     def _matched(self, words: str, patterns: Sequence[_Pattern], within_sentences: bool = False) -> str | None:
         """Return what the first entry with holes makes of a text.
@@ -146,7 +161,9 @@ class Catalogue:
         plain = not any(" " in name for name in names)
         if _TYPED.search(before) or (_OFFERED.search(before) and joints and plain):
             return self._joined(names, joints)
-        if (whole := self.look_up(part)) is not None:
+        small = _CHANGED.search(before) is not None
+        whole = self.look_up(part) or (self.look_up(part[0].upper() + part[1:]) if small else None)
+        if whole is not None:
             return whole
         if not joints or before.endswith(("'", '"')):  # a name that somebody gave
             return part

@@ -15,6 +15,7 @@ from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.drawing.proposal_controller import NOTHING_DRAWN, NOTHING_SELECTED
+from app.ui.shell.drawing.purpose_words import place_at
 from app.ui.shell.drawing.selection_ribbon import place_beside
 
 WAIT_MS = 20_000
@@ -266,6 +267,103 @@ def test_the_ribbon_over_a_selection_says_what_it_is_to_become(qtbot, plate, num
     assert [type(each) for each in plate.document.job.operations] == [DrillOperation]
     plate.display_controller.show_view(View.PATHS)
     assert ribbon.isHidden()
+
+
+def test_what_a_selection_cannot_become_is_grey_and_says_why(qtbot, plate, numbers):
+    ribbon, ways = plate.ribbon, plate.selection_ways
+    plate.document.select(numbers[1])
+    qtbot.waitUntil(lambda: not ribbon.buttons["drill"].isEnabled(), timeout=WAIT_MS)
+    assert "is no circle, so it cannot be drilled" in ribbon.buttons["drill"].toolTip()
+    assert [way for way, button in ribbon.buttons.items() if not button.isEnabled()] == ["drill"]
+    machined = next(each for each in plate.context_menu.made(None).actions() if each.menu() is not None).menu()
+    grey = [each.toolTip() for each in machined.actions() if not each.isEnabled()]
+    assert len(grey) == 3 and grey[0] == ways.refused["drill"], "drill, bore, countersink"
+    plate.document.select(numbers[2])
+    assert ribbon.buttons["drill"].isEnabled()
+    plate.document.run("line 0,60 20,70")
+    plate.document.select([max(each.id for each in plate.document.part.entities)])
+    qtbot.waitUntil(lambda: not ribbon.buttons["pocket"].isEnabled(), timeout=WAIT_MS)
+    assert [way for way, button in ribbon.buttons.items() if button.isEnabled()] == ["on", "engrave"]
+
+
+def words_of(wiring) -> list[str]:
+    return [each.text() for each in wiring.purpose_words.words]
+
+
+def test_what_curves_are_to_become_is_a_word_at_each_area_and_changed_by_a_press(qtbot, plate):
+    job, told = proposed(qtbot, plate), plate.purpose_words
+    qtbot.waitUntil(lambda: len(told.words) == 4, timeout=WAIT_MS)
+    assert words_of(plate) == ["Drill · through"] * 2 + ["Pocket", "Contour outside · through"]
+    assert all(not each.isHidden() for each in told.words)
+    qtbot.mouseClick(told.words[2], Qt.MouseButton.LeftButton)
+    actions = {each.text(): each for each in told.menu.actions()}
+    told.menu.hide()
+    assert not actions["Drill"].isEnabled() and "Pocket" not in actions
+    actions["Leave this standing"].trigger()
+    assert PocketOperation not in [type(each) for each in plate.document.job.operations]
+    qtbot.waitUntil(lambda: len(told.words) == 3, timeout=WAIT_MS)
+    plate.window_.actions_["undo"].trigger()
+    assert plate.document.job == job
+
+
+def test_one_hole_of_two_is_left_standing_and_another_becomes_a_pocket(qtbot, plate, numbers):
+    proposed(qtbot, plate)
+    told = plate.purpose_words
+    qtbot.waitUntil(lambda: len(told.words) == 4, timeout=WAIT_MS)
+    told.words[0].click()
+    told.menu.hide()
+    told.menu.actions()[0].trigger()
+    drill = plate.document.job.operations[0]
+    assert isinstance(drill, DrillOperation) and [each.text for each in drill.cut.curves] == [f"#{numbers[2][1]}"]
+    qtbot.waitUntil(lambda: len(told.words) == 3, timeout=WAIT_MS)
+    told.words[0].click()
+    told.menu.hide()
+    with qtbot.waitSignal(plate.proposal_controller.worker.done, timeout=WAIT_MS):
+        next(each for each in told.menu.actions() if each.text() == "Pocket").trigger()
+    kinds = [type(each) for each in plate.document.job.operations]
+    assert DrillOperation not in kinds and kinds.count(PocketOperation) == 2
+
+
+@pytest.mark.parametrize(
+    ("area", "filled", "at"),
+    [
+        (QRect(100, 100, 200, 100), True, QPoint(174, 139)),
+        (QRect(100, 100, 200, 100), False, QPoint(174, 169)),
+        (QRect(100, 100, 30, 30), True, QPoint(89, 133)),
+        (QRect(100, 100, 30, 300), False, QPoint(89, 403)),
+    ],
+)
+def test_a_word_stands_in_its_area_or_below_one_that_is_small(area, filled, at):
+    assert place_at(area, QSize(50, 20), filled).topLeft() == at
+
+
+@pytest.fixture
+def in_japanese(wiring):
+    wiring.window_.actions_["language_ja"].trigger()
+    yield
+    wiring.window_.actions_["language_en"].trigger()
+
+
+@pytest.mark.usefixtures("in_japanese")
+def test_words_are_as_large_as_they_are_in_japanese(qtbot, plate):
+    proposed(qtbot, plate)
+    told = plate.purpose_words
+    qtbot.waitUntil(lambda: len(told.words) == 4, timeout=WAIT_MS)
+    plate.window_.grab()
+    qtbot.waitUntil(lambda: all(word.size() == word.sizeHint() for word in told.words), timeout=WAIT_MS)
+    assert words_of(plate)[2] == "ポケット加工"
+
+
+def test_words_are_gone_while_a_tool_is_in_hand_and_over_paths(qtbot, plate):
+    proposed(qtbot, plate)
+    told, window = plate.purpose_words, plate.window_
+    qtbot.waitUntil(lambda: len(told.words) == 4, timeout=WAIT_MS)
+    window.actions_["tool_line"].trigger()
+    assert all(each.isHidden() for each in told.words)
+    window.actions_["tool_select"].trigger()
+    assert not told.words[0].isHidden()
+    plate.display_controller.show_view(View.PATHS)
+    assert all(each.isHidden() for each in told.words)
 
 
 @pytest.mark.parametrize(

@@ -31,6 +31,36 @@ def test_window_is_usable_soon(capsys):
     assert took < WANTED_S
 
 
+COMPUTES = (
+    "app.usecases.making.make",
+    "app.usecases.sheet.made",
+    "app.usecases.cutting.cut",
+    "app.verify.verdict",
+    "numba",
+)
+"""Modules of what computes: the window comes up without them, and loads them beside it while it warms up."""
+
+
+@pytest.mark.exhaustive
+def test_the_window_comes_up_before_what_computes_is_loaded(tmp_path):
+    program = f"""
+import sys
+from PySide6.QtWidgets import QApplication
+application = QApplication([])
+from app.ui.shell.start import build
+window, wiring = build()
+window.show()
+application.processEvents()
+print(*[name for name in {COMPUTES!r} if name in sys.modules])
+"""
+    own = os.environ | {"QT_QPA_PLATFORM": "offscreen", "HITOFUDE_CONFIG": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=ROOT, env=own, capture_output=True, text=True, timeout=60
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "\n"
+
+
 @pytest.mark.exhaustive
 def test_the_window_loads_nothing_on_the_way_once_it_is_warm(tmp_path):
     command = [sys.executable, "-m", "tests.ui.loaded_late"]

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import tomllib
 import unicodedata
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QLocale, Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QStyleOptionViewItem, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QComboBox,
+    QLabel,
+    QLineEdit,
+    QMessageBox,
+    QStyleOptionViewItem,
+    QWidget,
+)
 
+import app
 from app.core.catalogue import Catalogue, catalogue, catalogue_files
 from app.core.settings import Language, load_settings
 from app.drafting.document import Document
@@ -20,13 +33,16 @@ from app.ui.framework.figures import counted
 from app.ui.framework.legend import LegendRow
 from app.ui.framework.samples import PathLineKind
 from app.ui.framework.theme import TEXT_PX
+from app.ui.panels.library import about_tool
 from app.ui.shell.bars.actions import menus, plain
+from app.ui.shell.help.about import show_about
 from app.ui.shell.translation import code_of, translate, translate_all
 from app.ui.shell.view_pages import NO_PART
 from app.ui.shell.view_stack import EmptyState
 from app.ui.views.canvas.prompt_tool import PromptTool
 from app.ui.views.canvas.tool_table import TOOLS
 from app.ui.views.nc.places_panel import ListedPlace, PlacesPanel, PlaceWeight
+from app.usecases.proposal.propose import shipped_tools
 
 FILES = {path: tomllib.loads(path.read_text("utf-8"))["words"] for path in catalogue_files("ja")}
 ENTRIES: dict[str, str] = {text: other for words in FILES.values() for text, other in words.items()}
@@ -353,6 +369,55 @@ def test_what_is_said_of_a_scene_that_was_opened_is_japanese(surfaces: int, tool
     made_of = (counted(surfaces, "surface"), counted(tools, "tool"), counted(families, "family", "families"))
     set_language("ja")
     assert not re.search(r"[A-Za-z]{3}", tr(f"{made_of[0]}, {made_of[1]}, 1 of {made_of[2]} of passes switched on"))
+
+
+def test_tools_of_the_library_are_told_in_japanese() -> None:
+    set_language("ja")
+    for tool in shipped_tools():
+        for line in (*about_tool(tool, None).split("\n"), tool.label, f"T7 {tool.label}"):
+            assert not re.search(r"[A-Za-z]{4}", tr(line)), line
+
+
+def filters() -> set[str]:
+    """Return every kind of file that a dialog of the window offers, as it is written there."""
+    texts = (
+        node.value
+        for path in (Path(app.__file__).parent / "ui").rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and "\n" not in node.value
+    )
+    return {one for text in texts if "(*" in text for one in text.split(";;") if one[:1].isalpha()}
+
+
+def test_kinds_of_files_are_offered_in_japanese() -> None:
+    set_language("ja")
+    assert len(filters()) > 10
+    same_everywhere = {"GIF (*.gif)", "HTML (*.html)"}
+    assert [one for one in sorted(filters() - same_everywhere) if tr(one) == one] == []
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["Propose operations", "Change depth", "Change curves", "Drill this", "Contour outside this", "Move operation"],
+)
+def test_changes_are_named_in_japanese_where_they_are_undone(name: str) -> None:
+    set_language("ja")
+    assert not re.search(r"[A-Za-z]{3}", tr(name)) and tr(f"&Undo {name}") == f"元に戻す: {tr(name)}"
+
+
+def test_history_and_undo_are_in_the_windows_language(japanese) -> None:
+    japanese.document.change_job("Propose operations", replace(japanese.document.job, operations=()))
+    history = japanese.window_.drawing_page.history.list
+    shown = [history.itemDelegate().displayText(history.item(at).text(), QLocale()) for at in range(history.count())]
+    assert not [text for text in shown if re.search(r"[A-Za-z]{3}", text)]
+    assert tr(japanese.window_.actions_["undo"].text()) == "元に戻す: 工程を提案"
+
+
+def test_about_is_in_the_windows_language(qtbot, japanese) -> None:
+    show_about(japanese.window_)
+    box = japanese.window_.findChild(QMessageBox)
+    assert "線図から" in box.text() and "published" not in box.text()
+    box.close()
 
 
 def test_a_chosen_item_stays_chosen_when_its_name_changes(qtbot) -> None:

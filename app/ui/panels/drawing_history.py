@@ -10,6 +10,7 @@ from ...drafting.document import Document
 from ..framework.labels import muted
 from ..framework.section import PanelSection
 from ..framework.theme import LIGHT, Theme
+from ..framework.translated_items import TranslatedItems
 
 LEAST_PX = 120
 BEGINNING = "Beginning"
@@ -35,6 +36,7 @@ class HistorySection(PanelSection):
         self.list = QListWidget()
         self.list.setAccessibleName("History: Enter goes to a step")
         self.list.setProperty("role", "rows")
+        self.list.setItemDelegate(TranslatedItems(self.list))
         self.list.setUniformItemSizes(True)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setMinimumHeight(LEAST_PX)

@@ -149,7 +149,7 @@ class LibrarySection(Themed, PanelSection):
             row.set_chosen(other is tool)
         self.reveal()
         self.details.setText(
-            "" if tool is None else _about(for_material(tool, self._material), row_for(tool, self._material))
+            "" if tool is None else about_tool(for_material(tool, self._material), row_for(tool, self._material))
         )
         self.details.setVisible(tool is not None)
         self.add_button.setEnabled(tool is not None)
@@ -228,7 +228,7 @@ class LibrarySection(Themed, PanelSection):
         return super().eventFilter(watched, event)
 
 
-def _about(tool: Tool, row: FeedRow | None) -> str:
+def about_tool(tool: Tool, row: FeedRow | None) -> str:
     """Return what there is to know of a tool: what it is, how long, how fast; and what for, where that is not
     everything.
     """

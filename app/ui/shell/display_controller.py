@@ -14,6 +14,7 @@ from ...drafting.expressions.words import name_text
 from ...geometry.sample import bounds, union
 from ...model.finding import Finding
 from ...model.part import Part
+from ..framework.catalogue import active_language
 from ..framework.computation import ComputationState
 from ..framework.controller import Controller, OfferedMend, ShownDocument
 from ..framework.missing import NOTHING
@@ -50,6 +51,11 @@ class _Teller:
 
     view: View
     controller: Controller
+
+
+def _within(name: str) -> str:
+    """Return the name of a change as it stands behind a verb: small in English, elsewhere as it is looked up."""
+    return name[0].lower() + name[1:] if active_language() == "en" else name
 
 
 START_PROMPT = "Choose a file or a sample, begin a part, or type a line such as  rect 0,0 80,50"
@@ -110,8 +116,15 @@ class DisplayController(QObject):
 
     @property
     def shown_document(self) -> ShownDocument | None:
-        """What is at the front in place of the drawing and its job; None = these."""
-        told = (each.controller.shown_document for each in self._tellers if each.view is self.view)
+        """What is at the front in place of the drawing and its job: the view's own, or the scene that its program is to
+        come of; None = these.
+        """
+        told = self._told_of(self.view)
+        return self._told_of(View.SURFACES) if told is None and self.on_scene() else told
+
+    def _told_of(self, view: View) -> ShownDocument | None:
+        """Return what the controllers say that a view shows in place of the drawing."""
+        told = (each.controller.shown_document for each in self._tellers if each.view is view)
         return next((document for document in told if document is not None), None)
 
     @property
@@ -183,7 +196,7 @@ class DisplayController(QObject):
         undo = ("" if scene.document.isUndoAvailable() else None) if on_scene else document.undo_name
         redo = ("" if scene.document.isRedoAvailable() else None) if on_scene else document.redo_name
         for action, what, verb in (("undo", undo, "&Undo"), ("redo", redo, "&Redo")):
-            text = f"{verb} {what[0].lower()}{what[1:]}" if what else verb
+            text = f"{verb} {_within(what)}" if what else verb
             actions[action].setText(text)
             actions[action].setToolTip(f"{text.replace('&', '')} ({actions[action].shortcut().toString()})")
             actions[action].setEnabled(what is not None)

@@ -58,19 +58,19 @@ class SceneCoordinator(QObject):
         view, scene = self._display.view, self._window.scene
         if not scene.open or view is View.SURFACES:
             return scene.open
-        return view in _PROGRAM_VIEWS and self._alone and self._shows_nothing_else(view)
+        return view in _PROGRAM_VIEWS and self._alone(view) and self._shows_nothing_else(view)
 
-    @property
-    def _alone(self) -> bool:
-        """Whether a scene is all that there is: nothing is drawn, and no program of a file is looked at."""
-        opened = self._nc.source.path if self._nc.foreign and self._nc.source is not None else None
-        cut = self._cuts.source
-        return (
-            self._window.scene.open
-            and not self._window.document.part.entities
-            and opened is None
-            and (cut is None or self._cuts.of_scene)
-        )
+    def _alone(self, view: View) -> bool:
+        """Whether a scene is all that a view can show: nothing is drawn, and no program of a file is looked at there;
+        one in the other view takes nothing from this one.
+        """
+        return self._window.scene.open and not self._window.document.part.entities and not self._opened(view)
+
+    def _opened(self, view: View) -> bool:
+        """Whether a view shows a program of a file."""
+        if view is View.CUT:
+            return self._cuts.source is not None and not self._cuts.of_scene
+        return self._nc.foreign and self._nc.source is not None and self._nc.source.path is not None
 
     def _shows_nothing_else(self, view: View) -> bool:
         """Whether a view shows no program but one that the scene gave it: one that was made of that stays."""
@@ -86,7 +86,7 @@ class SceneCoordinator(QObject):
 
     def _go_on(self, view: View) -> None:
         """Show the scene's program, as it is now, where nothing else is to be shown; once, for it can be closed."""
-        if view not in _PROGRAM_VIEWS or not self._alone or not self._shows_nothing_else(view):
+        if view not in _PROGRAM_VIEWS or not self._alone(view) or not self._shows_nothing_else(view):
             return
         program = self._scenes.program()
         if program is not None and program.source.data != self._given.get(view):

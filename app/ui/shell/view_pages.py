@@ -105,7 +105,7 @@ def _drawing_pages(window: MainWindow, told: WindowState) -> dict[View, ViewPage
     def beside_cut() -> QWidget | None:
         if window.cut_form.asked is not None:
             return window.cut_form
-        return window.cut_panel if window.cut_panel.shown is not None else window.side
+        return window.cut_panel if window.cut_panel.shown is not None else _beside_nothing(window)
 
     def prompt() -> str:
         return canvas.prompt
@@ -140,7 +140,7 @@ def _program_pages(window: MainWindow) -> dict[View, ViewPage]:
             lambda: NC_PROMPT,
             missing,
             lambda: nc.summary,
-            lambda: nc.beside if nc.foreign else window.side,
+            lambda: nc.beside if nc.foreign else _beside_nothing(window),
         ),
     }
 
@@ -187,6 +187,13 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
             lambda: window.scene_side if window.scene.open else None,
         ),
     }
+
+
+def _beside_nothing(window: MainWindow) -> QWidget:
+    """Return what stands beside a view that shows no program of its own: the job, or, where nothing is drawn, the open
+    scene.
+    """
+    return window.scene_side if window.scene.open and not window.document.part.entities else window.side
 
 
 def _of_scene(window: MainWindow, closed: MissingHint, otherwise: MissingHint) -> MissingHint:

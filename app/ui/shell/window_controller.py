@@ -53,7 +53,9 @@ from .drawing.engagement_controller import EngagementController
 from .drawing.inlay_controller import InlayController
 from .drawing.owned_curves_controller import OwnedCurvesController
 from .drawing.proposal_controller import ProposalController
+from .drawing.purpose_words import PurposeWords
 from .drawing.selection_ribbon import SelectionRibbon
+from .drawing.selection_ways import SelectionWays
 from .drawing.shape_language_controller import ShapeLanguageController
 from .drawing.tab_controller import TabController
 from .drawing.template_controller import TemplateController
@@ -182,6 +184,7 @@ class WindowController(QObject):
         self.advice_controller = AdviceController(window.panel, workspace)
         self.proposal_controller = ProposalController(window.panel, workspace, commands)
         self.template_controller = TemplateController(window.panel, workspace, commands)
+        self.purpose_words = PurposeWords(window.panel, canvas, workspace, self.proposal_controller)
         self.owned_curves = OwnedCurvesController(window.panel, canvas, workspace)
         self.drawing_page_controller = DrawingPageController(window.drawing_page, window.notice, commands)
         self.cleanup_controller = CleanUpController(window.drawing_page.cleanup, canvas, workspace)
@@ -447,8 +450,9 @@ class WindowController(QObject):
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
         canvas.key_typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(self._on_tool)
-        self.ribbon = SelectionRibbon(canvas, self.document, window.actions_)
-        self.context_menu = ContextMenu(canvas, self.document, window.actions_)
+        self.selection_ways = SelectionWays(window.workspace, window)
+        self.ribbon = SelectionRibbon(canvas, self.document, window.actions_, self.selection_ways)
+        self.context_menu = ContextMenu(canvas, self.document, window.actions_, self.selection_ways)
 
     def _take_tool(self, tool: CanvasTool) -> None:
         """Take a tool in hand, on the canvas."""

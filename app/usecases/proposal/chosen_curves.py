@@ -23,7 +23,7 @@ from ...model.slot_operation import SlotOperation
 from ...model.tool import Tool
 from ...model.tool_kind import ToolKind
 from ...model.vcarve_operation import VcarveOperation
-from ...toolpath.drawn_contours import drawn_contours
+from ...toolpath.drawn_contours import DrawnContours, drawn_contours
 from .contour_sorts import SortedContours, by_diameter
 from .propose import WIDEST, ProposalWork, ProposedOperation, regions_within, shipped_tools, tabs_for
 from .rack import Rack, room
@@ -86,7 +86,7 @@ def with_chosen(
     """
     progress.step(0.0, "Sorting contours")
     seen, requested = drawn_contours(replace(job, copies=Copies())), frozenset(numbers)
-    contours = [each for each in (*seen.closed, *seen.open) if requested.intersection(each.entity_ids)]
+    contours = _touched(seen, requested)
     _check(contours, way)
     thickness = job.stock.thickness
     rack = Rack(_tools(job), list(job.tools))
@@ -123,10 +123,26 @@ def numbers_of(job: Job, numbers: Iterable[int]) -> tuple[Selector, ...]:
     Raises:
         GeometryError: the job machines none of them.
     """
-    seen, requested = drawn_contours(replace(job, copies=Copies())), frozenset(numbers)
-    contours = [each for each in (*seen.closed, *seen.open) if requested.intersection(each.entity_ids)]
+    requested = frozenset(numbers)
+    contours = _touched(drawn_contours(replace(job, copies=Copies())), requested)
     _check(contours, CurvePurpose.ON)
     return _numbers(contours, requested)
+
+
+def refusals(seen: DrawnContours, numbers: Iterable[int]) -> dict[CurvePurpose, str]:
+    """Return what curves cannot become, with a sentence that says why; what no tool can be had for is not looked at.
+
+    Args:
+        seen: the contours of their drawing, without copies. numbers: of the curves.
+    """
+    contours = _touched(seen, frozenset(numbers))
+    said = {way: _refusal(contours, way) for way in CurvePurpose}
+    return {way: why for way, why in said.items() if why}
+
+
+def _touched(seen: DrawnContours, requested: frozenset[int]) -> list[Contour]:
+    """Return the contours that some curves, by their numbers, are of."""
+    return [each for each in (*seen.closed, *seen.open) if requested.intersection(each.entity_ids)]
 
 
 def _numbers(contours: Sequence[Contour], requested: frozenset[int]) -> tuple[Selector, ...]:
@@ -141,23 +157,35 @@ def _of(operation: Operation, contours: Sequence[Contour], requested: frozenset[
 
 def _check(contours: Sequence[Contour], way: CurvePurpose) -> None:
     """Refuse curves that cannot become what they are to."""
+    why = _refusal(contours, way)
+    if why:
+        raise GeometryError(why)
+
+
+def _refusal(contours: Sequence[Contour], way: CurvePurpose) -> str:
+    """Return why curves cannot become something; "" = they can."""
     if not contours:
-        raise GeometryError("No selected curve is machined by this job; select a curve of a layer that is shown.")
+        return "No selected curve is machined by this job; select a curve of a layer that is shown."
     if way in (CurvePurpose.ON, CurvePurpose.SLOT, CurvePurpose.ENGRAVE):
-        return
-    for each in contours:
-        x, y = each.primitives[-1].end
-        if not each.closed:
-            raise GeometryError(
-                f"A selected curve is open at ({x:.3f}, {y:.3f}), so it bounds nothing; close it, or choose contour on "
-                "line, slot or engrave."
-            )
-        if way in _OF_CIRCLES and as_circle(each) is None:
-            done = {CurvePurpose.DRILL: "drilled", CurvePurpose.BORE: "bored"}.get(way, "countersunk")
-            raise GeometryError(
-                f"The selected curve through ({x:.3f}, {y:.3f}) is no circle, so it cannot be {done}; choose pocket "
-                "or contour inside."
-            )
+        return ""
+    return next(filter(None, (_refusal_of_one(each, way) for each in contours)), "")
+
+
+def _refusal_of_one(contour: Contour, way: CurvePurpose) -> str:
+    """Return why a contour cannot bound an area, or be a hole, where that is asked for."""
+    x, y = contour.primitives[-1].end
+    if not contour.closed:
+        return (
+            f"A selected curve is open at ({x:.3f}, {y:.3f}), so it bounds nothing; close it, or choose contour on "
+            "line, slot or engrave."
+        )
+    if way in _OF_CIRCLES and as_circle(contour) is None:
+        done = {CurvePurpose.DRILL: "drilled", CurvePurpose.BORE: "bored"}.get(way, "countersunk")
+        return (
+            f"The selected curve through ({x:.3f}, {y:.3f}) is no circle, so it cannot be {done}; choose pocket "
+            "or contour inside."
+        )
+    return ""
 
 
 def _tools(job: Job) -> tuple[Tool, ...]:

@@ -398,6 +398,38 @@ def test_a_scene_s_cut_that_was_closed_comes_back_when_it_is_asked_for(qtbot, op
     assert display.page.missing().action == "scene_cut", "and is not shown against one's will"
 
 
+@pytest.fixture
+def after_a_program(qtbot, wiring, tmp_path):
+    """A scene that was opened after a program of a file, and that is being computed."""
+    program, scene = tmp_path / "other.ngc", tmp_path / "mine.toml"
+    program.write_text("G21 G90\nT1 M6\nS9000 M3\nG0 X5 Y10 Z5\nG1 Z-1 F200\nX25\nG0 Z5\nM30\n")
+    scene.write_bytes(SMALL)
+    wiring.files.open_file(program)
+    qtbot.waitUntil(lambda: wiring.nc.foreign and wiring.nc.shown is not None, timeout=WAIT_MS)
+    wiring.files.open_file(scene)
+    qtbot.waitUntil(lambda: wiring.window_.scene.open, timeout=WAIT_MS)
+    return wiring
+
+
+def test_a_program_of_a_file_in_the_nc_view_keeps_no_scene_from_being_cut(qtbot, after_a_program):
+    proven(qtbot, after_a_program)
+    window, display = after_a_program.window_, after_a_program.display_controller
+    display.show_view(View.CUT)
+    assert after_a_program.cut_controller.of_scene
+    assert window.file_label.text() == "mine.ngc" and window.actions_["export"].isEnabled()
+    display.show_view(View.NC)
+    assert window.file_label.text() == "other.ngc" and not window.actions_["compute"].isEnabled()
+
+
+def test_where_a_scene_s_program_is_to_come_title_badge_and_side_are_the_scene_s(after_a_program):
+    window, display = after_a_program.window_, after_a_program.display_controller
+    display.show_view(View.CUT)
+    assert window.views.empty.sentence.text() == "The scene's program is shown here when it is computed and proven."
+    assert window.file_label.text() == "mine.toml"
+    assert window.status.badge.text().endswith("Computing")
+    assert window.scene_side.isVisibleTo(window) and not window.side.isVisibleTo(window)
+
+
 def test_a_drawing_beside_a_scene_keeps_its_own_cut(opened):
     opened.document.run("rectangle 0,0 20,20")
     opened.display_controller.show_view(View.CUT)

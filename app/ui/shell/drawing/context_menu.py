@@ -14,6 +14,7 @@ from ...framework.commands import Commands
 from ...views.canvas.canvas import Canvas
 from ..bars.actions import MACHINE_THIS, plain
 from .proposal_controller import WAYS
+from .selection_ways import SelectionWays
 
 _FOR_SELECTION = (
     "tool_move",
@@ -40,9 +41,9 @@ class ContextMenu(QObject):
         menu: the one opened last, or None.
     """
 
-    def __init__(self, canvas: Canvas, document: Document, commands: Commands) -> None:
+    def __init__(self, canvas: Canvas, document: Document, commands: Commands, ways: SelectionWays) -> None:
         super().__init__(canvas)
-        self._canvas, self._document, self._commands = canvas, document, commands
+        self._canvas, self._document, self._commands, self._ways = canvas, document, commands, ways
         self.menu: QMenu | None = None
         canvas.menu_requested.connect(self.open)
 
@@ -68,9 +69,7 @@ class ContextMenu(QObject):
             chain.triggered.connect(lambda *_: self._run(f"select chain {under}"))
             menu.addSeparator()
         if self._document.selection:
-            machined = menu.addMenu(plain(MACHINE_THIS))
-            for way in WAYS:
-                machined.addAction(self._commands[f"machine_{way}"])
+            self._add_ways(menu.addMenu(plain(MACHINE_THIS)))
             menu.addSeparator()
         for name in _FOR_SELECTION if self._document.selection else _WITHOUT:
             if name:
@@ -80,6 +79,17 @@ class ContextMenu(QObject):
         if self._document.selection:
             menu.addAction(self._commands["properties"])
         return menu
+
+    def _add_ways(self, menu: QMenu) -> None:
+        """Offer what the selection is to become; what it cannot become is grey, and its tip says why."""
+        menu.setToolTipsVisible(True)
+        for way in WAYS:
+            action, why = self._commands[f"machine_{way}"], self._ways.refused.get(way, "")
+            if why:
+                action = self._named(menu, action.text(), action)
+                action.setEnabled(False)
+                action.setToolTip(why)
+            menu.addAction(action)
 
     def _named(self, menu: QMenu, text: str, action: QAction) -> QAction:
         made = QAction(text, menu)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QObject
 
 from ....core.progress import Progress
-from ....usecases.making.make import MakeResult
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
 from ...views.canvas.canvas import Canvas
 from ...views.canvas.legend import Legend
 from ...views.canvas.modes import PathColourBy
 from ...views.canvas.painting.program_layer import ProgramLayer
+
+if TYPE_CHECKING:
+    from ....usecases.making.make import MakeResult
 
 
 def engagement_layer(made: MakeResult, progress: Progress) -> ProgramLayer:

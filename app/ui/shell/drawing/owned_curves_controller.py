@@ -35,7 +35,7 @@ class OwnedCurves:
     path: QPainterPath
 
 
-def _same_contours(one: Job, other: Job) -> bool:
+def same_contours(one: Job, other: Job) -> bool:
     """Tell whether two jobs machine the same contours of the same drawing."""
 
     def layers(job: Job) -> object:
@@ -104,10 +104,10 @@ class OwnedCurvesController(QObject):
             self._show_none()
             return
         asked = self._asked
-        if asked is not None and asked[1] == subject.key and _same_contours(asked[0], job):
+        if asked is not None and asked[1] == subject.key and same_contours(asked[0], job):
             return
         self._asked = job, subject.key
-        known = self._known if self._known is not None and _same_contours(self._known.job, job) else None
+        known = self._known if self._known is not None and same_contours(self._known.job, job) else None
         self.worker.start(lambda progress: owned_curves(job, subject.key, known, progress), self._document.revision)
 
     def _on_done(self, answer: JobOutcome) -> None:

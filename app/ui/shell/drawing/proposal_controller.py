@@ -177,6 +177,16 @@ class ProposalController(OperationsController):
 
         self._start_on_selection(find, self._add)
 
+    def machine_instead(self, job: Job, numbers: frozenset[int], way: str) -> None:
+        """Have curves, by their numbers, be machined another way than they were, as one step.
+
+        Args:
+            job: without what machined them. way: one of `WAYS`.
+        """
+        self._begun_with = None
+        self._workspace.notice.dismiss()
+        self._work_out(lambda progress: chosen_for(job, numbers, way, progress), self._add)
+
     def use_selection(self) -> None:
         """Have the selected curves be those of the operation that is shown."""
         index = self._panel.operation_form.index

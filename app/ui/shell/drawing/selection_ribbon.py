@@ -11,6 +11,7 @@ from ...framework.boxes import give_ground, h_box
 from ...framework.commands import Commands
 from ...views.canvas.canvas import Canvas
 from ...views.canvas.modes import CanvasMode
+from .selection_ways import SelectionWays
 
 _WAYS = {
     "pocket": ("Pocket", "Clear the area within the selected curves"),
@@ -33,15 +34,16 @@ _MOST = 2000
 
 
 class SelectionRibbon(QWidget):
-    """Stands over the selection of a drawing while no tool is in hand, and is gone else.
+    """Stands over the selection of a drawing while no tool is in hand, and is gone else; what a selection cannot become
+    is grey.
 
     Attributes:
         buttons: by the way that they stand for.
     """
 
-    def __init__(self, canvas: Canvas, document: Document, commands: Commands) -> None:
+    def __init__(self, canvas: Canvas, document: Document, commands: Commands, ways: SelectionWays) -> None:
         super().__init__(canvas)
-        self._canvas, self._document = canvas, document
+        self._canvas, self._document, self._ways = canvas, document, ways
         self._box: QRectF | None = None
         self._any = False
         give_ground(self, "selectionRibbon")
@@ -52,6 +54,7 @@ class SelectionRibbon(QWidget):
             row.addWidget(button)
         self.hide()
         document.subscribe(self._follow)
+        ways.changed.connect(self._refuse)
         for signal in (canvas.prompt_changed, canvas.tool_changed, canvas.view_changed, canvas.mode_changed):
             signal.connect(self.place)
 
@@ -64,6 +67,13 @@ class SelectionRibbon(QWidget):
         button.setToolTip(tip)
         button.clicked.connect(lambda: commands[f"machine_{way}"].trigger())
         return button
+
+    def _refuse(self) -> None:
+        """Grey what the selection cannot become; the tip says why."""
+        for way, button in self.buttons.items():
+            why = self._ways.refused.get(way, "")
+            button.setEnabled(not why)
+            button.setToolTip(why or _WAYS[way][1])
 
     def _follow(self, change: DocumentChange) -> None:
         """Look where the selection is; it is where it was unless it or the drawing changes."""

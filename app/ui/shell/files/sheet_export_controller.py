@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
@@ -14,15 +15,15 @@ from ....core.atomic import write_atomically
 from ....core.progress import Progress
 from ....drafting.language.write import draw_text
 from ....formats.sheet import SUFFIXES
-from ....formats.sheet.write import sheet_bytes
 from ....gcode.posts import load_post
-from ....usecases.making.make import MakeResult
-from ....usecases.sheet.made import made_sheet
 from ...framework.catalogue import active_language
 from ...framework.computation import ComputationState
 from ...framework.controller import Controller
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
+
+if TYPE_CHECKING:
+    from ....usecases.making.make import MakeResult
 
 FILTERS = {"PDF for A4 (*.pdf)": "pdf", "HTML (*.html)": "html"}
 
@@ -100,6 +101,9 @@ class SheetExportController(Controller):
 
 
 def _write(made: MakeResult, path: Path, language: str, progress: Progress) -> _WrittenSheet:
+    from ....formats.sheet.write import sheet_bytes  # these import the engines: never while the window comes up
+    from ....usecases.sheet.made import made_sheet
+
     progress.step(0.0, "Writing the sheet")
     program = path.with_suffix(load_post(made.job.post).extension)
     sources = {"Drawing as .draw writes it": draw_text(made.job.part).text.encode()}

@@ -35,6 +35,7 @@ from .painting.grid import (
     paint_rulers,
 )
 from .painting.program_layer import PathDisplay, ProgramLayer, shown_purposes
+from .painting.purpose_layer import PurposeShape, paint_purposes
 from .painting.snap_marks import paint_snap
 from .painting.surroundings_layer import SurroundingsLayer
 from .painting.underlay_layer import UnderlayLayer
@@ -99,6 +100,8 @@ class Canvas(InteractiveViewport):
         self._findings: tuple[Finding, ...] = ()
         self._lit: int | Entity | Note | None = None
         self._lit_path, self.owned = QPainterPath(), QPainterPath()
+        self._purposes: tuple[PurposeShape, ...] = ()
+        self._purposes_shown = False
         self._fresh = True
         self.setMinimumSize(200, 150)
         self.setAccessibleName("Drawing")
@@ -144,6 +147,18 @@ class Canvas(InteractiveViewport):
         """Mark the curves of an operation, mm, in the drawing; an empty path marks none."""
         if not (path.isEmpty() and self.owned.isEmpty()):
             self.owned = path
+            self.update()
+
+    def set_purposes(self, shapes: tuple[PurposeShape, ...]) -> None:
+        """Colour what the curves of the drawing are to become."""
+        if shapes or self._purposes:
+            self._purposes = shapes
+            self.update()
+
+    def show_purposes(self, on: bool) -> None:
+        """Show these areas, or not."""
+        if on != self._purposes_shown:
+            self._purposes_shown = on
             self.update()
 
     def set_findings(self, findings: tuple[Finding, ...]) -> None:
@@ -267,6 +282,8 @@ class Canvas(InteractiveViewport):
         theme = self._look.theme
         painter.setClipRect(self.area)
         if self._mode is CanvasMode.DRAW:
+            if self._purposes_shown:
+                paint_purposes(painter, self.view, self._purposes, theme)
             overlay.paint_owned(painter, self.view, self.owned, theme)
         if isinstance(self._lit, Note):
             paint_note(painter, self.view, self._lit, NoteLook(theme.accent_text, 2.2), self.area)

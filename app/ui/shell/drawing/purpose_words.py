@@ -1,0 +1,254 @@
+"""A word at each area of the drawing that says what it is to become; a press changes it, or leaves it standing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QRectF, QSize, Qt
+from PySide6.QtGui import QPainterPath
+from PySide6.QtWidgets import QMenu, QToolButton
+
+from ....core.progress import Progress
+from ....drafting.document import DocumentChange
+from ....model.curves import Curve
+from ....model.job import Copies, Job
+from ...framework.figures import TIMES
+from ...framework.samples import sample_of
+from ...framework.worker import Worker
+from ...framework.workspace import Workspace
+from ...panels.changes import Subject, SubjectKind, operation_name
+from ...panels.side_panel import SidePanel
+from ...views.canvas.canvas import Canvas
+from ...views.canvas.modes import CanvasMode
+from ...views.canvas.painting.curve_path import chain_path, curve_path
+from ...views.canvas.painting.purpose_layer import PurposeShape
+from .owned_curves_controller import same_contours
+from .proposal_controller import ProposalController
+
+if TYPE_CHECKING:
+    from ....toolpath.drawn_contours import DrawnContours
+    from ....usecases.proposal.purpose_areas import PurposeArea
+
+INSTEAD = {
+    "pocket": "Pocket",
+    "outside": "Contour outside",
+    "inside": "Contour inside",
+    "on": "Contour on line",
+    "drill": "Drill",
+    "engrave": "Engrave",
+    "vcarve": "V-carve",
+}
+"""What an area may become instead, by the commands' names."""
+
+_MOST_CURVES = 5000
+"""A drawing of more is not looked through for words."""
+
+_MOST_WORDS = 24
+_GAP_PX, _INSIDE_PX, _TRIED = 4, 10, 4
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedArea:
+    """An area with what is seen of it: its shape, and its word at a box in mm: of many places, of the first."""
+
+    area: PurposeArea
+    shape: PurposeShape
+    word: str
+    box: QRectF
+
+
+@dataclass(frozen=True, eq=False)
+class FoundAreas:
+    """The areas of a job's drawing.
+
+    Attributes:
+        job: whose they are. drawn: its contours, which chaining takes time to find. areas: as they are listed.
+        refused: what each cannot become, by the commands' names.
+    """
+
+    job: Job
+    drawn: DrawnContours
+    areas: tuple[PlacedArea, ...]
+    refused: tuple[frozenset[str], ...]
+
+
+def found_areas(job: Job, known: FoundAreas | None, progress: Progress) -> FoundAreas:
+    """Return what the curves of a job's drawing are to become, and what they cannot.
+
+    Args:
+        job: its drawing and operations. known: what was found before, whose contours still hold.
+        progress: to be cancelled by.
+    """
+    from ....toolpath.drawn_contours import drawn_contours  # chains contours: never on the window's thread
+    from ....usecases.proposal.chosen_curves import refusals
+    from ....usecases.proposal.purpose_areas import purpose_areas
+
+    progress.step(0.0)
+    job = replace(job, copies=Copies())
+    drawn = known.drawn if known is not None else drawn_contours(job)
+    progress.step(0.5)
+    areas = purpose_areas(job, drawn)
+    refused = [frozenset(way.name.lower() for way in refusals(drawn, area.numbers)) for area in areas]
+    curves = {each.id: each.curve for each in job.part.entities}
+    return FoundAreas(job, drawn, tuple(_placed(job, curves, area) for area in areas), tuple(refused))
+
+
+def _placed(job: Job, curves: dict[int, Curve], area: PurposeArea) -> PlacedArea:
+    operation = job.operations[area.index]
+    filled = not operation.FOLLOWS_WALLS and all(each.closed for each in area.contours)
+    path = QPainterPath()
+    if filled:
+        for contour in area.contours:
+            chain_path(contour.primitives, path)
+    else:
+        path = curve_path(*(curves[number] for number in sorted(area.numbers) if number in curves))
+    name = operation_name(operation)
+    many = f"{area.places} {TIMES} {name}" if area.places > 1 else name
+    through = operation.cut.depth >= job.stock.thickness
+    first = area.contours[0].primitives if area.places > 1 else ()
+    box = (curve_path(*first) if first else path).boundingRect()
+    return PlacedArea(
+        area, PurposeShape(path, sample_of(operation), filled), f"{many} · through" if through else many, box
+    )
+
+
+class PurposeWords(QObject):
+    """Follows the job; shows areas and words over the drawing while no tool is in hand.
+
+    Attributes:
+        words: the buttons, by the areas' order. menu: the one opened last, or None.
+    """
+
+    def __init__(self, panel: SidePanel, canvas: Canvas, workspace: Workspace, proposals: ProposalController) -> None:
+        super().__init__(canvas)
+        self._panel, self._canvas, self._document, self._proposals = panel, canvas, workspace.document, proposals
+        self._found: FoundAreas | None = None
+        self._asked: Job | None = None
+        self.words: list[QToolButton] = []
+        self.menu: QMenu | None = None
+        self.worker = Worker(self)
+        workspace.activity.ended.connect(self.worker.finish)
+        self._document.subscribe(self._follow)
+        for signal in (canvas.prompt_changed, canvas.tool_changed, canvas.view_changed, canvas.mode_changed):
+            signal.connect(self.place)
+        canvas.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Stay as large as the words are: they are looked up in another language when they are painted."""
+        if event.type() == QEvent.Type.LayoutRequest and any(word.size() != word.sizeHint() for word in self.words):
+            self.place()
+        return super().eventFilter(watched, event)
+
+    def _follow(self, change: DocumentChange) -> None:
+        """Look for the areas of another job; those of the one before are gone at once where the drawing is another."""
+        job = self._document.job
+        if not change & (DocumentChange.PART | DocumentChange.JOB | DocumentChange.LOADED) or job == self._asked:
+            return
+        self._asked = job
+        own = any(each.cut.enabled and each.cut.curves for each in job.operations)
+        if not own or len(job.part.entities) > _MOST_CURVES:
+            self.worker.cancel()
+            self._show(None)
+            return
+        if self._found is not None and self._found.job.part is not job.part:
+            self._show(None)
+        known = self._found if self._found is not None and same_contours(self._found.job, job) else None
+        self.worker.start(lambda progress: found_areas(job, known, progress), self._document.revision, self._show)
+
+    def _show(self, found: FoundAreas | None) -> None:
+        self._found = found
+        for word in self.words:
+            word.hide()
+            word.deleteLater()
+        areas = found.areas if found is not None else ()
+        self._canvas.set_purposes(tuple(each.shape for each in areas))
+        self.words = [self._word(k, each) for k, each in enumerate(areas[:_MOST_WORDS])]
+        self.place()
+
+    def _word(self, at: int, placed: PlacedArea) -> QToolButton:
+        word = QToolButton(self._canvas)
+        word.setText(placed.word)
+        word.setProperty("role", "word")
+        word.setCursor(Qt.CursorShape.ArrowCursor)
+        word.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        word.setToolTip("What this becomes; press to change it, or to leave it standing")
+        word.clicked.connect(partial(self._open, at))
+        word.lower()
+        return word
+
+    def place(self, *_: object) -> None:
+        """Put each word at its area, where it covers no other one; be gone while a tool is in hand."""
+        canvas, taken = self._canvas, list[QRect]()
+        shown = self._found is not None and canvas.mode is CanvasMode.DRAW and not canvas.working
+        canvas.show_purposes(shown)
+        for word, placed in zip(self.words, self._found.areas if self._found is not None else (), strict=False):
+            word.adjustSize()
+            place = self._beside(placed, word.size(), taken) if shown else None
+            seen = place is not None and canvas.area.toRect().contains(place)
+            word.setVisible(seen)
+            if place is not None and seen:
+                taken.append(place)
+                word.move(place.topLeft())
+
+    def _beside(self, placed: PlacedArea, size: QSize, taken: list[QRect]) -> QRect | None:
+        """Return where a word of a size stands, px: lower where another one is; None where there is no place."""
+        box, view = placed.box, self._canvas.view
+        corners = view.to_screen((box.left(), box.bottom())), view.to_screen((box.right(), box.top()))
+        place = place_at(QRectF(*corners).toRect(), size, placed.shape.filled)
+        for _ in range(_TRIED):
+            if not any(place.intersects(each) for each in taken):
+                return place
+            place.translate(0, size.height() + _GAP_PX)
+        return None
+
+    def _open(self, at: int) -> None:
+        """Choose the operation, and offer what else its area may be."""
+        if self._found is None or self._asked != self._document.job:
+            return
+        placed = self._found.areas[at]
+        self._panel.choose(Subject(SubjectKind.OPERATION, placed.area.index))
+        if self.menu is not None:
+            self.menu.deleteLater()
+        self.menu = self._menu_of(placed, self._found.refused[at])
+        word = self.words[at]
+        self.menu.popup(word.mapToGlobal(QPoint(0, word.height())))
+
+    def _menu_of(self, placed: PlacedArea, refused: frozenset[str]) -> QMenu:
+        menu = QMenu(self._canvas)
+        leave = menu.addAction("Leave this standing")
+        leave.triggered.connect(lambda *_: self._leave(placed.area))
+        menu.addSeparator()
+        now = operation_name(self._document.job.operations[placed.area.index])
+        for way, name in INSTEAD.items():
+            if name != now:
+                action = menu.addAction(name)
+                action.setEnabled(way not in refused)
+                action.triggered.connect(partial(self._change, placed.area, way))
+        return menu
+
+    def _leave(self, area: PurposeArea) -> None:
+        """Take an area from its operation."""
+        self._panel.subject = Subject(SubjectKind.OPERATION, 0)
+        self._document.change_job("Leave this standing", self._without(area))
+
+    def _change(self, area: PurposeArea, way: str, *_: object) -> None:
+        """Have an area become something else."""
+        self._proposals.machine_instead(self._without(area), area.numbers, way)
+
+    def _without(self, area: PurposeArea) -> Job:
+        from ....usecases.proposal.purpose_areas import left_standing
+
+        assert self._found is not None
+        return left_standing(self._document.job, self._found.drawn, area)
+
+
+def place_at(area: QRect, size: QSize, filled: bool) -> QRect:
+    """Return where a word of a size stands, px: in the middle of an area that has room for it, or, where a line is
+    followed, above its lower end; else below it.
+    """
+    room = area.width() > size.width() + 2 * _GAP_PX and area.height() > 3 * size.height()
+    below, middle = area.bottom() + _GAP_PX, area.center().y() - size.height() // 2
+    inside = middle if filled else area.bottom() - size.height() - _INSIDE_PX
+    return QRect(QPoint(area.center().x() - size.width() // 2, inside if room else below), size)
