@@ -18,7 +18,7 @@ from types import FunctionType, MethodType
 
 import numpy as np
 import shiboken6
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, SignalInstance
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -36,7 +36,7 @@ from app.core.toml_tables import Keyword
 from app.ui.shell.window_controller import WindowController
 
 _SIMPLE = (bool, int, float, str, bytes, Path, enum.Enum, type(None))
-_CODE = {FunctionType, MethodType, type}
+_CODE = {FunctionType, MethodType, type, SignalInstance}
 _MISSING = object()
 _UNTOLD = {
     "next_id",
@@ -113,10 +113,17 @@ def _walk(wiring: WindowController, before: Mapping[str, object] | None = None) 
             if _is_seen(type(value)) and shiboken6.isValid(value):
                 yield from _seen_of(way, value)
             for step, part in _parts(value):
-                if _sort_of(type(part)) is _Sort.SIMPLE:  # most are, and need not wait
+                kind = type(part)
+                if _sort_of(kind) is _Sort.SIMPLE:  # most are, and need not wait
                     yield way + step, part
-                else:
+                elif not _is_untold(kind) and id(part) not in seen:
                     waiting.append((way + step, part))
+
+
+@cache
+def _is_untold(kind: type) -> bool:
+    """Tell whether there is nothing to say of a value, as of Qt's timers and layouts."""
+    return _sort_of(kind) is _Sort.OTHER and not _is_seen(kind)
 
 
 @cache

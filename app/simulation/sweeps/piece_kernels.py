@@ -74,7 +74,8 @@ def split(begins, finishes, arc_of, arcs, counts, whole, places, levels, first, 
                 arc[at] = levels[row] + part
                 _level_arc(arcs, k, step, whole[row], start[at], end[at], table[arc[at]])
                 continue
-            start[at], end[at] = begins[row], finishes[row]
+            for axis in range(3):  # one by one: copying slices takes seconds to compile
+                start[at, axis], end[at, axis] = begins[row, axis], finishes[row, axis]
             if k >= 0 and step > 0:
                 _place(arcs, k, step / whole[row], start[at])
             if k >= 0 and step + 1 < whole[row]:
