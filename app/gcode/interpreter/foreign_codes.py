@@ -21,8 +21,8 @@ REMEDY = "write out the moves that it makes: the reader stops here."
 _MODES = {"G5", "G5.1"}
 """High-speed machining (G5 P10000, G5.1 Q1): how exactly the control follows the path, not which."""
 
-ENDS_NOTHING = frozenset({"G50.1", "G67"})
-"""Ends of mirroring and of calls, which are never in force in a program that can be read."""
+ENDS_NOTHING = frozenset({"G67"})
+"""Ends of calls, which are never in force in a program that can be read."""
 
 _PASSED = {
     "G8": "look-ahead",
@@ -39,6 +39,9 @@ _ALARM = 3000
 _RIGID = "M29"
 """The spindle of the next tapping cycle follows the axis: how it turns, not where the tool goes."""
 
+_CALL_FROM_FILES = "M198"
+"""Fanuc's M98 of a program that lies on a card or a server."""
+
 _CYCLES = {
     "G12": "a circular pocket",
     "G13": "a circular pocket",
@@ -49,7 +52,6 @@ _CYCLES = {
     "G31": "a move until a probe touches",
     "G36": "a tool that is measured",
     "G37": "a tool that is measured",
-    "G51.1": "mirroring",
     "G66": "a program that is called behind each move",
     "G76": "a bore that the tool leaves beside its wall",
     "G77": "a bore from behind",
@@ -151,10 +153,10 @@ def adapt(control: Control, block: Block) -> None:
             block.unknown.remove(code)
             block.codes[ModalGroup.OFFSET] = "G54.1"
             block.values.setdefault("p", float(code[1:]) - 109)
-        elif code in ENDS_NOTHING:
+        elif code == _CALL_FROM_FILES and control.options.dialect is Dialect.FANUC:
             block.unknown.remove(code)
-            _drop(block, "xyz" if code == "G50.1" else "")
-        elif code == _RIGID:
+            block.codes[ModalGroup.CALL] = "M98"
+        elif code in ENDS_NOTHING or code == _RIGID:
             block.unknown.remove(code)
         elif code in _PASSED:
             block.unknown.remove(code)

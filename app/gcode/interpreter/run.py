@@ -36,6 +36,7 @@ from .places import Cursor, JumpTargets
 from .polar import check_polar, turn_polar_into_axes
 from .program import BlockFault, EventKind, NcProgram, ProgramProblem, Severity
 from .saved_state import obey_state, restore
+from .scaled_program import spell_scaled, turn_sides_over
 from .settings import before_motion, set_once
 from .text import ProgramBuffer, code_of, column_of
 from .turned_program import check_turned, spell_polar
@@ -379,11 +380,13 @@ class InterpreterRun:
             call_macro(self._flow, control, block)
             return True
         before, side = control.modal, control.side
+        turn_sides_over(control, block)
         before_motion(control, block)
         if ModalGroup.STATE in block.codes:
             obey_state(control, block, before, side)
         if self._rules.fanuc_flow:
             check_turned(control, block)
+            spell_scaled(control, block)
             spell_polar(control, block)
         set_once(control, block)
         turn_polar_into_axes(control, block)

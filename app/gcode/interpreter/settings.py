@@ -18,6 +18,7 @@ from .foreign_codes import REMEDY
 from .offsets import ZERO, Place, added, offset_name, replaced, taken
 from .options import ToolOffset
 from .program import BlockFault, EventKind, FeedMode
+from .scaled_program import mirror, scale
 from .turned_program import choose_polar, turn_program
 
 PLANES = {"G17": Plane.XY, "G18": Plane.ZX, "G19": Plane.YZ}
@@ -261,7 +262,7 @@ def _return_level(control: Control, block: Block) -> None:
 
 def _refused(control: Control, block: Block) -> None:
     """Refuse what would move the tool in a way that the reader does not follow."""
-    refused = {"G7": "the diameter mode of lathes", "G51": "scaling"}
+    refused = {"G7": "the diameter mode of lathes"}
     for code in block.codes.values():
         if code in refused:
             raise BlockFault(f"{refused[code]} ({code}) is not followed; {REMEDY}", letter="g")
@@ -284,7 +285,8 @@ _STEPS: tuple[tuple[ModalGroup, Callable[[Control, Block], None]], ...] = (
     (ModalGroup.ONCE, _refused),
     (ModalGroup.LATHE, _refused),
     (ModalGroup.POLAR, choose_polar),
-    (ModalGroup.SCALING, _refused),
+    (ModalGroup.MIRRORING, mirror),
+    (ModalGroup.SCALING, scale),
     (ModalGroup.TURNING, turn_program),
 )
 """What each group does, in the order in which a control does it."""
