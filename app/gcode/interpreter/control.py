@@ -120,6 +120,7 @@ class Control:
             the program takes it to be, after G40. side: the G word of compensation, also where the radius is 0.
         saved: what M70 and M73 have kept, of the program and of each subroutine that is running.
         newly_turned: G68 or G69 was obeyed, and no motion along X or Y since. polar: G16.
+        cutter_register: the last D word, where that stays; None = there was none, or it does not.
         scale: G51 and G51.1. astray: axes that are not where that takes them to be, until the program says where to.
         returning: what comes back now that a subroutine has ended, None = nothing.
         registers_hold_wear: whether a D word whose register nobody tells means 0. register_diameters: what the program
@@ -152,6 +153,7 @@ class Control:
         self.saved: list[SavedState | None] = [None]
         self.returning: SavedState | None = None
         self.newly_turned = self.polar = False
+        self.cutter_register: float | None = None
         self.scale, self.astray = ProgramScale(), set[int]()
         self.registers_hold_wear = False
         self.register_diameters: dict[int, float] = {}

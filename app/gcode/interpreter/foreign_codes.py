@@ -81,6 +81,9 @@ _BLOCK_BEHIND = re.compile(
 )
 """A block, and behind the sign that ends it on Fanuc and Haas another one in the same line."""
 
+_PROGRAM_FIRST = re.compile(rb"(?:\s|\([^)\n]*\)|;[^\n]*\n)*[:o][ \t]*[0-9]", re.IGNORECASE)
+"""Blanks and comments, and behind them the number of a program."""
+
 _UNITS = re.compile(rb"g[ \t]*[27][01](?![0-9.])", re.IGNORECASE)
 """G70 and G71 too: what they are on other controls than Mach3 is refused there."""
 
@@ -88,6 +91,12 @@ _UNITS = re.compile(rb"g[ \t]*[27][01](?![0-9.])", re.IGNORECASE)
 def is_leader(text: bytes) -> bool:
     """Tell whether nothing in a text looks like a block, so that it is the leader before a program's per cent sign."""
     return _BLOCK_TEXT.search(text) is None
+
+
+def warn_behind_percent(control: Control, rest: bytes) -> None:
+    """Tell that blocks behind a per cent sign are not read; programs of their own are told, or called, elsewhere."""
+    if not is_leader(rest) and not (control.rules.fanuc_flow and _PROGRAM_FIRST.match(rest)):
+        control.warn("the per cent sign ends the program here; the blocks behind it are not read.", "%")
 
 
 def names_units(data: bytes) -> bool:
@@ -143,6 +152,8 @@ def adapt(control: Control, block: Block) -> None:
         code = block.codes.pop(ModalGroup.MOTION)
         _drop(block, "pqr")
         control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
+    if control.rules.macro_b:
+        _keep_cutter(control, block)
     for code in list(block.unknown):
         if control.options.dialect is Dialect.MACH3 and code in UNITS_OF_MACH3:
             block.unknown.remove(code)
@@ -162,6 +173,16 @@ def adapt(control: Control, block: Block) -> None:
             block.unknown.remove(code)
             _drop(block, "pq")
             control.warn(f"{code} ({_PASSED[code]}) is passed over.", "g")
+
+
+def _keep_cutter(control: Control, block: Block) -> None:
+    """Keep the number of a D word, which counts until another one: for each G41 and G42 behind it that has none."""
+    if block.codes.get(ModalGroup.ONCE) == "G65" or "G96" in block.codes.values():
+        return
+    if "d" in block.values:
+        control.cutter_register = block.values["d"]
+        if ModalGroup.RADIUS not in block.codes and not block.unknown:
+            _drop(block, "d")
 
 
 def _set_units(block: Block, code: str) -> None:

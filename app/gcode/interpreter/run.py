@@ -23,6 +23,7 @@ from .foreign_codes import (
     is_macro,
     obey_macro,
     stop_at_alarm,
+    warn_behind_percent,
     warn_of_numbers,
     warn_of_uncalled,
 )
@@ -271,6 +272,7 @@ class InterpreterRun:
         if not line or line.startswith("%"):
             if line:
                 self._check_percent(at)
+                warn_behind_percent(self._control, self._text.data[self._text.line_end(at.offset) :])
             return not line
         behind = self._flow.next.offset
         rest = self._jump(line)

@@ -135,7 +135,8 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
         if value is None:
             raise BlockFault(f"{code} needs a word D with the diameter.", letter="g")
         return value
-    number = whole(block.values.get("d", float(control.modal.tool)), "the D number")
+    kept = float(control.modal.tool) if control.cutter_register is None else control.cutter_register
+    number = whole(block.values.get("d", kept), "the D number")
     if number == 0:
         return 0.0
     row = control.tool_table.get(number)
@@ -198,6 +199,8 @@ def _length_number(control: Control, block: Block, code: str) -> int:
     """Return the H number that a G43 means."""
     value = block.get("h")
     if value is None:
+        if control.rules.macro_b and control.modal.length_offset:
+            return control.modal.length_offset  # H stays until another one
         if not control.rules.length_from_tool:
             raise BlockFault(f"{code} needs a word H on a {control.rules.title} control.", letter="g")
         return control.modal.tool
