@@ -25,13 +25,13 @@ def obj_triangles(data: bytes) -> Floats:
     Raises:
         ValueError: a number is none. IndexError: a corner is none of the places before it.
     """
-    text = _CONTINUED.sub(b" ", data).replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    text = _APPEARANCE.sub(b"", _CONTINUED.sub(b" ", data).replace(b"\r", b"\n"))
     places = list(_PLACE.finditer(text))
     points = np.array([[float(word) for word in each.groups()] for each in places]).reshape(-1, 3)
     begun = np.array([each.start() for each in places], np.int64)
     by_length: dict[int, tuple[list[list[bytes]], list[int]]] = {}
     for each in _FACE.finditer(text):
-        words = _APPEARANCE.sub(b"", each[1]).split()
+        words = each[1].split()
         corners, offsets = by_length.setdefault(len(words), ([], []))
         corners.append(words)
         offsets.append(each.start())
