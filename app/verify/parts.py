@@ -165,6 +165,30 @@ def beyond(part: Part, stock: StockBox) -> Iterator[Finding]:
         yield Finding(FindingKind.BEYOND_STOCK, text, amount=far)
 
 
+SMALL = 0.15
+"""Of what a program cuts, along X and along Y: a part that is smaller was hardly meant."""
+
+
+def doubtful_size(part: Part, cut: StockBox | None) -> Iterator[Finding]:
+    """Yield that a solid is far smaller than what is cut, as one in inches that is read in mm; nothing is judged there.
+
+    Args:
+        cut: the box round all feed motions, program coordinates; None where there are none.
+    """
+    if cut is None or not isinstance(part, SolidPart) or part.block is not None:
+        return
+    box = part_box(part)
+    assert box is not None
+    wide, long = box.x1 - box.x0, box.y1 - box.y0
+    if wide < SMALL * (cut.x1 - cut.x0) and long < SMALL * (cut.y1 - cut.y0):
+        text = (
+            f"The part is {wide:.3f} x {long:.3f} mm, and the program cuts {cut.x1 - cut.x0:.3f} x "
+            f"{cut.y1 - cut.y0:.3f} mm: nearly all of that lies beside the part and is not judged; check the part's "
+            "units, and whether it is the one that the program is for."
+        )
+        yield Finding(FindingKind.SIZE, text)
+
+
 # The heights that a drawing milled to depths asks for.
 
 

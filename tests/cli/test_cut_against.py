@@ -316,3 +316,18 @@ def test_what_a_program_tells_of_another_kind_of_drawing_is_passed_over(tmp_path
         main(["cut", str(program), "--against", str(plate(tmp_path / "new.dxf", 100, 50)), "--quiet", "--grid", "128"])
         == 0
     )
+
+
+@pytest.mark.parametrize(("size", "told"), [(25.4, True), (1.0, False)])
+def test_a_solid_that_is_far_smaller_than_what_is_cut_is_told(tmp_path: Path, size: float, told: bool) -> None:
+    """One in inches: a frame of 34 x 24 mm was cut beside it, and the verdict was clean."""
+    part = solid(tmp_path / "part.stl", [[0, 0, -10 / size], [40 / size, 30 / size, -2 / size]])
+    program = tmp_path / "frame.ngc"
+    program.write_text(FRAME.format(rings=""))
+    report = tmp_path / "r.json"
+    given = (program, "--tool", "1=flat:6", "--stock=0,0,-10,40,30,0", "--against", part, "--report", report)
+    status = cut(*given, "--grid", "200", "--quiet")
+    found = [each for each in json.loads(report.read_text())["findings"] if each["kind"] == "size"]
+    assert bool(found) == told
+    if told:
+        assert status == 1 and "1.575 x 1.181 mm, and the program cuts 34.000 x 24.000 mm" in found[0]["text"]

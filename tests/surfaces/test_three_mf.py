@@ -74,3 +74,58 @@ def test_what_is_damaged_is_refused_in_words(data, words):
     with pytest.raises(InputError, match=words) as caught:
         read_mesh("part.3mf", data)
     assert str(caught.value).startswith("part.3mf: ")
+
+
+def several(models: dict[str, str], main: str = "") -> bytes:
+    """Return a file of several models; without `main` nothing tells which one is built."""
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
+        if main:
+            kind = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
+            archive.writestr(
+                "_rels/.rels", f'<Relationships><Relationship Type="{kind}" Target="/{main}"/></Relationships>'
+            )
+        for path, model in models.items():
+            archive.writestr(path, model)
+    return data.getvalue()
+
+
+def model(objects: str, items: str = "", unit: str = "millimeter") -> str:
+    production = 'xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06"'
+    return f'<model unit="{unit}" {SPACE} {production}><resources>{objects}</resources><build>{items}</build></model>'
+
+
+OTHER = '<component p:path="/3D/Objects/object_1.model" objectid="1" transform="1 0 0 0 1 0 0 0 1 {} 0 0"/>'
+
+
+@pytest.mark.parametrize("main", ["", "3D/plate.model"])
+def test_parts_may_lie_in_models_of_their_own(main):
+    """As slicers of today write each part; the same number is another object in another model."""
+    components = f'<object id="1"><components>{OTHER.format(10)}{OTHER.format(20)}</components></object>'
+    first = model(components, '<item objectid="1"/>')
+    inner = model(
+        f'<object id="1"><components><component objectid="7"/></components></object><object id="7">{MESH}</object>'
+    )
+    data = several({main or "3D/3dmodel.model": first, "3D/Objects/object_1.model": inner}, main)
+    triangles = read_mesh("a.3mf", data)
+    assert volume(triangles) == pytest.approx(8.0) and triangles[..., 0].max() == 22.0
+
+
+def test_an_item_may_build_another_model_and_a_main_model_is_told_by_its_relation():
+    built = model("", '<item p:path="/3D/b.model" objectid="1"/>')
+    data = several({"3D/3dmodel.model": model(ONE), "3D/a.model": built, "3D/b.model": model(ONE)}, "3D/a.model")
+    assert volume(read_mesh("a.3mf", data)) == pytest.approx(4.0)
+
+
+def test_what_holds_a_part_while_it_is_printed_is_none_of_it():
+    items = '<item objectid="1"/><item objectid="2"/>'
+    for kind in ("support", "solidsupport", "other"):
+        assert len(read_mesh("a.3mf", packed(f'{ONE}<object id="2" type="{kind}">{MESH}</object>', items))) == 4
+    assert len(read_mesh("a.3mf", packed(f'{ONE}<object id="2" type="surface">{MESH}</object>', items))) == 8
+
+
+def test_models_of_several_units_are_refused():
+    first = model(f'<object id="2"><components>{OTHER.format(0)}</components></object>', '<item objectid="2"/>')
+    data = several({"3D/3dmodel.model": first, "3D/Objects/object_1.model": model(ONE, unit="inch")})
+    with pytest.raises(InputError, match="different units"):
+        read_mesh("a.3mf", data)

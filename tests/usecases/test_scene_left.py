@@ -268,16 +268,17 @@ def valley(bottom: float) -> np.ndarray:
     return meshed(height, np.array([-8.0, 28.0]), np.array([-8.0, bottom, 28.0]))
 
 
+@pytest.mark.parametrize("leave", [0.0, 0.5])
 @pytest.mark.parametrize(("degrees", "missed"), [(3, 0.084), (90, 0.0)])
 def test_what_passes_nearly_along_a_valley_miss_of_its_bottom_is_left(
-    tmp_path: Path, degrees: int, missed: float
+    tmp_path: Path, degrees: int, missed: float, leave: float
 ) -> None:
     """Ridges of 0.002 mm are asked for: on sides of 60 degrees passes lie 0.1095 mm apart.
 
     The ball touches both sides at one place across, its centre 2 R over the bottom. A pass d beside it stands
     d tan 60 higher, and leaves that much of the bottom. Passes at 3 degrees cross the bottom every 2.1 mm: between two
     crossings they are d = 0.0547 mm off, where the ball on its way down the valley takes a little of the 0.095 mm.
-    Passes across miss nothing.
+    Passes across miss nothing. Stock to leave lifts all of it by twice as much, and changes nothing else.
     """
     _, report = told(
         tmp_path,
@@ -285,7 +286,7 @@ def test_what_passes_nearly_along_a_valley_miss_of_its_bottom_is_left(
         apart="scallop",
         pitch=0.002,
         stock="box = [0, 0, -22, 20, 20, -2]",
-        passes=f"angle_deg = {degrees}",
+        passes=f"angle_deg = {degrees}\nstock_to_leave = {leave}",
     )
     found = report["left"]
     assert bool(left(report)) == bool(missed)

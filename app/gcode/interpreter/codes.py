@@ -29,6 +29,7 @@ class ModalGroup(StrEnum):
     LATHE = "lathe mode"
     POLAR = "polar coordinates"
     SCALING = "scaling"
+    MIRRORING = "mirroring"
     TURNING = "rotation"
     SMOOTHING = "smoothing"
     STOP = "stopping"
@@ -65,6 +66,7 @@ _G: dict[ModalGroup, tuple[str, ...]] = {
     ModalGroup.LATHE: _codes("G7 G8"),
     ModalGroup.POLAR: _codes("G15 G16"),
     ModalGroup.SCALING: _codes("G50 G51"),
+    ModalGroup.MIRRORING: _codes("G50.1 G51.1"),
     ModalGroup.TURNING: _codes("G68 G69"),
     ModalGroup.SMOOTHING: _codes("G187"),
 }

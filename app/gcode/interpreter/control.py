@@ -18,6 +18,7 @@ from .expression import Key, Parameters
 from .offsets import OFFSETS, Place, SetParameters, WorkOffsets, counts_from
 from .options import ReadOptions, ToolOffset
 from .program import BlockFault, Event, EventKind, FeedMode, ModalState, Motion, MotionColumns
+from .program_scale import ProgramScale
 from .splines import OpenFanucNurbs, OpenNurbs
 
 MOST_EVENTS = 1_000_000
@@ -119,6 +120,8 @@ class Control:
             the program takes it to be, after G40. side: the G word of compensation, also where the radius is 0.
         saved: what M70 and M73 have kept, of the program and of each subroutine that is running.
         newly_turned: G68 or G69 was obeyed, and no motion along X or Y since. polar: G16.
+        cutter_register: the last D word, where that stays; None = there was none, or it does not.
+        scale: G51 and G51.1. astray: axes that are not where that takes them to be, until the program says where to.
         returning: what comes back now that a subroutine has ended, None = nothing.
         registers_hold_wear: whether a D word whose register nobody tells means 0. register_diameters: what the program
             itself says of them, mm, by number.
@@ -150,6 +153,8 @@ class Control:
         self.saved: list[SavedState | None] = [None]
         self.returning: SavedState | None = None
         self.newly_turned = self.polar = False
+        self.cutter_register: float | None = None
+        self.scale, self.astray = ProgramScale(), set[int]()
         self.registers_hold_wear = False
         self.register_diameters: dict[int, float] = {}
         self.last_offset = (0.0, 0.0)
@@ -180,6 +185,12 @@ class Control:
         return Units.INCH.value if code == "G20" else Units.MM.value
 
     @property
+    def ccw(self) -> bool:
+        """Whether the arc in force turns counter-clockwise in its plane, mirrored or not."""
+        u, v, _ = self.modal.plane.axes
+        return (self.motion == "G3") != self.scale.turns_over(u, v)
+
+    @property
     def least(self) -> float:
         """Length units that a length without a decimal point counts in."""
         return self.rules.least_inch if self.modal.units is Units.INCH else self.rules.least_mm
@@ -202,6 +213,10 @@ class Control:
     def offsets_changed(self) -> None:
         """Take the offsets into what is in force."""
         self.change(work_offset=self.offsets.name, shift=self.offsets.shift, rotation=self.offsets.rotation)
+
+    def spelling_changed(self) -> None:
+        """Take into what is in force whether axis words are coordinates."""
+        self.change(respelled=self.polar or not self.scale.plain)
 
     def state(self) -> int:
         """Return the index of what is in force."""

@@ -65,7 +65,7 @@ class FastLane:
         control = self._control
         if control.curve is not None or control.compensation is not None or control.stray is not None:
             return False
-        if control.polar or control.newly_turned:
+        if control.polar or control.newly_turned or control.astray or not control.scale.plain:
             return False
         modal = control.modal
         return (

@@ -21,8 +21,8 @@ REMEDY = "write out the moves that it makes: the reader stops here."
 _MODES = {"G5", "G5.1"}
 """High-speed machining (G5 P10000, G5.1 Q1): how exactly the control follows the path, not which."""
 
-ENDS_NOTHING = frozenset({"G50.1", "G67"})
-"""Ends of mirroring and of calls, which are never in force in a program that can be read."""
+ENDS_NOTHING = frozenset({"G67"})
+"""Ends of calls, which are never in force in a program that can be read."""
 
 _PASSED = {
     "G8": "look-ahead",
@@ -39,6 +39,9 @@ _ALARM = 3000
 _RIGID = "M29"
 """The spindle of the next tapping cycle follows the axis: how it turns, not where the tool goes."""
 
+_CALL_FROM_FILES = "M198"
+"""Fanuc's M98 of a program that lies on a card or a server."""
+
 _CYCLES = {
     "G12": "a circular pocket",
     "G13": "a circular pocket",
@@ -49,7 +52,6 @@ _CYCLES = {
     "G31": "a move until a probe touches",
     "G36": "a tool that is measured",
     "G37": "a tool that is measured",
-    "G51.1": "mirroring",
     "G66": "a program that is called behind each move",
     "G76": "a bore that the tool leaves beside its wall",
     "G77": "a bore from behind",
@@ -79,6 +81,9 @@ _BLOCK_BEHIND = re.compile(
 )
 """A block, and behind the sign that ends it on Fanuc and Haas another one in the same line."""
 
+_PROGRAM_FIRST = re.compile(rb"(?:\s|\([^)\n]*\)|;[^\n]*\n)*[:o][ \t]*[0-9]", re.IGNORECASE)
+"""Blanks and comments, and behind them the number of a program."""
+
 _UNITS = re.compile(rb"g[ \t]*[27][01](?![0-9.])", re.IGNORECASE)
 """G70 and G71 too: what they are on other controls than Mach3 is refused there."""
 
@@ -86,6 +91,12 @@ _UNITS = re.compile(rb"g[ \t]*[27][01](?![0-9.])", re.IGNORECASE)
 def is_leader(text: bytes) -> bool:
     """Tell whether nothing in a text looks like a block, so that it is the leader before a program's per cent sign."""
     return _BLOCK_TEXT.search(text) is None
+
+
+def warn_behind_percent(control: Control, rest: bytes) -> None:
+    """Tell that blocks behind a per cent sign are not read; programs of their own are told, or called, elsewhere."""
+    if not is_leader(rest) and not (control.rules.fanuc_flow and _PROGRAM_FIRST.match(rest)):
+        control.warn("the per cent sign ends the program here; the blocks behind it are not read.", "%")
 
 
 def names_units(data: bytes) -> bool:
@@ -141,6 +152,8 @@ def adapt(control: Control, block: Block) -> None:
         code = block.codes.pop(ModalGroup.MOTION)
         _drop(block, "pqr")
         control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
+    if control.rules.macro_b:
+        _keep_cutter(control, block)
     for code in list(block.unknown):
         if control.options.dialect is Dialect.MACH3 and code in UNITS_OF_MACH3:
             block.unknown.remove(code)
@@ -151,15 +164,25 @@ def adapt(control: Control, block: Block) -> None:
             block.unknown.remove(code)
             block.codes[ModalGroup.OFFSET] = "G54.1"
             block.values.setdefault("p", float(code[1:]) - 109)
-        elif code in ENDS_NOTHING:
+        elif code == _CALL_FROM_FILES and control.options.dialect is Dialect.FANUC:
             block.unknown.remove(code)
-            _drop(block, "xyz" if code == "G50.1" else "")
-        elif code == _RIGID:
+            block.codes[ModalGroup.CALL] = "M98"
+        elif code in ENDS_NOTHING or code == _RIGID:
             block.unknown.remove(code)
         elif code in _PASSED:
             block.unknown.remove(code)
             _drop(block, "pq")
             control.warn(f"{code} ({_PASSED[code]}) is passed over.", "g")
+
+
+def _keep_cutter(control: Control, block: Block) -> None:
+    """Keep the number of a D word, which counts until another one: for each G41 and G42 behind it that has none."""
+    if block.codes.get(ModalGroup.ONCE) == "G65" or "G96" in block.codes.values():
+        return
+    if "d" in block.values:
+        control.cutter_register = block.values["d"]
+        if ModalGroup.RADIUS not in block.codes and not block.unknown:
+            _drop(block, "d")
 
 
 def _set_units(block: Block, code: str) -> None:

@@ -47,7 +47,7 @@ _LANGUAGES = (
     _Language(
         "a Siemens Sinumerik program",
         _telling(
-            r"^\s*%_N_|\bG(?:710|700|641|642)\b|\bCYCLE\d+\s*\(|\bPOCKET\d\s*\(|\bWORKPIECE\s*\(|\bCR\s*=|[XYZ]\s*=\s*(?:AC|IC)\s*\("
+            r"^\s*%_N_|\bG(?:710|700|641|642)\b|\bCYCLE\d+\s*\(|\bPOCKET\d\s*\(|\bWORKPIECE\s*\(|\bCR\s*=|[A-Z]\d?\s*=\s*(?:AC|IC)\s*\(|\bT\d*\s*=\s*\""
             r"|^\s*R\d+\s*=|^\s*(?:N\d+\s*)?(?:A?TRANS|A?ROT|MSG|SUPA)\b"
         ),
     ),

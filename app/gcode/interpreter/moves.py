@@ -299,10 +299,10 @@ def _arc(control: Control, block: Block) -> None:
         raise BlockFault(f"the arc has P{turns} turns; use 1 to {MOST_TURNS}.", letter="p")
     _check_radii(control, end, centre)
     start = control.at
-    sweep = _sweep((start[u] - centre[u], start[v] - centre[v]), (end[u] - centre[u], end[v] - centre[v]), code == "G3")
+    sweep = _sweep((start[u] - centre[u], start[v] - centre[v]), (end[u] - centre[u], end[v] - centre[v]), control.ccw)
     along = (sweep + math.tau * (turns - 1)) * math.hypot(start[u] - centre[u], start[v] - centre[v])
     feed = control.feed_along(math.hypot(along, end[w] - start[w]))
-    control.move(MotionKind.ARC_CCW if code == "G3" else MotionKind.ARC_CW, end, feed, ArcShape(centre, turns))
+    control.move(MotionKind.ARC_CCW if control.ccw else MotionKind.ARC_CW, end, feed, ArcShape(centre, turns))
 
 
 def _sweep(first: tuple[float, float], last: tuple[float, float], ccw: bool) -> float:
@@ -330,7 +330,7 @@ def _centre_by_r(control: Control, block: Block, end: Place) -> Place:
     start, radius = control.at, control.length(block, "r") or 0.0
     if (start[u], start[v]) == (end[u], end[v]):
         raise BlockFault("an arc with a radius R cannot end where it starts; write its centre.", letter="r")
-    turn = 1.0 if control.motion == "G3" else -1.0
+    turn = 1.0 if control.ccw else -1.0
     a, b = centre_by_radius(start[u], start[v], end[u], end[v], radius, turn, RADIUS_SLACK_MM)
     if math.isnan(a):
         half = math.hypot(end[u] - start[u], end[v] - start[v]) / 2

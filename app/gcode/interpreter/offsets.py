@@ -104,6 +104,12 @@ class WorkOffsets:
         self.name = before
 
 
+def place_of(values: list[float]) -> Place:
+    """Return three coordinates as a place."""
+    x, y, z = values
+    return (x, y, z)
+
+
 def added(a: Place, b: Place) -> Place:
     """Return the sum."""
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])

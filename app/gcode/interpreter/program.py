@@ -41,6 +41,7 @@ class ModalState:
         flood, mist: coolant.
         work_offset: "G54" ... "G59.3", or "G54.1 P12".
         shift: what is added to program coordinates, mm: work offset, G52, G92. rotation: of G10 L2 R, radians.
+        respelled: words of axes are no coordinates: G16, G51, G51.1.
         path: "G61", "G61.1", "G64", with P and Q as the program says.
         path_tolerance: P of G64, mm; None where none is given, 0 for G61.
         retract_to_r: G99 rather than G98.
@@ -61,6 +62,7 @@ class ModalState:
     work_offset: str = "G54"
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rotation: float = 0.0
+    respelled: bool = False
     path: str = "G64"
     path_tolerance: float | None = None
     retract_to_r: bool = False

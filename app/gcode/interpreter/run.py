@@ -23,6 +23,7 @@ from .foreign_codes import (
     is_macro,
     obey_macro,
     stop_at_alarm,
+    warn_behind_percent,
     warn_of_numbers,
     warn_of_uncalled,
 )
@@ -36,6 +37,7 @@ from .places import Cursor, JumpTargets
 from .polar import check_polar, turn_polar_into_axes
 from .program import BlockFault, EventKind, NcProgram, ProgramProblem, Severity
 from .saved_state import obey_state, restore
+from .scaled_program import spell_scaled, turn_sides_over
 from .settings import before_motion, set_once
 from .text import ProgramBuffer, code_of, column_of
 from .turned_program import check_turned, spell_polar
@@ -270,6 +272,7 @@ class InterpreterRun:
         if not line or line.startswith("%"):
             if line:
                 self._check_percent(at)
+                warn_behind_percent(self._control, self._text.data[self._text.line_end(at.offset) :])
             return not line
         behind = self._flow.next.offset
         rest = self._jump(line)
@@ -379,11 +382,13 @@ class InterpreterRun:
             call_macro(self._flow, control, block)
             return True
         before, side = control.modal, control.side
+        turn_sides_over(control, block)
         before_motion(control, block)
         if ModalGroup.STATE in block.codes:
             obey_state(control, block, before, side)
         if self._rules.fanuc_flow:
             check_turned(control, block)
+            spell_scaled(control, block)
             spell_polar(control, block)
         set_once(control, block)
         turn_polar_into_axes(control, block)

@@ -18,6 +18,7 @@ from .foreign_codes import REMEDY
 from .offsets import ZERO, Place, added, offset_name, replaced, taken
 from .options import ToolOffset
 from .program import BlockFault, EventKind, FeedMode
+from .scaled_program import mirror, scale
 from .turned_program import choose_polar, turn_program
 
 PLANES = {"G17": Plane.XY, "G18": Plane.ZX, "G19": Plane.YZ}
@@ -134,7 +135,8 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
         if value is None:
             raise BlockFault(f"{code} needs a word D with the diameter.", letter="g")
         return value
-    number = whole(block.values.get("d", float(control.modal.tool)), "the D number")
+    kept = float(control.modal.tool) if control.cutter_register is None else control.cutter_register
+    number = whole(block.values.get("d", kept), "the D number")
     if number == 0:
         return 0.0
     row = control.tool_table.get(number)
@@ -197,6 +199,8 @@ def _length_number(control: Control, block: Block, code: str) -> int:
     """Return the H number that a G43 means."""
     value = block.get("h")
     if value is None:
+        if control.rules.macro_b and control.modal.length_offset:
+            return control.modal.length_offset  # H stays until another one
         if not control.rules.length_from_tool:
             raise BlockFault(f"{code} needs a word H on a {control.rules.title} control.", letter="g")
         return control.modal.tool
@@ -261,7 +265,7 @@ def _return_level(control: Control, block: Block) -> None:
 
 def _refused(control: Control, block: Block) -> None:
     """Refuse what would move the tool in a way that the reader does not follow."""
-    refused = {"G7": "the diameter mode of lathes", "G51": "scaling"}
+    refused = {"G7": "the diameter mode of lathes"}
     for code in block.codes.values():
         if code in refused:
             raise BlockFault(f"{refused[code]} ({code}) is not followed; {REMEDY}", letter="g")
@@ -284,7 +288,8 @@ _STEPS: tuple[tuple[ModalGroup, Callable[[Control, Block], None]], ...] = (
     (ModalGroup.ONCE, _refused),
     (ModalGroup.LATHE, _refused),
     (ModalGroup.POLAR, choose_polar),
-    (ModalGroup.SCALING, _refused),
+    (ModalGroup.MIRRORING, mirror),
+    (ModalGroup.SCALING, scale),
     (ModalGroup.TURNING, turn_program),
 )
 """What each group does, in the order in which a control does it."""

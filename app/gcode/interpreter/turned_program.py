@@ -92,6 +92,7 @@ def choose_polar(control: Control, block: Block) -> None:
         BlockFault: the control has another G16, or none.
     """
     control.polar = block.codes[ModalGroup.POLAR] == "G16"
+    control.spelling_changed()
     if control.polar and control.options.dialect is not Dialect.FANUC:
         raise BlockFault(
             f"polar coordinates (G16) of {control.rules.title} are not followed; write out the moves that it makes: "

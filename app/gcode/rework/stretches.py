@@ -214,7 +214,9 @@ def _reasons(program: NcProgram, spoken: _LineWords) -> NDArray[np.int64]:
     unknown[homeward] = True
     unknown[homeward[homeward < count - 1] + 1] = True
     timed = np.array([state.feed_mode is FeedMode.PER_MINUTE for state in states], np.bool_)
-    straight = np.array([state.absolute and state.rotation == 0.0 for state in states], np.bool_)
+    straight = np.array(
+        [state.absolute and state.rotation == 0.0 and not state.respelled for state in states], np.bool_
+    )
     reasons = np.select(
         [
             ~line,

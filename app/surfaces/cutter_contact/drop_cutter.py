@@ -36,8 +36,11 @@ class DroppedCutter:
     facet: Ints
 
 
-def shape_of(tool: Tool) -> Floats:
+def shape_of(tool: Tool, skin: float = 0.0) -> Floats:
     """Return a cutter's lower side (5,), see `drop_kernels`.
+
+    Args:
+        skin: mm, round it, measured from its own lowest place, which is as much below the tool's tip.
 
     Raises:
         ParameterError: it has a point of no angle.
@@ -46,15 +49,28 @@ def shape_of(tool: Tool) -> Floats:
     if tool.kind.conical and not half > 0:
         raise ParameterError(f"T{tool.number}: a point of 0 degrees; give its angle.")
     rim = profile.flat + profile.fillet * math.cos(half) if tool.kind.conical else radius  # where the cone begins
-    return np.array((profile.flat, profile.fillet, profile.cone, radius, rim))
+    shape = np.array((profile.flat, profile.fillet, profile.cone, radius, rim))
+    if skin:
+        from .contact_kernels import thicken
+
+        thicken(shape.copy(), skin, shape)
+    return shape
 
 
 def drop(
     facets: SurfaceFacets, tool: Tool, places: Floats, fine: float = FINE, progress: Progress = NO_PROGRESS
 ) -> DroppedCutter:
+    """Return how low a tool comes: see `drop_shape`."""
+    return drop_shape(facets, shape_of(tool), places, fine, progress)
+
+
+def drop_shape(
+    facets: SurfaceFacets, shape: Floats, places: Floats, fine: float = FINE, progress: Progress = NO_PROGRESS
+) -> DroppedCutter:
     """Return how low a cutter comes at places (m, 2), mm: over faces, edges and corners, each exactly.
 
     Args:
+        shape: of the cutter, as of `shape_of`.
         fine: how near to the true surfaces heights are, mm; facets that stand for a patch are refined as far as that
             takes.
 
@@ -64,7 +80,7 @@ def drop(
     from . import drop_kernels as kernels
     from .facet_tree_kernels import ANY
 
-    tree, shape, places = facets.tree, shape_of(tool), np.ascontiguousarray(places, np.float64)
+    tree, places = facets.tree, np.ascontiguousarray(places, np.float64)
     height, touched = np.empty(len(places)), np.empty(len(places), np.int64)
     parts = [
         pool().submit(

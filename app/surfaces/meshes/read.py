@@ -1,17 +1,15 @@
-"""Files of triangles: STL by a reader of our own, which tells a file that was cut off, 3MF too; OBJ and PLY by a
-library.
-"""
+"""Files of triangles by their formats; STL, which tells a file that was cut off, is read here."""
 
 from __future__ import annotations
 
-import io
-import logging
 import re
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from .obj import obj_triangles
+from .ply import ply_triangles
 from .three_mf import three_mf_triangles
 
 Floats = NDArray[np.float64]
@@ -24,11 +22,9 @@ _SANE = 1e12
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _LINE_END = re.compile(rb"[\r\n]+")
-_APPEARANCE = re.compile(rb"^[ \t]*(?:v[tnp]|mtllib|usemtl)\b[^\n]*|/[-+\d/]*", re.MULTILINE)
-"""What an OBJ file tells of normals, textures and materials, and the numbers of these at the corners of its faces."""
-_TEXTURE = re.compile(rb"^(property[^\r\n]*\s)(?=(?:s|t|u|v|texture_u|texture_v|texcoord)\b)", re.MULTILINE)
-"""A line of a PLY file's header, up to the name of a place in a texture."""
-
+_MARK = b"\xef\xbb\xbf"
+"""Before a text that some editor has saved."""
+_LOOP_END = re.compile(rb"\bendloop\b", re.IGNORECASE)
 _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 
@@ -45,7 +41,7 @@ def read_mesh(name: str, data: bytes) -> Floats:
     suffix = name.lower().rpartition(".")[2]
     if suffix == "stl":
         return stl_triangles(name, data)
-    triangles = three_mf_triangles(name, data) if suffix == "3mf" else _by_library(name, data, suffix)
+    triangles = three_mf_triangles(name, data) if suffix == "3mf" else _faces(name, data, suffix)
     return _sound(name, triangles, suffix)
 
 
@@ -77,6 +73,7 @@ def _stl(name: str, data: bytes) -> Floats:
     Raises:
         InputError: it is none, or was cut off.
     """
+    data = data.removeprefix(_MARK)
     count = int.from_bytes(data[HEADER - 4 : HEADER], "little")
     whole = HEADER + TRIANGLE * count
     if data.lstrip()[:5].lower() == b"solid" and len(data) != whole and b"\0" not in data[:HEADER]:
@@ -91,7 +88,25 @@ def _stl(name: str, data: bytes) -> Floats:
         raise _no_stl(name)
     if len(data) < HEADER:
         raise _no_stl(name)
+    _check_count(name, data, count)
     return _records(data, count)
+
+
+def _check_count(name: str, data: bytes, count: int) -> None:
+    """Refuse a binary file with whole triangles behind those that its header counts; other bytes there are colours.
+
+    Raises:
+        InputError: it has some.
+    """
+    more, rest = divmod(len(data) - HEADER - TRIANGLE * count, TRIANGLE)
+    if not more or rest:
+        return
+    there = _records(data, count + more)
+    if np.isfinite(there).all() and (np.abs(there) < _SANE).all():
+        raise InputError(
+            f"{name}: the header of this STL file counts {count:,} triangles, and it holds {count + more:,}; export it "
+            "again."
+        )
 
 
 def _no_stl(name: str) -> InputError:
@@ -107,7 +122,8 @@ def _text(name: str, data: bytes) -> Floats:
     """Return the triangles of a text; its first line is a name, in any code page. Lines may end in any way, or not."""
     rest = _LINE_END.split(data.lstrip(), maxsplit=1)[-1]
     try:
-        corners = np.array([[float(word) for word in each] for each in _VERTEX.findall(rest)]).reshape(-1, 3, 3)
+        words = _VERTEX.findall(rest)
+        corners = np.array([[float(word) for word in each] for each in words[: len(words) // 3 * 3]]).reshape(-1, 3, 3)
     except ValueError as error:
         raise _no_stl(name) from error
     if b"endsolid" not in rest[-1000:].lower():
@@ -115,34 +131,14 @@ def _text(name: str, data: bytes) -> Floats:
             f"{name}: this STL file was cut off after {len(corners):,} triangles, as its end, endsolid, is missing; "
             "copy or export it again."
         )
+    if any(len(_VERTEX.findall(each)) != 3 for each in _LOOP_END.split(rest)[:-1]):
+        raise InputError(f"{name}: a facet of this STL file has other than three corners; export the solid again.")
     return corners
 
 
-def _plain_obj(data: bytes) -> bytes:
-    """Return an OBJ file's places and faces alone: to read textures the library asks for one that reads pictures; and
-    names may be spelled in any code page.
-    """
-    return _APPEARANCE.sub(b"", data).decode("latin-1").encode("ascii", "replace")
-
-
-def _plain_ply(data: bytes) -> bytes:
-    """Return a PLY file that calls places in textures what the library does not know: see `_plain_obj`."""
-    header, end, rows = data.partition(b"end_header")
-    return _TEXTURE.sub(rb"\1other_", header) + end + rows
-
-
-def _by_library(name: str, data: bytes, suffix: str) -> Floats:
-    """Return the triangles of an OBJ or PLY file; the library's own complaints are not shown."""
-    import trimesh
-
-    log = logging.getLogger("trimesh")
-    log.propagate = False
-    if not log.handlers:
-        log.addHandler(logging.NullHandler())
-    plain = _plain_obj(data) if suffix == "obj" else _plain_ply(data)
+def _faces(name: str, data: bytes, suffix: str) -> Floats:
+    """Return the triangles of an OBJ or PLY file."""
     try:
-        with np.errstate(all="ignore"):  # numbers that are none are looked for by who asked
-            triangles = trimesh.load_mesh(io.BytesIO(plain), file_type=suffix, process=False).triangles
-            return np.array(triangles, np.float64).reshape(-1, 3, 3)
-    except Exception as error:  # readers of meshes raise whatever broken bytes make them
+        return obj_triangles(data) if suffix == "obj" else ply_triangles(data)
+    except (ValueError, IndexError, KeyError, StopIteration, OverflowError, MemoryError) as error:
         raise InputError(f"{name}: this is no {suffix.upper()} file, or it is damaged; export it again.") from error

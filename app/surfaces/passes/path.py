@@ -102,7 +102,6 @@ class Follower:
     """One tool over surfaces, along any line."""
 
     def __init__(self, facets: SurfaceFacets, tool: Tool, options: FollowOptions = FollowOptions()) -> None:
-        from ..cutter_contact import contact_kernels
         from .point_kernels import GRID
 
         self.facets, self.options = facets, options
@@ -110,9 +109,7 @@ class Follower:
         tree = facets.tree
         self._held = tree.held
         self._order, self._leave = tree.order, options.leave
-        self._shape = shape_of(tool)
-        if options.leave:
-            contact_kernels.thicken(shape_of(tool), options.leave, self._shape)
+        self._shape = shape_of(tool, options.leave)
         stored = float(np.abs(facets.triangles[facets.patch < 0]).max(initial=0.0))
         self._room = min(max(_BESIDE, _STORED * stored), _BESIDE_MOST)
         least = max(1e-6, 2 * options.grid)

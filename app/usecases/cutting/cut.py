@@ -14,7 +14,7 @@ from ...core.effort import Reckoning, announce
 from ...core.progress import NO_PROGRESS, Progress
 from ...gcode.interpreter.program import NcProgram
 from ...model.finding import Finding, FindingKind, worst_first
-from ...model.motion import Floats
+from ...model.motion import Floats, MotionKind
 from ...model.motion_path import lengths
 from ...model.stock_box import StockBox
 from ...model.tool import Tool
@@ -30,7 +30,7 @@ from ...verify.exact import ExactDeviations, exact_of
 from ...verify.holder_contacts import HolderReport
 from ...verify.judge import HeightBounds, JudgementInput, bounded, certify, judge, part_target
 from ...verify.judgement import Judgement, findings_of
-from ...verify.parts import FlatPart, SolidPart, beyond
+from ...verify.parts import FlatPart, SolidPart, beyond, doubtful_size
 from ...verify.wall_probe import WallProbe, unseen_walls
 from .setup import CELLS, CutOptions, CutSetup
 
@@ -112,11 +112,20 @@ def _findings(context: CutContext, done: CutOutcome, judgement: Judgement | None
     yield from done.accidents
     if setup.part is not None and options.judge:
         yield from beyond(setup.part, context.box())
+        yield from doubtful_size(setup.part, _fed_box(context))
     if judgement is not None:
         yield from findings_of(judgement, setup.where)
     if isinstance(setup.part, SolidPart) and context.closely:
         yield from unseen_walls(setup.part, context.workpiece.grid.pitch)
     yield from _fallen_back(done.engine_report, options.engine)
+
+
+def _fed_box(context: CutContext) -> StockBox | None:
+    """Return the box round the ends of all feed motions, program coordinates; None where there are none."""
+    ends = np.concatenate(
+        [each.course.motions.end[each.course.motions.kind != MotionKind.RAPID] for each in context.courses]
+    )
+    return StockBox(*ends.min(axis=0).tolist(), *ends.max(axis=0).tolist()) if len(ends) else None
 
 
 def _fallen_back(engine_report: EngineReport, requested: Engine) -> tuple[Finding, ...]:

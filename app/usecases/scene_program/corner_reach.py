@@ -62,7 +62,7 @@ Doubtful = Callable[[CornerReach, float], NDArray[np.bool_]]
 
 @dataclass(frozen=True, eq=False)
 class CornerTool:
-    """A tool over surfaces, without stock to leave.
+    """A tool over surfaces and what it leaves on them.
 
     Attributes:
         requested: where it may go. tips: how low its tip comes. cells: the same by cells, which says where to look.

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ...simulation.cutter import cutter_of
 from ...simulation.field.workpiece import Workpiece
-from ...surfaces.cutter_contact.drop_cutter import drop
+from ...surfaces.cutter_contact.drop_cutter import drop_shape, shape_of
 from ..scene.compute import ComputedFamily, ComputedScene
 from .corner_reach import TipHeights
 from .left import FamilyRequest, SceneLeft, left_of
@@ -56,12 +56,15 @@ def _asked(computed: ComputedScene, family: ComputedFamily) -> FamilyRequest:
 
 
 def _tips(computed: ComputedScene, family: ComputedFamily) -> TipHeights:
-    """Return how low a family's cutter comes over the surfaces, program coordinates, and not less."""
-    origin = np.array(computed.origin)
+    """Return how low a family's cutter comes over the surfaces and what is left on them, program coordinates, and not
+    less.
+    """
+    leave, origin = family.passes.stock_to_leave, np.array(computed.origin)
+    shape = shape_of(family.tool, leave)
 
     def heights(places: Floats, progress: Progress) -> Floats:
-        dropped = drop(computed.facets.facets, family.tool, places + origin[:2], TIP_ERROR, progress)
-        return np.asarray(dropped.height + TIP_ERROR - origin[2])
+        dropped = drop_shape(computed.facets.facets, shape, places + origin[:2], TIP_ERROR, progress)
+        return np.asarray(dropped.height + leave + TIP_ERROR - origin[2])
 
     return heights
 

@@ -139,9 +139,8 @@ def left_of(
     )
     with np.errstate(invalid="ignore"):
         seen = _Standing(over, _wide(over > _allowed(sheet, error, families, low)))
-        corners = on & (low > sheet.heights + TOLERANCE) & ~seen.mask
-    finishing = [each for each in families if not each.requested.requested.leave]
-    limits = [_CornerLimit.of(each, error) for each in finishing if each.requested.tips is not None]
+        corners = on & (low > _lowest_cut(sheet, requested)) & ~seen.mask
+    limits = [_CornerLimit.of(each, error) for each in families if each.requested.tips is not None]
     seen = _closer(workpiece, seen, corners, limits, progress.part(0.6, 1.0))
     over, mask = seen.over, seen.mask
     found, count = places_of(mask, over, grid)
@@ -203,7 +202,7 @@ class _CornerLimit:
     """How high metal may stand in corners over what one family's tool reaches.
 
     Attributes:
-        family: which has `tips`, and leaves no stock. square: the height, square to what is cut, mm.
+        family: which has `tips`. square: the height, square to what is cut, mm.
     """
 
     family: _ReachedFamily
@@ -336,11 +335,9 @@ def _ridge(
     area: SurfaceGrid, over: Heights, mask: Mask, low: Heights, requested: Sequence[FamilyRequest]
 ) -> Ridge | None:
     """Return the highest ridge on the surfaces: of what is not left, and where the tools come down to them."""
-    own = slopes(area.heights, area.grid.pitch)
-    rise = np.hypot(*own)
-    leave = min(each.requested.leave for each in requested)
+    rise = np.hypot(*slopes(area.heights, area.grid.pitch))
     with np.errstate(invalid="ignore"):
-        here = ~mask & np.isfinite(area.heights) & (low <= area.heights + leave * np.hypot(1.0, rise) + TOLERANCE)
+        here = ~mask & np.isfinite(area.heights) & (low <= _lowest_cut(area, requested))
     if not here.any():
         return None
     square = np.where(here, over / np.hypot(1.0, rise), -np.inf)
@@ -349,6 +346,13 @@ def _ridge(
     x, y = area.grid.place(cell)
     level = min(_level(each) for each in requested)
     return Ridge(max(float(square[row, col]), 0.0), x, y, math.degrees(math.atan(float(rise[row, col]))), level)
+
+
+def _lowest_cut(area: SurfaceGrid, requested: Sequence[FamilyRequest]) -> Floats:
+    """Return how low a tool that touches the surfaces in one place cuts there at most, mm, by cells."""
+    leave = min(each.requested.leave for each in requested)
+    rise = np.hypot(*slopes(area.heights, area.grid.pitch))
+    return np.asarray(area.heights + leave * np.hypot(1.0, rise) + TOLERANCE)
 
 
 def _at_rim(on: Mask, row: int, col: int, reach: int) -> bool:

@@ -5,7 +5,7 @@ import pytest
 
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.dialect_guess import guess_dialect
-from app.gcode.interpreter.options import ReadOptions
+from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.reader import read_program
 from tests.gcode.interpreter.programs import ends, read, told, warnings
 from tests.gcode.interpreter.rs274_motions import rs274
@@ -161,7 +161,7 @@ def test_ends_of_what_is_never_in_force_are_nothing(line: str) -> None:
     assert ends(read(text, Dialect.FANUC)) == [(1, 0, 0)] and not warnings(text, Dialect.FANUC)
 
 
-@pytest.mark.parametrize("code", ["G31 Z-5. F50.", "G51.1 X0.", "G76 X1. Z-5. R2. Q0.5 F100.", "G66 P9100", "G51 P2."])
+@pytest.mark.parametrize("code", ["G31 Z-5. F50.", "G76 X1. Z-5. R2. Q0.5 F100.", "G66 P9100"])
 def test_what_is_not_followed_is_told_with_what_to_do(code: str) -> None:
     assert "is not followed; write out the moves that it makes" in told(f"G21\nG0 X1.\n{code}\n", Dialect.FANUC)
 
@@ -281,3 +281,32 @@ def test_what_grbl_does_not_know_is_refused(code: str) -> None:
 @pytest.mark.parametrize("text", ["(only a comment)\n", "G21\nG90\n"])
 def test_a_program_without_moves_has_no_end_either(text: str) -> None:
     assert rs274(text.encode())[1] and any("has no end" in warning for warning in warnings(text))
+
+
+@pytest.mark.parametrize("dialect", [Dialect.GRBL, *OTHERS])
+def test_blocks_behind_a_per_cent_sign_are_told(dialect: Dialect) -> None:
+    """A program of which nothing was read had no problem."""
+    for sign in ("% spindle on", "%"):
+        text = f"%\n(made by hand)\n{sign}\nG21 G90\nG1 X5. F100.\nM30\n"
+        assert any("blocks behind it are not read" in said for said in warnings(text, dialect)), sign
+    assert not warnings("%\nG21 G90\nG1 X5. F100.\nM30\n%\nmade by hand\n", dialect)
+    called = "%\nO1\nG21\nM98 P2\nM30\n%\n(the other one)\nO2\nG0 X1.\nM99\n"
+    assert not any("are not read" in said for said in warnings(called, Dialect.FANUC))
+
+
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_the_number_of_a_cutter_stays_until_another_one(dialect: Dialect) -> None:
+    """G41 without D took the diameter that has the tool's number."""
+    table = {1: ToolOffset(diameter=2.0), 7: ToolOffset(diameter=6.0)}
+    path = "G0 X0. Y0.\nG41{} G1 X10. Y5. F100.\nY20.\nG40 X0.\n"
+    text = f"G21 G90 T1 M6 D7\n{path.format('')}{path.format(' D1')}{path.format('')}M30\n"
+    walls = [x for x, y, _ in ends(read(text, dialect, tool_table=table)) if y == 20 and x]
+    assert walls == pytest.approx([7.0, 9.0, 9.0])
+    assert not warnings(text, dialect)
+
+
+def test_the_number_of_a_length_stays_until_another_one() -> None:
+    text = "G21 G90 G0 X0. Y0. Z0.\nT1 M6\nG43 H1 Z9.\nG43 Z5.\nM30\n"
+    for dialect in (Dialect.FANUC, Dialect.HAAS):
+        assert ends(read(text, dialect))[-1] == (0, 0, 5) and not warnings(text, dialect)
+        assert "needs a word H" in told(text.replace("H1 ", "H0 "), dialect)

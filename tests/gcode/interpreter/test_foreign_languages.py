@@ -22,6 +22,8 @@ from tests.conftest import ROOT
         ("G17 G90\nG2 X60 Y10 CR=10\n", "Siemens", 2),
         ("G0 X0\nG1 X=IC(5) F10\n", "Siemens", 2),
         ("G0 X1\nR1=5\n", "Siemens", 2),
+        ('G17 G90\nN20 T="MILL_10" D1\nN30 M6\n', "Siemens", 2),
+        ("G17 G90\nG3 X10 Y10 I=AC(5) J=AC(5)\n", "Siemens", 2),
         ("$HOLES.MIN%\nG15 H1\nM2\n", "Okuma", 1),
         ("TOOL PATH/FACE,TOOL,MILL\nGOTO/0.0,0.0,10.0\n", "APT", 2),
         ("IN;SP1;PU0,0;PD100,0;\n", "HP-GL", 1),
