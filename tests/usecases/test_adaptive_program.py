@@ -52,7 +52,7 @@ def test_nothing_is_left_and_nothing_gouged(pocket: MakeResult) -> None:
 
 
 def test_small_cutters_keep_their_limit_as_written() -> None:
-    """Pieces of a hundredth of a millimetre along the metal's edge were turned by the digits, and the angle with them."""
+    """Pieces of 0.01 mm along the metal's edge were turned by the digits, and the angle with them."""
     job = '[[tool]]\nnumber = 1\ndiameter = 2.0\n[[operation]]\nkind = "adaptive"\ntool = 1\ndepth = 1.0\n'
     made = made_of("polyline 0,0 9,-1 11,5 5,9 -1,6 close\n", job)
     assert [each.text for each in made.findings if each.counts] == []
