@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from enum import Enum
 
 from .curves import Point
+from .told_length import LENGTH, UNIT, told_length
 
 
 class DepthSource(Enum):
@@ -38,13 +40,11 @@ class DrawnDepth:
     height: float = 0.0
 
 
-_NUMBER = r"(\d{1,4}(?:[.,]\d{1,6})?|[.,]\d{1,6})"
-_UNIT = r"(?:\s?(mm|in(?![a-z])|\"|''))?"
 _WORD = r"(?:depth|deep|dp\.?|tiefe|深さ|深|↓|↧|(?<![a-z])[tz](?=\s?[=:\d.+-]))"
-_TOLD = re.compile(rf"{_WORD}\s{{0,3}}[=:_-]{{0,2}}\s{{0,3}}{_NUMBER}(?![\d.,]*\d){_UNIT}", re.IGNORECASE)
-_BEHIND = re.compile(rf"(?<![\d.,]){_NUMBER}{_UNIT}\s?(?:deep|tief|dp)(?![a-z])", re.IGNORECASE)
+_BEFORE = re.compile(rf"{_WORD}\s{{0,3}}[=:_\u2212-]{{0,2}}\s{{0,3}}(?=[\d.,]*\d)", re.IGNORECASE)
+_BEHIND = re.compile(rf"(?<![\d.,/])(?:{LENGTH}){UNIT}\s?(?:deep|tief|dp)(?![a-z])", re.IGNORECASE)
+_RANGE = re.compile(r"(?:^|[\s(=:])\d{1,4}(?:[.,]\d+)?\s?[-\u2013~]\s?$")
 _MEANT = re.compile(r"depth|deep|tiefe?(?![a-z])|深|↓|↧", re.IGNORECASE)
-_IN = 25.4
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,12 +66,12 @@ def depth_words(words: str, unit: float) -> DepthWords | None:
     Args:
         unit: of numbers beside which none stands, mm.
     """
-    found = _TOLD.findall(words) or _BEHIND.findall(words)
-    depths = {float(number.replace(",", ".")) * _size(said, unit) for number, said in found} - {0.0}
-    if not found and not _MEANT.search(words):
+    told = [told_length(words, each.end(), unit) for each in _BEFORE.finditer(words)]
+    if not told:
+        behind = (each for each in _BEHIND.finditer(words))
+        told = [None if _RANGE.search(words[: k.start()]) else told_length(words, k.start(), unit) for k in behind]
+    if not told and not _MEANT.search(words):
         return None
-    return DepthWords(depths.pop() if len(depths) == 1 else None)
-
-
-def _size(said: str, unit: float) -> float:
-    return unit if not said else 1.0 if said.lower() == "mm" else _IN
+    depths = {each[0] if each else math.nan for each in told} - {0.0}
+    depth = depths.pop() if len(depths) == 1 else math.nan
+    return DepthWords(None if math.isnan(depth) else depth)

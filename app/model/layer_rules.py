@@ -9,6 +9,7 @@ from fnmatch import fnmatchcase
 from ..core.errors import ParameterError
 from .operation import Operation
 from .part import Layer
+from .told_length import UNIT, size_of
 
 COLOURS = {
     "red": "#ff0000",
@@ -23,10 +24,15 @@ COLOURS = {
 """Words for the colours that drawings have most."""
 
 _COLOUR = re.compile(r"#[0-9a-f]{6}")
-_NUMBER = r"(\d{1,4}(?:[.,]\d{1,6})?)"
-_DEPTHS = (
-    re.compile(rf"(?:depth|deep|tiefe|\u6df1\u3055|\u2193|(?<![a-z])[zdt])[ _:=-]*{_NUMBER}(?![\d.,])", re.IGNORECASE),
-    re.compile(rf"(?<![\d.,]){_NUMBER} ?mm(?![a-z])", re.IGNORECASE),
+_NUMBER = r"(?P<number>\d{1,4}(?:[.,]\d{1,6})?)"
+_TOLD = rf"[ _:=-]*{_NUMBER}(?![\d.,]){UNIT}"
+_DEPTHS = tuple(
+    re.compile(pattern, re.IGNORECASE)
+    for pattern in (
+        rf"(?:depth|deep|tiefe|\u6df1\u3055|\u2193|(?<![a-z])[zt]){_TOLD}",
+        rf"(?<![a-z])d{_TOLD}",  # a D is a diameter where another word tells the depth
+        rf"(?<![\d.,]){_NUMBER} ?(?P<unit>mm)(?![a-z])",
+    )
 )
 
 
@@ -71,7 +77,7 @@ class LayerRule:
 def depth_in(name: str) -> float | None:
     """Return the depth that a layer's name tells, mm; None where it tells none, or 0."""
     for pattern in _DEPTHS:
-        found = pattern.findall(name)
-        if found:
-            return float(found[-1].replace(",", ".")) or None
+        *_, found = (None, *pattern.finditer(name))
+        if found is not None:
+            return float(found["number"].replace(",", ".")) * size_of(found["unit"], 1.0) or None
     return None

@@ -9,13 +9,15 @@ the rim can be engaged than lies farther from c than the ground is clear all rou
 too much, are bounded piece by piece (`rim_kernels`).
 
 Ways down into metal engage the whole rim, and at their foot the hole is as wide as the cutter: the first turn that
-widens it, of at most WIDENING mm, belongs to the entry. Entries are measured, not limited.
+widens it, of at most WIDENING mm, belongs to the entry. So does what is level for no longer than that between two ways
+down, as the digits of a program take no notice of what a short piece falls. Entries are measured, not limited.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +31,9 @@ from ..toolpath.engagement.swath_shapes import swath_shapes
 Floats = NDArray[np.float64]
 
 WIDENING = 0.2
-"""mm; the largest radius of the first turn at the foot of an entry that counts as part of it."""
+"""mm; the largest radius of the first turn at the foot of an entry that counts as part of it, and the longest level
+way within one.
+"""
 
 _LEVEL = 1e-6
 """mm; what is no lower than this below the top is above the metal."""
@@ -152,6 +156,7 @@ class _Prover:
         self._above: list[EngagedPlace] = []
         self._entry, self._entries, self._entering = 0.0, 0, False
         self._foot: tuple[float, float, float] | None = None
+        self._still_down = _still_down(path)
 
     def proven(self, progress: Progress) -> EngagementProof:
         path = self._path
@@ -184,7 +189,7 @@ class _Prover:
         shapes = self._near(row, size, low)
         if self._in_air(row, shapes):
             return
-        if fall > _STEEP * size:
+        if fall > _STEEP * size or (self._entering and self._still_down[k]):
             self._down(path.end[k], math.hypot(size, fall))
             return
         bound, share, clear = self._bound(row, size, shapes)
@@ -272,6 +277,22 @@ class _Prover:
             level.add_disc(x, y, whole)
         if whole < reach - _WHOLE:
             level.add(sectors)
+
+
+def _still_down(path: CutterPath) -> NDArray[np.bool_]:
+    """Return (n,) which motions are level, with ways down before and behind them that are no farther than WIDENING mm
+    apart.
+    """
+    rows = np.array([_row(path, k) for k in range(len(path.kind))]).reshape(-1, 8)
+    size, fall = lengths(rows), path.start[:, 2] - path.end[:, 2]
+    level, gone = np.abs(fall) <= _LEVEL, np.concatenate([np.zeros(1), np.cumsum(size)])
+    down = np.flatnonzero(fall > np.maximum(_STEEP * size, _LEVEL))
+    other = np.flatnonzero(~level)
+    found = np.zeros(len(rows), np.bool_)
+    for first, second in pairwise(other.tolist()):
+        if second - first > 1 and gone[second] - gone[first + 1] <= WIDENING:
+            found[first + 1 : second] = np.isin((first, second), down).all()
+    return found
 
 
 def _row(path: CutterPath, k: int) -> Floats:

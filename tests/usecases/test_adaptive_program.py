@@ -51,6 +51,13 @@ def test_nothing_is_left_and_nothing_gouged(pocket: MakeResult) -> None:
     assert report["rapids_in_material"] == [] and report["cut"]["gouged_places"] == 0
 
 
+def test_small_cutters_keep_their_limit_as_written() -> None:
+    """Pieces of 0.01 mm along the metal's edge were turned by the digits, and the angle with them."""
+    job = '[[tool]]\nnumber = 1\ndiameter = 2.0\n[[operation]]\nkind = "adaptive"\ntool = 1\ndepth = 1.0\n'
+    made = made_of("polyline 0,0 9,-1 11,5 5,9 -1,6 close\n", job)
+    assert [each.text for each in made.findings if each.counts] == []
+
+
 @pytest.mark.exhaustive
 def test_where_less_is_engaged_the_feed_rises_and_the_angle_stays() -> None:
     job = JOB + 'feed_up_to = 2.0\n[output]\npost = "fanuc"\n'

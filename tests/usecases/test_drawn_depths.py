@@ -57,6 +57,10 @@ def floors(part: Part, operation: Operation | None = None) -> list[tuple[float, 
     return [(each.cut.depth, len(each.cut.curves)) for each in with_drawn_depths(job).job.operations]
 
 
+ANOTHER_NUMBER = ["t=4-6", "depth 4 to 6", "4-6 deep", "depth 1,000", "depth 4e1", "↓4'", "depth 4 µm", "t=4.5.6"]
+"""Of which the first digits were taken for the depth."""
+
+
 @pytest.mark.parametrize(
     ("words", "depth"),
     [
@@ -73,6 +77,13 @@ def floors(part: Part, operation: Operation | None = None) -> list[tuple[float, 
         ("Ø6 ↓12", 12.0),
         ("z-3", 3.0),
         ("↓4 depth 4", 4.0),
+        ('depth 1/4"', 6.35),
+        ('1/4" deep', 6.35),
+        ('1 1/2" deep', 38.1),
+        ("depth 0.25 inch", 6.35),
+        ("depth 5 cm", 50.0),
+        ("t=4±0.1", 4.0),
+        ("M6x1 - 12 deep", 12.0),
     ],
 )
 def test_words_tell_a_depth(words: str, depth: float) -> None:
@@ -85,7 +96,7 @@ def test_words_of_other_things_tell_none(words: str) -> None:
     assert depth_words(words, 1.0) is None
 
 
-@pytest.mark.parametrize("words", ["depth?", "↓", "↓4 ↓6", "depth as drawn", "↓0"])
+@pytest.mark.parametrize("words", ["depth?", "↓", "↓4 ↓6", "depth as drawn", "↓0", *ANOTHER_NUMBER])
 def test_words_that_are_not_understood_are_known_as_such(words: str) -> None:
     found = depth_words(words, 1.0)
     assert found is not None and found.depth is None

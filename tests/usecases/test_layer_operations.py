@@ -58,6 +58,8 @@ def made(data: bytes, file: JobFile) -> MakeResult:
         ("↓4", 4.0),
         ("深さ5", 5.0),
         ("20mm holes deep 8", 8.0),
+        ("depth 0.25in", 6.35),
+        ("depth 12 d5", 12.0),
         ("layer 4", None),
         ("part2", None),
         ("depth 0", None),
@@ -65,7 +67,7 @@ def made(data: bytes, file: JobFile) -> MakeResult:
     ],
 )
 def test_the_depth_in_a_name(name: str, depth: float | None) -> None:
-    assert depth_in(name) == depth
+    assert depth_in(name) == (depth if depth is None else pytest.approx(depth))
 
 
 def test_rules_take_layers_by_name_and_colour_in_any_case() -> None:

@@ -73,6 +73,13 @@ def test_a_circle_beside_a_cleared_disc_has_the_angle_of_the_closed_form() -> No
     assert [each for each in less.above if each.motion == len(round_a_hole(hole, turn).kind) - 1]
 
 
+@pytest.mark.parametrize(("level", "above"), [(0.5 * WIDENING, 0), (1.5 * WIDENING, 1)])
+def test_what_digits_make_level_within_a_way_down_belongs_to_it(level: float, above: int) -> None:
+    """A ramp along a path of a few micrometres had level pieces, which were told as slots."""
+    path = by_hand((0, 0, 1), (1, 0, -0.1), (1 + level, 0, -0.1), (1 + level, 1, -0.2), (1 + level, 1 + 1e-12, -0.2))
+    assert len(prove_engagement(path, ANGLE).above) == above
+
+
 def test_the_first_turn_counts_as_entry_only_as_long_as_it_is_small() -> None:
     def turn(radius: float) -> CutterPath:
         return by_hand((radius, 0, 1), (radius, 0, -1), (-radius, 0, -1, 0, 0), (radius, 0, -1, 0, 0))

@@ -21,6 +21,9 @@ the most, and proofs need some room.
 
 _LESS = math.radians(0.15)
 
+_ASIDE = 1.5e-4
+"""mm by which fine digits move one end of a row beside the other at most, both rounded in x and y."""
+
 _LEAST_CENTRE = 0.002
 """mm; the least radius of a path that all controls know as an arc is 0.005 mm, and the tip of a corner needs a few."""
 
@@ -85,6 +88,12 @@ class EngagementLimit:
     def pursued(self) -> float:
         """The angle that ways along the metal's edge are planned with, radians: arcs are not quite these ways."""
         return self.planned - _LESS
+
+    def written(self, length: float) -> float:
+        """Return the angle that a row so long, mm, may have as it is planned, radians: digits turn a short one, and the
+        angle with it.
+        """
+        return self.angle - _ASIDE * self.coarser / max(length, _ASIDE)
 
     @property
     def depth(self) -> float:

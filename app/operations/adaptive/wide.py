@@ -374,8 +374,8 @@ class WideClearing:
         Raises:
             NotWithinLimit: one is not.
         """
-        most = self.limit.planned + _SPARE
-        for row in rows:
+        for row, length in zip(rows, lengths(rows).tolist(), strict=True):
+            most = min(self.limit.planned + _SPARE, self.limit.written(length))
             if self.front.bound(row, most) > most:
                 raise NotWithinLimit
             self.front.sweep(row[None])
