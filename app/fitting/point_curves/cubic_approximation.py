@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...model.motion import Floats, Nurbs
 
 _CUBIC, _QUINTIC = 3, 5
@@ -46,5 +47,6 @@ def cubic_near(curve: Nurbs, near: float) -> Nurbs:
             return Nurbs(points, np.ones(len(points)), np.array(cubic.t), _CUBIC)
         breaks = np.insert(breaks, far + 1, (breaks[far] + breaks[far + 1]) / 2)
     raise InputError(
-        f"No cubics come within {near:g} mm of a spline of degree 5; use --degree 3, or a larger tolerance."
+        f"No cubics come within {near:g} mm of a spline of degree 5; use {option('degree', '3')}, or a larger "
+        "tolerance."
     )

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core import tolerances
+from ...core.options import option
 from ...core.wording import trimmed
 from ...model.curves import Circle, Line, Point, Primitive
 from ...model.finding import Finding, FindingKind
@@ -302,6 +303,7 @@ def _spare(layer: str, bounding: set[str]) -> str:
 def _leaving(what: str, layer: str, bounding: set[str]) -> str:
     """Return how to leave lines out; `bounding` are the layers that must stay, for closed contours lie on them."""
     if layer in bounding:
-        return f"draw {what} on a layer of {'its' if what == 'it' else 'their'} own, which --skip-layer leaves out"
+        whose = "its" if what == "it" else "their"
+        return f"draw {what} on a layer of {whose} own, which {option('skip-layer')} leaves out"
     quoted = layer if layer.isalnum() else f'"{layer}"'
-    return f"leave the layer out: --skip-layer {quoted}"
+    return f"leave the layer out: {option('skip-layer', quoted)}"

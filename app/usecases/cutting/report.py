@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.options import option
 from ...core.wording import counted, minutes_words
 from ...gcode.interpreter.program import Severity
 from ...gcode.timing.duration import TIME_METHOD
@@ -403,7 +404,7 @@ def _summary(data: Json) -> Iterator[str]:
     """Yield a line about the whole, one about the space between the cells, and one a tool."""
     names = ", ".join(program["file"] for program in data["programs"])
     gouge, left, certificate = data["gouge"], data["left"], data["certificate"]
-    part = "compared with no part (--against)"
+    part = f"compared with no part ({option('against')})"
     if gouge is not None:
         part = (
             f"{gouge['max_mm']:.4f} mm gouge, {left['reachable_mm2']:.3f} mm2 left within reach, "
