@@ -45,6 +45,7 @@ _TOLD = re.compile(rf"{_WORD}\s{{0,3}}[=:_-]{{0,2}}\s{{0,3}}{_NUMBER}(?![\d.,]*\
 _BEHIND = re.compile(rf"(?<![\d.,]){_NUMBER}{_UNIT}\s?(?:deep|tief|dp)(?![a-z])", re.IGNORECASE)
 _MEANT = re.compile(r"depth|deep|tiefe?(?![a-z])|深|↓|↧", re.IGNORECASE)
 _IN = 25.4
+"""mm an inch."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from ..core.errors import ParameterError
 from ..core.options import option
 
 LEAST_PER_INCH, MOST_PER_INCH = 1.0, 1e5
+"""Units of the page to the inch: from an inch each to a quarter of a micrometre."""
 
 
 OPTION_OF = {

@@ -20,6 +20,7 @@ from ...geometry.sort_kernels import order_of
 
 _SHAPES = "float64[:, ::1]"
 _HALF, _TURN = math.pi / 2, 2 * math.pi
+"""Radians: from the way ahead to the rim beside, and all round."""
 _STACK = 64
 """Stretches that wait, at most: what is halved more often is taken as it is."""
 _CIRCLE = "UniTuple(float64, 3)"

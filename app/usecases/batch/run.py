@@ -18,6 +18,7 @@ TRIES = 4
 """So often a part is begun whose process is killed: whoever kills at random seldom meets the same part again."""
 
 LIMIT_S = 3600.0
+"""Seconds that a part may take where nobody says otherwise; then it counts as hanging."""
 _TICK_S = 0.1
 """How long a look at what is running waits for something to be done."""
 _NAMED = 4

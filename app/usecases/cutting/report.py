@@ -51,6 +51,7 @@ _TELLING = 10.0
 """Cells beyond the gouge that is told; a bound between the cells that is wider says nothing that a person could use."""
 
 HEIGHTS = 5e-6
+"""mm; how far heights of the processor's engine, float32, may be from exact ones."""
 HEIGHTS_METHODS = {
     Engine.CPU: "bound, times 1 + the surface's slope, for heights up to 32 mm; cells beside an upright wall may fall "
     "to either side",

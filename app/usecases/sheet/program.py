@@ -97,6 +97,7 @@ def program_sheet(
 
 
 _COUNTING, _REMARKS = 12, 6
+"""Findings that count, and remarks, that have room on the page."""
 _PROGRAM = "Program: "
 """What the names of files that are programs begin with."""
 
