@@ -5,7 +5,7 @@ in a notebook.
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +31,7 @@ from ..usecases.making.make import MakeResult
 from ..usecases.scene_program.nc import WrittenScene
 from ..usecases.scene_program.report import SurfaceReport
 from ..usecases.smoothing.result import SmoothedProgram
-from .words import findings_in_python, in_python
+from .words import speaks_python
 
 Report = dict[str, Any]
 
@@ -71,7 +71,7 @@ class MadeProgram(_Shown):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """Everything there is to say, what counts first."""
-        return findings_in_python(self.result.findings)
+        return self.result.findings
 
     @property
     def clean(self) -> bool:
@@ -160,7 +160,7 @@ class MadeInlay(_Shown):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What is wrong with the fit; each program has its own."""
-        return findings_in_python(self.result.findings)
+        return self.result.findings
 
     @property
     def clean(self) -> bool:
@@ -199,7 +199,7 @@ class CheckedProgram(_Shown):
     @property
     def problems(self) -> tuple[ProgramProblem, ...]:
         """What its control would refuse, or warn of."""
-        return tuple(replace(each, text=in_python(each.text)) for each in self.result.problems)
+        return self.result.problems
 
     @property
     def clean(self) -> bool:
@@ -241,7 +241,7 @@ class _Reported(_Shown):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """Everything that is wrong, with its place; of a cut also what went wrong on the way, what counts first."""
-        return findings_in_python(self.told.findings)
+        return self.told.findings
 
     @property
     def clean(self) -> bool:
@@ -324,11 +324,12 @@ class SmoothedText(_NewText):
         return self.result.bound
 
     @property
+    @speaks_python
     def findings(self) -> tuple[Finding, ...]:
         """Stretches that could not be proven and stayed as they were."""
         from ..usecases.smoothing.report import findings
 
-        return findings_in_python(findings(self.result))
+        return findings(self.result)
 
     @property
     def clean(self) -> bool:
@@ -359,9 +360,10 @@ class BetterText(_NewText):
     result: BetterProgram
 
     @property
+    @speaks_python
     def findings(self) -> tuple[Finding, ...]:
         """What somebody has to know before it is used."""
-        return findings_in_python(better_report.findings(self.result))
+        return better_report.findings(self.result)
 
     @property
     def clean(self) -> bool:

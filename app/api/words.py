@@ -1,22 +1,16 @@
-"""Sentences of the program in the words of Python: where they name options of the command line, what a script gives in
-their place.
-"""
+"""What a script gives in the place of options of the command line, in sentences of the Python door."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable
-from dataclasses import replace
+from collections.abc import Callable
 from functools import wraps
 from typing import ParamSpec, TypeVar
 
-from ..core.errors import HitofudeError
-from ..model.finding import Finding
+from ..core.options import spelled
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
 
-_UNITS = {"mm": "MM", "in": "INCH", "m": "M", "cm": "CM", "ft": "FOOT"}
 _NAMES = {
     "px-per-inch": "pixels_per_inch",
     "skip-layer": "without_layers",
@@ -32,62 +26,61 @@ _NAMES = {
     "drill": "drills",
 }
 """Options whose parameter has another name than theirs with underscores."""
-_ENUMS = {"as": "OutputForm", "side": "Side"}
-_NAMED = ("layer", "type", "post")
-"""What options end in whose values are names."""
-_FLAGS = ("to-zero", "insist")
+
+_UNITS = {"mm": "Units.MM", "in": "Units.INCH", "m": "Units.M", "cm": "Units.CM", "ft": "Units.FOOT"}
+"""The units of a drawing, by the words of the command line."""
+
+_ENUMS = {"as": "OutputForm", "side": "Side", "compensation": "CutterCompensation"}
+"""Options whose values are members of an enum."""
+
+_TRUE = ("to-zero", "insist", "depths")
+"""Options that a script switches on; what one of them takes on the command line goes without saying."""
+
+_NAMED = ("layer", "skip-layer", "skip-type", "layout", "post", "material")
+"""Options whose values are names, and so texts of a script."""
+
 _LISTS = ("skip-layer", "skip-type", "layer", "drill", "keep-out")
-_OPTION = re.compile(
-    r"(?<![\w-])--(?P<name>[a-z][a-z-]*)"
-    r"(?:[ =](?P<value>\d+=[a-z]+(?::(?:[\d.]*\d|[A-Z]+))+|(?:[A-Z]\d,)+[A-Z]\d|\"[^\"]*\"|"
-    r"\d[\d.]*(?:e-?\d+)?(?![\w.])|"
-    r"(?<=-layer )\w+|(?<=-type )[A-Z]+|(?<=--post )\w+|(?<=--as )\w+|(?<=--units )\w+|(?<=--side )\w+|"
-    r"[DN]\b|NAME))?"
-)
+"""Options that are given again for each value, in whose place a script gives all in a tuple."""
 
 
-def in_python(text: str) -> str:
-    """Return a sentence that names parameters in the place of options."""
-    return _OPTION.sub(_parameter, text)
+def in_python(name: str, value: str) -> str:
+    """Return what a script writes for an option, with its value where it has one.
+
+    Args:
+        name: without its dashes. value: as it is typed, "" = none.
+    """
+    parameter = _NAMES.get(name, name.replace("-", "_"))
+    if name in _TRUE:
+        return f"{parameter}=True"
+    return f"{parameter}={_value(name, value)}" if value else parameter
 
 
-def _parameter(found: re.Match[str]) -> str:
-    """Return what a script writes for an option, with its value where it has one."""
-    option, value = found["name"], found["value"]
-    name = _NAMES.get(option, option.replace("-", "_"))
-    if option in _FLAGS:
-        return f"{name}=True"
-    if value is None or (option == "tool" and ":" not in value):
-        return name
-    if option == "tool":
-        number, _, shape = value.partition("=")
-        kind, diameter = shape.split(":")[:2]
-        return f"tools={{{number}: Tool({max(int(number), 1)}, {diameter}, ToolKind.{kind.upper()})}}"
-    if option == "units":
-        return f"units=Units.{_UNITS.get(value, value)}"
-    if option in _ENUMS:
-        return f"{name}={_ENUMS[option]}.{value.upper()}"
-    if option == "stock":
-        return f"stock=box_stock(({value.replace(',', ', ')}))"
-    named = option.endswith(_NAMED) and value[0] != '"'
-    quoted = f'"{value}"' if named else value
-    return f"{name}=({quoted},)" if option in _LISTS else f"{name}={quoted}"
+def _value(name: str, value: str) -> str:
+    """Return an option's value as a script writes it."""
+    if name == "tool":
+        return _tools(*value.split("=", 1))
+    if name == "units":
+        return _UNITS.get(value, value)
+    if name in _ENUMS:
+        return f"{_ENUMS[name]}.{value.upper()}"
+    if name == "stock" and "," in value:
+        return f"box_stock(({value.replace(',', ', ')}))"
+    text = f'"{value.strip(chr(34))}"' if name in _NAMED and value != "NAME" else value
+    return f"({text},)" if name in _LISTS else text
 
 
-def findings_in_python(findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Return findings whose sentences name parameters in the place of options."""
-    return tuple(replace(each, text=in_python(each.text)) if "--" in each.text else each for each in findings)
+def _tools(number: str, shape: str) -> str:
+    """Return a table of one tool, by its number and its shape, kind:diameter and what else shapes it."""
+    kind, diameter = shape.split(":")[:2]
+    return f"{{{number}: Tool({max(int(number), 1)}, {diameter}, ToolKind.{kind.upper()})}}"
 
 
 def speaks_python(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
-    """Return a call of the Python door whose errors name parameters in the place of options."""
+    """Return a call of the Python door whose errors and findings name parameters in the place of options."""
 
     @wraps(call)
     def spoken(*arguments: Arguments.args, **named: Arguments.kwargs) -> Result:
-        try:
+        with spelled(in_python):
             return call(*arguments, **named)
-        except HitofudeError as error:
-            error.args = tuple(in_python(each) if isinstance(each, str) else each for each in error.args)
-            raise
 
     return spoken

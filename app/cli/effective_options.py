@@ -23,6 +23,12 @@ def add_effective_options(parser: OptionParser) -> None:
     """Add the options to the parser of `smooth`."""
     about = "for programs made from a polyhedron: points inside its facets lie off the true shape"
     group = parser.add_argument_group("effective points", about)
+    _range_options(group)
+    _correction_options(group)
+
+
+def _range_options(group: argparse._ArgumentGroup) -> None:
+    """Add which points are effective, and how near to them the curve is."""
     group.add_argument(
         "--method",
         choices=["tube", "effective-points"],
@@ -52,6 +58,10 @@ def add_effective_options(parser: OptionParser) -> None:
         help="points so near to the ends of a range are effective too: a share of it, or a length (default: the ends "
         "alone)",
     )
+
+
+def _correction_options(group: argparse._ArgumentGroup) -> None:
+    """Add what becomes of the other points."""
     group.add_argument(
         "--embodiment",
         type=int,

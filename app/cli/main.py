@@ -21,6 +21,7 @@ from .program import SUMMARIES, listed, run_command
 from .signals import StopFlag, Stopped, stoppable
 
 DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
+"""Exit statuses, which scripts ask; a command that was stopped has that of a shell for Ctrl+C."""
 
 HELP = f"""\
 Hitofude: from a line drawing to tool paths that can be trusted on a real machine.

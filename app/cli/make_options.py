@@ -151,6 +151,13 @@ def _proposal_options(group: argparse._ArgumentGroup) -> None:
 
 
 def _tool_options(group: argparse._ArgumentGroup) -> None:
+    _size_options(group)
+    _rate_options(group)
+    _order_options(group)
+
+
+def _size_options(group: argparse._ArgumentGroup) -> None:
+    """Add how wide tools are, how far apart their rings, and how high they go over the stock."""
     diameter = number("diameter", least=LEAST_DIAMETER)
     group.add_argument(
         "--contour-tool",
@@ -178,6 +185,10 @@ def _tool_options(group: argparse._ArgumentGroup) -> None:
         type=number("clearance height", least=LEAST_LENGTH),
         help="clearance height above the stock, 0.001 mm or more (default 5)",
     )
+
+
+def _rate_options(group: argparse._ArgumentGroup) -> None:
+    """Add speed and feeds, or for what they are proposed."""
     group.add_argument(
         "--feed",
         metavar="F",
@@ -205,6 +216,10 @@ def _tool_options(group: argparse._ArgumentGroup) -> None:
         help="proposed: speed and feeds for the material, tools, engagement and machine; --speed, --feed and --plunge "
         "go before them (default: as the job says, else those of the tools)",
     )
+
+
+def _order_options(group: argparse._ArgumentGroup) -> None:
+    """Add how deep shapes are, which way walls are cut along, and which tool comes first."""
     group.add_argument(
         "--depths",
         choices=["operations", "drawing"],

@@ -129,6 +129,7 @@ class _Watch:
 
 
 _LOOK_S, _TICK_S = 0.02, 1.0
+"""Seconds from one look to the next: at whether files have taken their places, and at whether the command has ended."""
 
 
 @contextmanager

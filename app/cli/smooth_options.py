@@ -29,6 +29,16 @@ def add_smooth_options(parser: OptionParser) -> None:
     """Add the options of `hitofude smooth`."""
     parser.add_argument("program", metavar="PROGRAM.ngc", type=Path, help="the NC program")
     parser.add_argument("-o", "--output", metavar="OUT.ngc", type=Path, required=True, help="the smoothed program")
+    _curve_options(parser)
+    _bend_options(parser)
+    _control_options(parser)
+    add_effective_options(parser)
+    parser.add_argument("--report", metavar="R.json", type=Path, help="the certificate and every stretch, as JSON")
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+
+
+def _curve_options(parser: OptionParser) -> None:
+    """Add how near curves are to the moves, and what they are."""
     parser.add_argument(
         "--tolerance",
         metavar="T",
@@ -64,6 +74,10 @@ def add_smooth_options(parser: OptionParser) -> None:
         default=3,
         help="of splines (default 3); 5, which no control knows, goes out as cubics near it",
     )
+
+
+def _bend_options(parser: OptionParser) -> None:
+    """Add which bends are corners, and which ones curves may have."""
     parser.add_argument(
         "--corner",
         metavar="ANGLE",
@@ -79,6 +93,10 @@ def add_smooth_options(parser: OptionParser) -> None:
         help="by how much neighbouring lines and arcs may bend, or as the moves do there; more only where that saves "
         "blocks (default 0.5)",
     )
+
+
+def _control_options(parser: OptionParser) -> None:
+    """Add which control the program is for, and which one the new program."""
     parser.add_argument(
         "--post",
         metavar="NAME",
@@ -90,9 +108,6 @@ def add_smooth_options(parser: OptionParser) -> None:
         choices=[dialect.value for dialect in Dialect],
         help="the control that the program is for (default: as the text looks)",
     )
-    add_effective_options(parser)
-    parser.add_argument("--report", metavar="R.json", type=Path, help="the certificate and every stretch, as JSON")
-    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
 def _region(text: str) -> float | RegionProfile | None:

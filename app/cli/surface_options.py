@@ -30,6 +30,14 @@ def add_surface_options(parser: OptionParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="OUT.ngc", type=Path, help="the NC program; one a tool where the control changes none"
     )
+    _plot_options(parser)
+    _table_options(parser)
+    _curve_options(parser)
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+
+
+def _plot_options(parser: OptionParser) -> None:
+    """Add the plot, and what is seen on it."""
     parser.add_argument(
         "--plot",
         metavar="OUT.svg|pdf|hpgl",
@@ -51,6 +59,10 @@ def add_surface_options(parser: OptionParser) -> None:
         default=PlottedPart.PATHS.value,
         help="what is plotted: the cutters' paths (default), the compound surface, or both",
     )
+
+
+def _table_options(parser: OptionParser) -> None:
+    """Add what is told as numbers."""
     parser.add_argument(
         "--points", metavar="OUT.csv", type=Path, help="the compound surface and its boundary points as a table"
     )
@@ -63,6 +75,10 @@ def add_surface_options(parser: OptionParser) -> None:
         type=number("loop"),
         help="with --report: the program is cut, smoothed within T mm and cut again, all told in the report",
     )
+
+
+def _curve_options(parser: OptionParser) -> None:
+    """Add what the program's curves are."""
     group = parser.add_argument_group("curves", "the program as arcs or splines that go into no surface")
     group.add_argument(
         "--smooth",
@@ -83,7 +99,6 @@ def add_surface_options(parser: OptionParser) -> None:
         help="surfaces are polyhedra: passes go by the places where facets meet, told across neighbouring passes, and "
         "their cut is within T of that of the facets, up or down (mm; a ball, parallel planes)",
     )
-    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
 def surface_files(arguments: argparse.Namespace) -> dict[str, Path]:

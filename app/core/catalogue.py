@@ -20,6 +20,7 @@ _HOLE = re.compile(r"\{(n?)\}")
 _ANYTHING, _NUMBER = "(.+)", "([-+.,\u2009\u2212\\d]+(?:e[-+]\\d+)?)"
 _PERHAPS, _SIDE_BY_SIDE = "(.*)", re.compile(r"(?:\(\.\+\)){2,}")
 _REMEMBERED = 4096
+"""Sentences whose translation is kept: more than a window shows."""
 _MNEMONIC = re.compile(r"&(\w)")
 _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
 _BETWEEN_SENTENCES = re.compile(r"(?<=[.?!]) (?=[A-Z])")

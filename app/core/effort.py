@@ -14,6 +14,7 @@ without a word.
 """
 
 _MINUTE, _HOUR, _DAY = 60.0, 3600.0, 86400.0
+"""In seconds."""
 
 
 @dataclass(frozen=True, slots=True)

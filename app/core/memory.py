@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from .errors import InputError, ParameterError
+from .options import option
 
 LEAST = 1_000_000
 """Bytes; with less nothing can be done."""
@@ -51,7 +52,7 @@ class MemoryShortError(ParameterError):
 
     def __init__(self, what: str, remedy: str, needed: float, room: float) -> None:
         self.what, self.remedy, self.needed, self.room = what, remedy, needed, room
-        super().__init__(self._sentence(f" with --memory {_asked(self.limit)}"))
+        super().__init__(self._sentence(f" with {option('memory', _asked(self.limit))}"))
 
     @property
     def limit(self) -> int:

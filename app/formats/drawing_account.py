@@ -12,6 +12,7 @@ import numpy as np
 
 from ..core import tolerances
 from ..core.errors import InputError
+from ..core.options import option
 from ..core.wording import place_mm, together
 from ..geometry.affine import Affine, transformed
 from ..geometry.chaining.pieces import FARTHEST, straightened, within_reach
@@ -27,10 +28,6 @@ MOST_CURVES = 500_000
 """A drawing that unfolds to more curves than this is refused before it fills the memory."""
 
 BEYOND = "curve beyond 1 km or without a place"
-MOVE = (
-    "move the drawing to zero in the CAD program, or say --to-zero (in the window: File, Reading options) and it is "
-    "done on reading"
-)
 _GONE = {True: "is missing from the part", False: "are missing from the part"}
 PAPER = "paper space entity"
 _SAYING = """
@@ -214,7 +211,7 @@ def placement_findings(found: UsableCurves) -> Iterator[Finding]:
             if len(found.far) == 1
             else f"the first at ({place_mm(x)}, {place_mm(y)}) on layer {layer}"
         )
-        todo = MOVE if found.moved is None else "delete what lies so far away, or check the units"
+        todo = moving() if found.moved is None else "delete what lies so far away, or check the units"
         yield Finding(
             FindingKind.LEFT_OUT,
             f"{what} beyond 1 km, {where}, and {_GONE[len(found.far) == 1]}; {todo}.",
@@ -279,6 +276,14 @@ def other_units(given: Units | None, shown: Units) -> Iterator[Finding]:
         )
 
 
+def moving() -> str:
+    """Return how a drawing comes nearer to zero."""
+    return (
+        f"move the drawing to zero in the CAD program, or say {option('to-zero')} (in the window: File, Reading "
+        "options) and it is done on reading"
+    )
+
+
 def without_length(places: list[Point | None]) -> Iterator[Finding]:
     """Count what has no length, and say where the first is."""
     if places:
@@ -300,7 +305,7 @@ def switched_off(part: Part, requested: tuple[str, ...]) -> Iterator[Finding]:
     count = curves.total()
     who = f"Layers {', '.join(curves)} are" if len(curves) > 1 else f"Layer {next(iter(curves))} is"
     what = f"{count} curves on {'them' if len(curves) > 1 else 'it'} are" if count > 1 else "1 curve on it is"
-    advice = f"Say --layer {next(iter(curves))} to machine {'one' if len(curves) > 1 else 'it'}."
+    advice = f"Say {option('layer', next(iter(curves)))} to machine {'one' if len(curves) > 1 else 'it'}."
     yield remark(f"{who} switched off or frozen; {what} not machined. {advice}", float(count))
 
 

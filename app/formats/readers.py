@@ -6,6 +6,7 @@ from dataclasses import fields, replace
 from pathlib import PurePath
 
 from ..core.errors import InputError
+from ..core.options import option
 from ..core.wording import together
 from ..model.part import Units
 from ..model.read_options import AS_DRAWN, OPTION_OF, DrawingOptions
@@ -88,8 +89,8 @@ def check_options(how: DrawingOptions, name: str) -> None:
         if getattr(how, each) and each not in taken:
             takers = [suffix for suffix, other in FORMATS.items() if each in other.takes]
             raise InputError(
-                f"{OPTION_OF[each]} is for {together(takers)} drawings and says nothing of {PurePath(name).name}; "
-                "take it away."
+                f"{option(OPTION_OF[each])} is for {together(takers)} drawings and says nothing of "
+                f"{PurePath(name).name}; take it away."
             )
 
 

@@ -40,6 +40,7 @@ class EvenOddMeasure:
 
 
 _NO_CHORDS = np.zeros((0, 4))
+"""Lines (n, 4) from place to place, mm: none."""
 
 
 def even_odd(

@@ -13,6 +13,9 @@ import numpy as np
 from ..core.jit import kernel
 
 LOW, HIGH, X_LOW, X_HIGH, CX, CY, R = range(7)
+"""Columns of a curve that rises all along: Y where it begins and ends, X there, and of an arc its centre and radius,
+whose sign tells on which side of the centre it lies; mm.
+"""
 
 
 @kernel("float64(float64[:, ::1], int64, float64)", counts=False)

@@ -33,6 +33,7 @@ _FEW = 8
 """Rows that are measured quicker one by one."""
 
 X0, Y0, X1, Y1, CX, CY, R, TURN = range(8)
+"""Columns of a row: start, end, centre and radius, mm; turn is 1 counter-clockwise, -1 clockwise, 0 for a line."""
 
 
 @dataclass(frozen=True)

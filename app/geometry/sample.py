@@ -15,6 +15,7 @@ Points = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 
 _STEP = math.radians(2)
+"""Radians of turn from point to point of an arc or an ellipse: enough for an extent and for picking."""
 _SPAN_POINTS = 12
 """Points a span of a spline: enough for an extent and for picking."""
 _KNOWN = 4096

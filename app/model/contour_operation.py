@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..core.errors import ParameterError
+from ..core.options import option
 from .entry import Lead, LeadKind, Tabs
 from .fields import Condition, Unit, check_ranges, parameter, part
 from .operation import (
@@ -25,7 +26,7 @@ _WORN = Condition(
     lambda operation: operation.compensation is not CutterCompensation.COMPUTER,
     "the wear word",
     'add compensation = "wear"',
-    "--compensation wear",
+    lambda: option("compensation", "wear"),
 )
 
 _LEAST_LEFT = 0.1

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from ..core.errors import ParameterError
+from ..core.options import option
 from .curves import Point
 from .fields import Condition, Unit, check_ranges, parameter
 
@@ -34,7 +35,12 @@ class EntryKind(Enum):
 
 _SLOPED = Condition(lambda operation: operation.cut.entry.sloped, "a slope", 'write entry = "helix" or "ramp"')
 _LED = Condition(lambda operation: operation.lead.enabled, "a lead", 'write lead = "arc" or "line"')
-_HELD = Condition(lambda operation: operation.tabs.enabled, "tabs", "add tabs = 4 or tab_places", "--tabs N makes some")
+_HELD = Condition(
+    lambda operation: operation.tabs.enabled,
+    "tabs",
+    "add tabs = 4 or tab_places",
+    lambda: f"{option('tabs', 'N')} makes some",
+)
 
 
 @dataclass(frozen=True, slots=True)

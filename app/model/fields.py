@@ -51,13 +51,13 @@ class Condition:
         holds: of the operation that it belongs to.
         with_: what the operation has where it does, behind "with".
         remedy: how a job file asks for it.
-        option: the same on the command line, "" where that goes without saying.
+        option: says the same with options; None where that goes without saying.
     """
 
     holds: Callable[[Any], bool]
     with_: str
     remedy: str
-    option: str = ""
+    option: Callable[[], str] | None = None
 
 
 @dataclass(frozen=True)

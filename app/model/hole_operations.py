@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ..core.errors import ParameterError
+from ..core.options import option
 from .fields import Condition, Unit, check_ranges, parameter
 from .operation import ALIKE, DWELL, LEAST_LENGTH, STRAIGHT_DOWN, THROUGH, Operation, Side
 from .thread_sizes import ThreadSize
@@ -112,7 +113,12 @@ class DrillOperation(HoleOperation):
         option=True,
         choices=("Out of the hole", "Break the chip"),
         short="Between pecks",
-        needs=Condition(lambda operation: operation.peck is not None, "pecks", "add peck = 2", "--peck gives them"),
+        needs=Condition(
+            lambda operation: operation.peck is not None,
+            "pecks",
+            "add peck = 2",
+            lambda: f"{option('peck')} gives them",
+        ),
     )
     dwell: float = parameter(0.0, *DWELL, high=60.0, option=True)
     through: float = parameter(0.0, *THROUGH, high=1000.0, option=True)

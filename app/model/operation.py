@@ -28,6 +28,7 @@ MOST_PASSES = 1_000
 """Depth passes of one operation; more are a slip of the pen."""
 
 MOST_SPRING_PASSES = 10
+"""Times, at most; more are a slip of the keyboard."""
 LEAST_ENGAGED = 0.05
 """Share of the diameter; a feed that follows less would never be reached."""
 
@@ -226,7 +227,6 @@ STRAIGHT_DOWN = frozenset(
 ALIKE = 0.1
 """mm; circles whose diameter is this near to a drill's are its own."""
 
-_SAME = 1e-6
 STEPOVER = (
     "stepover",
     "Stepover",

@@ -6,18 +6,20 @@ import math
 from dataclasses import dataclass
 
 from ..core.errors import ParameterError
+from ..core.options import option
 
 LEAST_PER_INCH, MOST_PER_INCH = 1.0, 1e5
+"""Units of the page to the inch: from an inch each to a quarter of a micrometre."""
 
 
 OPTION_OF = {
-    "layout": "--layout",
-    "to_zero": "--to-zero",
-    "pixels_per_inch": "--px-per-inch",
-    "without_layers": "--skip-layer",
-    "without_types": "--skip-type",
+    "layout": "layout",
+    "to_zero": "to-zero",
+    "pixels_per_inch": "px-per-inch",
+    "without_layers": "skip-layer",
+    "without_types": "skip-type",
 }
-"""The option of the command line that asks for a field of `ReadOptions`."""
+"""The option of the command line, without its dashes, that asks for a field of `DrawingOptions`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +48,7 @@ class DrawingOptions:
     def __post_init__(self) -> None:
         given = self.pixels_per_inch
         if given is not None and not (math.isfinite(given) and LEAST_PER_INCH <= given <= MOST_PER_INCH):
-            raise ParameterError(f"--px-per-inch is {given:g}; use {LEAST_PER_INCH:g} to {MOST_PER_INCH:g}.")
+            raise ParameterError(f"{option('px-per-inch')} is {given:g}; use {LEAST_PER_INCH:g} to {MOST_PER_INCH:g}.")
 
 
 AS_DRAWN = DrawingOptions()

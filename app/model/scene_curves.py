@@ -14,6 +14,7 @@ Point2 = tuple[float, float]
 Point3 = tuple[float, float, float]
 
 MOST_DEGREE = 9
+"""Of a curve through points, at most."""
 
 
 class CurveForm(Enum):

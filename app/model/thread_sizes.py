@@ -11,6 +11,7 @@ import math
 from enum import Enum
 
 _INCH = 25.4
+"""mm."""
 _TRIANGLE = math.sqrt(3) / 2
 """Height of the triangle of 60 degrees that a thread is cut from, in pitches (ISO 68-1)."""
 _WHITWORTH = 0.960491

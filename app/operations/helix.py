@@ -13,6 +13,7 @@ from ..geometry.primitives import Rows
 Floats = NDArray[np.float64]
 
 _QUARTER = math.pi / 2
+"""Radians an arc: any control takes a quarter turn, and some no more."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..core.errors import ParameterError
 from ..core.memory import ask, fewer
+from ..core.options import option
 
 Floats = NDArray[np.float64]
 
@@ -77,8 +78,8 @@ class BitmapFrame:
         remedy = (
             f"make the picture smaller, at most {fits} px along its longer side"
             if picture
-            else f"use at most {fits} px along a side (--bitmap {fits}), or pixels of {pitch} mm or more (--pitch "
-            f"{pitch})"
+            else f"use at most {fits} px along a side ({option('bitmap', fits)}), or pixels of {pitch} mm or more "
+            f"({option('pitch', pitch)})"
         )
         ask(needed, f"A bitmap of {self.cols} x {self.rows} px", remedy)
 

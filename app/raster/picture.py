@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.errors import InputError, ParameterError
 from ..core.memory import ask, fewer
+from ..core.options import option
 from .frame import PATH_BYTES
 from .picture_file import MM_PER_INCH, Gray, PictureDensity, decoded, density_of, picture_size
 from .picture_options import PictureOptions
@@ -157,7 +158,7 @@ def _pitch(name: str, density: PictureDensity | None, options: PictureOptions) -
         return MM_PER_INCH / options.dpi
     if density is None or density.pitch is None:
         raise InputError(
-            f"{name}: the picture does not say how large it is; give the size of a pixel (--pitch MM) "
-            "or the resolution (--dpi N)."
+            f"{name}: the picture does not say how large it is; give the size of a pixel ({option('pitch', 'MM')}) "
+            f"or the resolution ({option('dpi', 'N')})."
         )
     return density.pitch

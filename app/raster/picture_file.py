@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ..core.errors import InputError
 
 MM_PER_INCH = 25.4
+"""Resolutions are told in pixels to the inch."""
 
 Gray = NDArray[np.uint8]
 """(rows, cols), row 0 = top, 0 = black."""

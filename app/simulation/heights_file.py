@@ -10,6 +10,7 @@ import numpy as np
 from numpy.lib import format as npy
 
 from ..core.errors import InputError, ParameterError
+from ..core.options import option
 from .engines import Engine
 from .field.workpiece import Grid, HeightStock, Workpiece
 
@@ -42,13 +43,15 @@ def _ensure_whole(name: str, data: bytes) -> None:
         promised = math.prod(shape) * kind.itemsize
     except Exception as error:  # Python itself reads the header: its tokenizer and parser raise whatever they meet
         said = (str(error).splitlines() or [type(error).__name__])[0][:_QUOTED]
-        raise InputError(f"{what}, for its header is damaged ({said}); write it again with --heights.") from None
+        raise InputError(
+            f"{what}, for its header is damaged ({said}); write it again with {option('heights')}."
+        ) from None
     rest = len(data) - stream.tell()
     if min(shape, default=1) < 0 or promised != rest:
         size = " x ".join(str(count)[:_QUOTED] for count in shape[:4])
         raise InputError(
             f"{what}, for its header promises {size} numbers of {kind.itemsize} bytes and {rest} bytes follow; "
-            "write it again with --heights."
+            f"write it again with {option('heights')}."
         )
 
 
@@ -91,6 +94,6 @@ def read_heights(name: str, heights: bytes, where: bytes) -> HeightStock:
     ) as error:
         raise InputError(
             f"{name}: this is no field of heights with x0, y0 and pitch in its JSON file ({str(error)[:_QUOTED]}); "
-            "write it again with --heights."
+            f"write it again with {option('heights')}."
         ) from error
     return HeightStock(Workpiece(grid, np.ascontiguousarray(field, np.float32), floor))

@@ -54,6 +54,7 @@ _WALK = np.array(
 """mm; what each cutter does in a place of its own."""
 
 _PLACES = ((2.3, 2.1), (12.4, 3.2), (21.7, 2.6), (3.1, 13.3), (13.9, 12.7))
+"""X and Y of the place of each cutter, mm."""
 _MIDDLE, _TURN = (21.7, 22.3), 1.9
 """Of the arcs: round where, and how far, radians."""
 

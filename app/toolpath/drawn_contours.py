@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ..core import tolerances
 from ..core.errors import ParameterError
+from ..core.options import option
 from ..geometry.as_circle import as_circle
 from ..geometry.chaining.chain import ChainingResult, chain
 from ..geometry.even_odd import even_odd
@@ -336,7 +337,8 @@ def _told(lines: Sequence[Contour], layer: str) -> Finding:
     mine = [line for line in lines if line.layer == layer]
     x, y = mine[0].primitives[0].start
     count = "1 stroke of a letter, which bounds" if len(mine) == 1 else f"{len(mine)} strokes of letters, which bound"
-    text = f"Layer {layer} has {count} nothing and that no operation follows; --side on engraves along them."
+    engraved = f"{option('side', 'on')} engraves along them."
+    text = f"Layer {layer} has {count} nothing and that no operation follows; {engraved}"
     ids = tuple(dict.fromkeys(number for line in mine for number in line.entity_ids))
     return Finding(FindingKind.OPEN_CONTOUR, text, x, y, False, ids, float(len(mine)))
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..core import tolerances
 from ..core.memory import ask, fitting, portion
+from ..core.options import option
 from ..core.pool import in_bands
 from ..core.progress import Progress
 from ..geometry.distance import DistanceField
@@ -142,7 +143,8 @@ class CentreReach:
         ask(
             needed,
             f"Clearing what is left with a tool of {2 * self.radius:g} mm",
-            f"use one of {larger} mm or more (--contour-tool {larger}), or a smaller one before it (--pocket-tool)",
+            f"use one of {larger} mm or more ({option('contour-tool', larger)}), or a smaller one before it "
+            f"({option('pocket-tool')})",
         )
 
 

@@ -17,6 +17,7 @@ PACKAGE = "cadquery-ocp>=8.0,<9"
 COMMAND = (sys.executable, "-m", "pip", "install", "--disable-pip-version-check", "--progress-bar", "off", PACKAGE)
 _WORDS = ("Collecting", "Downloading", "Using cached", "Installing", "Successfully")
 _LAST_LINES = 3
+"""Of what the installer said, which tell why it failed."""
 
 
 def step_files_readable() -> bool:

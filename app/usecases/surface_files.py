@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ..core.errors import InputError
+from ..core.options import option
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.scene.toml import read_scene, sources_of
 from ..model.finding import Finding
@@ -149,6 +150,6 @@ def by_facets(written: WrittenScene, how: BetterOptions, progress: Progress = NO
     """
     [file, *more] = written.files
     if more:
-        raise InputError("--facets takes a program of one tool; switch the passes of the others off.")
+        raise InputError(f"{option('facets')} takes a program of one tool; switch the passes of the others off.")
     own = replace(how, post=written.computed.scene.post, dialect=written.post.dialect)
     return improve(f"{written.computed.scene.name}{file.suffix}", file.nc.text.encode(), own, progress=progress)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.options import option
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..core.wording import together
@@ -150,7 +151,7 @@ def _unseen(stage: ProgramStage, count: int, what: str) -> Iterator[Finding]:
     if count:
         text = (
             f"{count} {what} of narrow cutters were not, or not all along, looked at between the cells, "
-            f"{stage.before.grid.pitch:.3g} mm wide; use more cells (--grid)."
+            f"{stage.before.grid.pitch:.3g} mm wide; use more cells ({option('grid')})."
         )
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(count))
 
@@ -275,7 +276,7 @@ def _holders(stage: ProgramStage, looked: HolderReport) -> Iterator[Finding]:
     if looked.unseen:
         text = (
             f"{looked.unseen} motions of which it is not sure whether shank or holder meets metal were not looked at "
-            "one by one; use fewer cells (--grid), or cut less deep."
+            f"one by one; use fewer cells ({option('grid')}), or cut less deep."
         )
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(looked.unseen))
 

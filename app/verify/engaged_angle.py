@@ -54,6 +54,7 @@ _SQUARE = 2e-4
 """mm; half the side of squares that are not divided to see whether the cutter stands on clear ground."""
 
 _TIGHT = math.radians(0.02)
+"""Radians below the greatest angle so far: what is bounded by less is not looked at more closely."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -39,6 +39,7 @@ APART = 1.0
 """mm between gouges that are told one by one."""
 
 MOST_GOUGES = 100
+"""Gouges that are told one by one, at most."""
 
 STEEPEST = 10.0
 """mm up per mm sideways; steeper places count as that steep."""

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.options import option
 from ..model.finding import Finding, FindingKind
 from ..model.motion import Floats
 from ..simulation.field.solid import SolidStock
@@ -161,7 +162,7 @@ def unseen_walls(part: SolidPart, pitch: float) -> Iterator[Finding]:
         text = (
             f"The walls of the solid are so long that they were asked every {apart:.3f} mm only, not every "
             f"{pitch / 2:.3f} mm; gouges narrower than that may be unseen beside the cells; look at a part of it "
-            "(--window)."
+            f"({option('window')})."
         )
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=apart)
 

@@ -15,6 +15,7 @@ from functools import cache, lru_cache
 from itertools import chain, islice, product
 from pathlib import Path
 
+from app.core.options import on_command_line
 from app.ui.framework.figures import TIMES
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -138,8 +139,11 @@ def texts_of(node: ast.expr, names: dict[str, list[ast.expr]], depth: int = 0) -
         case ast.JoinedStr(values=values):
             parts = [texts_of(each, names, depth + 1) for each in values]
             return ["".join(each) for each in islice(product(*parts), _MOST_CHOICES)]
+        case ast.Call(func=ast.Name(id="option"), args=[name, *value]):
+            parts = [texts_of(each, names, depth + 1) for each in (name, *value)]
+            return [on_command_line(*each) for each in islice(product(*parts), _MOST_CHOICES)]
         case ast.FormattedValue(value=value, format_spec=spec) if spec is None and isinstance(
-            value, ast.IfExp | ast.Constant | ast.Name | ast.BinOp
+            value, ast.IfExp | ast.Constant | ast.Name | ast.BinOp | ast.Call
         ):
             found = texts_of(value, names, depth + 1)
             return found if not isinstance(value, ast.Name) or len(found) <= _FEW else [HOLE]

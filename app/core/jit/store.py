@@ -31,6 +31,7 @@ FOLDER_VARIABLE = "HITOFUDE_KERNELS"
 
 _MAGIC = b"hitofude kernel 1\n"
 _DAY_S = 86400.0
+"""A day, s."""
 _STALE_PART_S = 3600.0  # no entry takes an hour to write, so its writer was killed
 _OTHERS_MAY_WRITE = stat.S_IWGRP | stat.S_IWOTH
 

@@ -28,6 +28,7 @@ MOST_CURVES = 100_000
 """A script draws no more."""
 
 _DEEPEST_CALL = 40
+"""Commands of the user's own within one another; more are one that calls itself."""
 _COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
     "<": operator.lt,
     ">": operator.gt,

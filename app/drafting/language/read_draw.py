@@ -28,6 +28,7 @@ from ..curves.shapes import (
 from ..expressions.arguments import Arguments
 
 MOST_CORNERS = 1000
+"""Of a regular polygon, at most."""
 
 
 def line(words: Arguments, session: DraftingSession) -> Draw:

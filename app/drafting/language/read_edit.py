@@ -16,6 +16,7 @@ from ..expressions.values import wrong
 from .read_draw import box
 
 MOST_COPIES = 10_000
+"""Copies of one command; more are a slip of the keyboard, and fill the memory."""
 _LOOKS = {"window": 0.04, "crossing": 0.04, "chain": 0.3}
 """To look for curves costs so much of what it costs to take them apart."""
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")

@@ -22,6 +22,7 @@ from ..expressions.values import wrong
 from .word_fields import with_fields
 
 MOST_LETTERS = 1000
+"""Letters of one command, at most."""
 
 
 class Alignment(Enum):

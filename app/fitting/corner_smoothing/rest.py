@@ -26,6 +26,7 @@ NO_BEND = math.radians(0.1)
 
 _LEAST = math.radians(1.0)
 _MOST = math.radians(20.0)
+"""Bends between these become smooth: less stays as it is, more is a vertex that is meant."""
 
 
 def without_bends(path: SmoothedPath, points: Floats, limit: float) -> SmoothedPath:

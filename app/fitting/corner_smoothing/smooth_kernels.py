@@ -14,6 +14,7 @@ from ...core.jit import kernel
 from .moment_kernels import add_up, fit_circle, fit_line, line_residual
 
 LINE, ARC = 0, 1
+"""Kinds of a segment."""
 LEAST_ARC = 4
 """Steps; three points lie on every circle."""
 SHORT = 3

@@ -11,6 +11,7 @@ import numpy as np
 from ...core.jit import kernel
 
 LINE, ARC = 0, 1
+"""Kinds of what stands for points from one of them on."""
 _LEAST_CHORDS = 3
 """An arc stands for so many chords at least: two points and a bend between them are no evidence of one."""
 _WIDEST = 4.0

@@ -13,6 +13,7 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
+from ..band_kernels import factor
 
 _R, _Z, _BANDS, _FRAMES = "float64[::1]", "complex128[::1]", "float64[:, ::1]", "complex128[:, ::1]"
 _SAMPLES = 32
@@ -283,19 +284,8 @@ def _turns(z, half, frames, first, stop, band, slope):
 def _solved(band, right):
     """Solve a symmetric positive system, given by its lower band, in place."""
     count, p = len(band), band.shape[1] - 1
-    # Cholesky: band = L Lᵀ. L has no entries outside the band either, so the cost is count times its width squared.
-    for i in range(count):
-        for off in range(min(p, i), -1, -1):
-            j = i - off
-            total = band[i, off]
-            for m in range(max(0, i - p), j):
-                total -= band[i, i - m] * band[j, j - m]
-            if off > 0:
-                band[i, off] = total / band[j, 0]
-            elif not total > 0.0:
-                return False
-            else:
-                band[i, 0] = math.sqrt(total)
+    if not factor(band):
+        return False
     for i in range(count):
         for j in range(max(0, i - p), i):
             right[i] -= band[i, i - j] * right[j]

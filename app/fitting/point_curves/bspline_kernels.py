@@ -4,11 +4,10 @@ alone.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from ...core.jit import kernel
+from ..band_kernels import factor
 from .tube_feet_kernels import settle
 from .tube_kernels import P, first_exit, holds_point, point_at
 
@@ -44,19 +43,8 @@ def _span_of(knots, degree, t, span):
 def _cholesky(band, right):
     """Solve a symmetric positive system, given by its lower band (k, p + 1), in place."""
     count, p = len(band), band.shape[1] - 1
-    # band = L Lᵀ; L has no entries outside the band, so that the cost rises with the count alone.
-    for i in range(count):
-        for off in range(min(p, i), -1, -1):
-            j = i - off
-            total = band[i, off]
-            for m in range(max(0, i - p), j):
-                total -= band[i, i - m] * band[j, j - m]
-            if off > 0:
-                band[i, off] = total / band[j, 0]
-            elif total <= 0.0:
-                return False
-            else:
-                band[i, 0] = math.sqrt(total)
+    if not factor(band):
+        return False
     for axis in range(3):
         for i in range(count):
             total = right[i, axis]

@@ -5,13 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...model.motion import Floats, Nurbs
 
 _CUBIC, _QUINTIC = 3, 5
+"""Degrees: what controls take, and what is approximated."""
 _ROUNDS = 16
 """Rounds of halving spans at most: a cubic is off by the fourth power of its span."""
 _AT = np.arange(_QUINTIC + 1) / _QUINTIC
+"""Parameters of a span at which a piece of degree 5 is known by its values: as many as it has coefficients."""
 _BINOMIAL = np.array([1, 5, 10, 10, 5, 1])
+"""Of degree 5: the weights of its control points."""
 _CONTROL = np.linalg.inv(_BINOMIAL * _AT[:, None] ** np.arange(6) * (1 - _AT[:, None]) ** np.arange(5, -1, -1))
 """From a quintic's values at six even parameters to its control points."""
 
@@ -46,5 +50,6 @@ def cubic_near(curve: Nurbs, near: float) -> Nurbs:
             return Nurbs(points, np.ones(len(points)), np.array(cubic.t), _CUBIC)
         breaks = np.insert(breaks, far + 1, (breaks[far] + breaks[far + 1]) / 2)
     raise InputError(
-        f"No cubics come within {near:g} mm of a spline of degree 5; use --degree 3, or a larger tolerance."
+        f"No cubics come within {near:g} mm of a spline of degree 5; use {option('degree', '3')}, or a larger "
+        "tolerance."
     )

@@ -31,6 +31,7 @@ _LEAST = 16
 _PLANE_PLACES = 600
 """Points of a plane that stand for all of them."""
 NO_PIECE = -1
+"""Number of the piece of points that belong to none."""
 
 
 @dataclass(frozen=True, eq=False)

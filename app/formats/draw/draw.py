@@ -12,6 +12,7 @@ from ..drawing import Drawing
 from ..drawing_account import on_layers, other_units, switched_off
 
 MOST_BYTES = 20_000_000
+"""Of a text that is read, at most."""
 
 
 def read_draw(

@@ -12,6 +12,7 @@ from math import cos, isfinite, radians, sin, sqrt
 from typing import Any, NamedTuple
 
 from ...core.errors import HitofudeError, InputError
+from ...core.options import option
 from ...geometry.affine import Affine, transformed
 from ...model.curves import Curve, Point
 from ..drawing_account import LEVEL_ZERO, MOST_CURVES, LayeredCurve
@@ -410,7 +411,7 @@ class DxfWalker:
     def _bounded(self, count: int, insert: Any = None) -> None:
         if count > MOST_CURVES:
             texts = (
-                f", or leave its texts out: {' '.join(f'--skip-type {kind}' for kind in self._read)}"
+                f", or leave its texts out: {' '.join(option('skip-type', kind) for kind in self._read)}"
                 if self._read
                 else ""
             )

@@ -11,6 +11,7 @@ from pathlib import PurePath
 from typing import Any
 
 from ...core import tolerances
+from ...core.options import option
 from ...geometry.affine import scaled
 from ...geometry.chaining.pieces import FARTHEST
 from ...model.drawn_depths import DepthSource, DrawnDepth, depth_words
@@ -21,13 +22,13 @@ from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
 from ..drawing import Drawing, LeftOutKind
 from ..drawing_account import (
-    MOVE,
     PAPER,
     CurveHeights,
     LayeredCurve,
     UsableCurves,
     all_left_out,
     listed,
+    moving,
     on_layers,
     other_units,
     placement_findings,
@@ -234,16 +235,17 @@ def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> 
     if found.far and found.moved is None:
         return (
             f"all of the drawing lies beyond 1 km, at ({found.far[0].place[0]:.3f}, {found.far[0].place[1]:.3f}) mm; "
-            f"{MOVE}{said}."
+            f"{moving()}{said}."
         )
     if content.hidden:
         hidden = " ".join(each.text for each in hidden_insert_findings(content, 1.0))
         return f"the drawing has no curves that are shown. {hidden}"
     if others:
         layout = others.most_common(1)[0][0]
+        asked = option("layout", f'"{layout}"')
         return (
-            f"model space has no lines, arcs or curves to machine, but layout {layout} has something: say --layout "
-            f'"{layout}"{said}.'
+            f"model space has no lines, arcs or curves to machine, but layout {layout} has something: say "
+            f"{asked}{said}."
         )
     return f"the drawing has no lines, arcs or curves to machine{said}."
 
@@ -297,8 +299,8 @@ def _unit_findings(given: Units | None, unit: _Unit) -> Iterable[Finding]:
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
     elif not unit.named and given is None:
         text = (
-            f"The drawing names no units; {word} is assumed. If it is in inches, say --units in, or choose them on "
-            "opening."
+            f"The drawing names no units; {word} is assumed. If it is in inches, say {option('units', 'in')}, or "
+            "choose them on opening."
         )
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
     elif unit.named:

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from ...core.options import option
 from ...core.wording import place_mm, together
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
@@ -74,10 +75,11 @@ def band_findings(bands: Sequence[WidePolyline], size: float) -> Iterator[Findin
             if len(alike) == 1
             else f"{len(alike)} polylines on layer {layer} are drawn as bands {wide} mm wide, the first"
         )
+        slot = option("slot-width")
         read, do = (
-            ("its middle line is", "Cut it as a slot of that width (--slot-width), or draw its outline")
+            ("its middle line is", f"Cut it as a slot of that width ({slot}), or draw its outline")
             if len(alike) == 1
-            else ("their middle lines are", "Cut them as slots of their widths (--slot-width), or draw their outlines")
+            else ("their middle lines are", f"Cut them as slots of their widths ({slot}), or draw their outlines")
         )
         yield Finding(
             FindingKind.ASSUMED,
@@ -107,7 +109,7 @@ def broken_line_findings(lines: Sequence[BrokenLine], size: float) -> Iterator[F
         )
         text = (
             f"{what} drawn in line type {kinds}, as centre lines and hidden edges are, and read like any other; what "
-            "is not to be machined belongs on a layer of its own, which --skip-layer leaves out."
+            f"is not to be machined belongs on a layer of its own, which {option('skip-layer')} leaves out."
         )
         yield Finding(FindingKind.ASSUMED, text, x, y, counts=False, amount=float(count), layer=layer)
 
@@ -126,10 +128,10 @@ def layer_findings(document: Any, used: Mapping[str, int]) -> Iterator[Finding]:
             what = "its curve is" if count == 1 else f"its {count} curves are"
             text = (
                 f"Layer {name} is drawn in line type {line_type}, as centre lines and hidden edges are; {what} read "
-                "like any other. --skip-layer leaves it out."
+                f"like any other. {option('skip-layer')} leaves it out."
                 if plotted
                 else f"Layer {name} is never plotted, as layers of construction lines are; {what} read like any other. "
-                "--skip-layer leaves it out."
+                f"{option('skip-layer')} leaves it out."
             )
             yield Finding(FindingKind.ASSUMED, text, counts=False, amount=float(count), layer=name)
 
@@ -150,7 +152,7 @@ def _hidden(inserts: list[HiddenInsert], size: float) -> Finding:
     first = "" if len(inserts) == 1 else "the first "
     where = f", {first}at ({place_mm(at[0] * size)}, {place_mm(at[1] * size)})," if at is not None else ""
     what = f"Block {named} is" if len(inserts) == 1 else f"{len(inserts)} blocks ({named}) are"
-    requested = " ".join(f"--layer {each}" for each in list(dict.fromkeys((layer, *curves)))[: _NAMED + 1])
+    requested = " ".join(option("layer", each) for each in list(dict.fromkeys((layer, *curves)))[: _NAMED + 1])
     lost = "1 curve is" if len(curves) == 1 else f"{len(curves)} curves are"
     return remark(
         f"{what} inserted{where} on layer {layer}, which is frozen; {lost} not shown and not machined. "
@@ -167,9 +169,8 @@ def text_findings(texts: Sequence[TextCurves], size: float) -> Iterator[Finding]
     """
     if not texts:
         return
-    out = "leave them out with " + " ".join(
-        f"--skip-type {kind}" for kind in dict.fromkeys(each.kind for each in texts)
-    )
+    kinds = dict.fromkeys(each.kind for each in texts)
+    out = f"leave them out with {' '.join(option('skip-type', kind) for kind in kinds)}"
     counts = Counter(pair for each in texts for pair in each.fonts)
     fonts = ", ".join(f"{count} {_in_font(*pair)}" for pair, count in counts.most_common(_NAMED))
     more = f" and {len(counts) - _NAMED} more fonts" if len(counts) > _NAMED else ""
@@ -237,5 +238,5 @@ def hatch_findings(drawn: DrawnCurves) -> Iterator[Finding]:
             how = f"{what} drawn as curves too, and not taken twice"
         else:
             how = f"{what} read as outlines to machine, but for {drawn.repeated} drawn as curves too"
-        out = " ".join(f"--skip-type {kind}" for kind in drawn.kinds)
+        out = " ".join(option("skip-type", kind) for kind in drawn.kinds)
         yield remark(f"{how}; leave them out with {out}.", float(new))

@@ -19,6 +19,7 @@ from ...model.tool import FeedRow
 Value = TypeVar("Value")
 _MISSING = object()
 _LARGEST = 1e15
+"""Of a number: larger ones lose their decimals."""
 
 
 @dataclass(frozen=True)

@@ -21,9 +21,13 @@ from .page import Box, FilledPolygon, PageContent, Pen, PenStroke, TextLine
 INK = "#000000"
 TOOL_COLOURS = ("#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#7A6BC2", "#D55E00", "#882255", "#3B4F9E")
 PART_MM, NOTE_MM, PATH_MM, LINK_MM = 0.35, 0.18, 0.25, 0.13
+"""Widths of pens on paper, mm."""
 ARROW_MM, FIGURE_MM, _MARK_MM = 2.5, 3.5, 1.0
+"""On paper, mm: length of an arrow, height of a figure, arm of a mark."""
 _LIFT_MM = 0.8
+"""Between a line of a dimension and its figure, mm on paper."""
 CONTOUR_DASH = (3.0, 1.5)
+"""Dash and gap, mm on paper."""
 _DASHED = (Purpose.CONTOUR, Purpose.TAB, Purpose.DOG_BONE)
 
 

@@ -19,7 +19,9 @@ from .page import PageContent, Pen, PlotPage, TextLine, chains, segments
 Floats = NDArray[np.float64]
 
 _TOLERANCE = 0.002
+"""mm on paper between a curve and its chords."""
 _STEPS = np.linspace(0.0, 1.0, 9)[1:, None]
+"""Parameters of a cubic at which it is made chords of."""
 CAPITAL, _LETTER_WIDTH = 0.72, 0.07
 """Height of capitals and width of their lines, of the height of a text."""
 

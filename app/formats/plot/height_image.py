@@ -20,8 +20,11 @@ SIDE = 1024
 """Pixels of the longer side, about; cells of a coarse field are drawn as squares of pixels."""
 
 MARGIN, LEGEND, ROW = 24, 200, 24
+"""Pixels round the picture, of the legend, and of a line of it."""
 PAPER, INK, MUTED = (250, 250, 248), (30, 34, 39), (92, 98, 106)
+"""Colours of the sheet, red, green and blue."""
 GOUGE, LEFT, UNREACHABLE, NOTHING = (211, 47, 47), (41, 121, 255), (176, 168, 200), (58, 62, 68)
+"""Colours of what is wrong, and of where no metal is."""
 RAMP = ((236, 231, 214), (190, 205, 182), (132, 170, 160), (92, 128, 134), (70, 88, 108))
 """Colours of the metal from its top down."""
 
@@ -35,6 +38,7 @@ _SEEN = 3
 """Pixels that what is wrong is at least wide, so that it is seen."""
 
 _HATCH = 7
+"""Pixels from stroke to stroke of what is out of reach."""
 
 _FLOOR = 1e-4
 """mm over the floor up to which a mean of cells without metal can lie by rounding."""

@@ -18,6 +18,7 @@ from ...model.curves import Arc, Circle, Curve, Line, Point
 from .page import FilledPolygon, PageContent, Pen, PlotPage, TextLine
 
 UNITS_PER_MM = 40
+"""Steps of a plotter, as the language counts them."""
 _TOLERANCE = 0.005
 """How far lines and arcs may leave an ellipse or a spline, mm: a fifth of a plotter unit."""
 _LINE_TYPES = {1: (0.0, 1.0), 2: (0.5, 0.5), 3: (0.7, 0.3), 4: (0.8, 0.1, 0.0, 0.1), 5: (0.7, 0.1, 0.1, 0.1)}

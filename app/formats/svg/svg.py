@@ -10,6 +10,7 @@ from itertools import starmap
 from pathlib import PurePath
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...geometry.affine import Affine
 from ...model.finding import Finding, FindingKind
 from ...model.part import Layer, Part, Units
@@ -17,10 +18,10 @@ from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
 from ..drawing import Drawing, LeftOutKind
 from ..drawing_account import (
-    MOVE,
     UsableCurves,
     all_left_out,
     listed,
+    moving,
     on_layers,
     other_units,
     placement_findings,
@@ -113,7 +114,7 @@ def read_svg(
         )
         far = bool(found.far and not how.to_zero)
         raise UndecidedError(
-            f"{name}: {why}{f'; {MOVE}' * far}{listed(left_out, '; left out: ')}.",
+            f"{name}: {why}{f'; {moving()}' * far}{listed(left_out, '; left out: ')}.",
             far_question(found.far[0][0], reading, page.shown) if far else None,
         )
     shown = tuple(note.layer(layer) for layer, note in content.layers.items())
@@ -162,7 +163,9 @@ def _opened(name: str, data: bytes, units: Units | None, how: DrawingOptions) ->
             f"{name}:{root.line}: this is not an SVG file, it begins with {root.tag[:60]}; export the drawing as SVG."
         )
     if units is not None and how.pixels_per_inch is not None:
-        raise InputError(f"{name}: units and --px-per-inch say the same of a drawing in two ways; give one of them.")
+        raise InputError(
+            f"{name}: units and {option('px-per-inch')} say the same of a drawing in two ways; give one of them."
+        )
     density = density_of(root) if how.pixels_per_inch is None else PixelDensity(how.pixels_per_inch)
     try:
         page = _page(root, units, density.pixel, how.overrule)
@@ -264,15 +267,15 @@ def _units(given: Units | None, page: _Page, density: PixelDensity, how: Drawing
         yield from other_units(given, page.shown)
         if how.pixels_per_inch is not None:
             yield remark(
-                "The drawing tells its real size; --px-per-inch counts only for what of it is in pixels of the page."
+                f"The drawing tells its real size; {option('px-per-inch')} counts only for what of it is in pixels of "
+                "the page."
             )
     elif given is None and how.pixels_per_inch is None:
         who = f"It was written by {density.editor}, so " if density.editor else ""
-        other = (
-            f", and --px-per-inch {CSS_PER_INCH:g} if it was saved by another editor since" if density.editor else ""
-        )
+        another = f", and {option('px-per-inch', f'{CSS_PER_INCH:g}')} if it was saved by another editor since"
+        other = another if density.editor else ""
         text = (
             f"The drawing has no real size; {who}{density.per_inch:g} units to the inch are assumed. If a unit is 1 "
-            f"mm or 1 inch, choose --units, or on opening{other}."
+            f"mm or 1 inch, choose {option('units')}, or on opening{other}."
         )
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from ...core.errors import MOST_QUOTED, shortened
+from ...core.options import option
 from ...core.progress import Progress
 from ...model.part import Units
 from .block import SLASH, Block, BlockStep, Grammar, ParsedLine, Watch, block_of, parse
@@ -70,8 +71,6 @@ _PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
 
 _COMPUTED = re.compile(r"[#\[]")
 """What the lane computes for controls with O words alone."""
-
-_OF_ANOTHER = "take it out, or say --dialect where the program is for another control."
 
 _ENDS = ("M2", "M30")
 
@@ -417,11 +416,11 @@ class InterpreterRun:
         title, strict = self._rules.title, self._options.dialect in (Dialect.LINUXCNC, Dialect.GRBL)
         for code in [*block.codes.values(), *block.coolant]:
             if code in self._rules.missing:
-                raise BlockFault(f"{title} does not know {code}; {_OF_ANOTHER}", letter=code[0].lower())
+                raise BlockFault(f"{title} does not know {code}; {_of_another()}", letter=code[0].lower())
         for code in block.unknown:
             own = code[0] == "M" and 100 <= float(code[1:]) < 200
             if (code[0] == "G" or strict) and not (own and self._options.dialect is Dialect.LINUXCNC):
-                raise BlockFault(f"{code} is not known; {_OF_ANOTHER}", letter=code[0].lower())
+                raise BlockFault(f"{code} is not known; {_of_another()}", letter=code[0].lower())
             self._control.warn(f"{code} is the machine builder's own; what it does is not followed.", code[0].lower())
         unused = (
             "" if block.unknown or any(code in block.codes.values() for code in ("M98", "G65")) else self._unused(block)
@@ -501,6 +500,11 @@ def warn_of_bytes(control: Control, file: bytes) -> None:
         before = file[:at].replace(b"\r\n", b"\n").replace(b"\r", b"\n")
         control.line = before.count(b"\n") + 1
         control.warn(f"{what}; {_SAVE}")
+
+
+def _of_another() -> str:
+    """Return what to do with a code that the control does not know."""
+    return f"take it out, or say {option('dialect')} where the program is for another control."
 
 
 def _odd(file: bytes, dialect: Dialect) -> Iterator[tuple[int, str]]:

@@ -23,7 +23,9 @@ GRID = 16.0
 FEW = 4096
 """Pairs of rows that are compared one by one."""
 DEEPEST = 40
+"""Levels of division, at most."""
 FIRST_STEP = 64
+"""Rows that are compared at first."""
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,7 @@ of it.
 """
 
 _LINES_A_STEP = 1000
+"""Lines between two looks at whether to stop."""
 
 _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 

@@ -21,6 +21,7 @@ JOINED = (Dialect.FANUC, Dialect.HAAS, Dialect.MACH3)
 """Alone their G43 and G49 may move Z, so that they stand in the block of the next move along Z."""
 _TURNS = {1: "M3", -1: "M4", 0: "M5"}
 MOST_DWELL_OFF_S = 1e-6
+"""Seconds that a dwell may be off by the decimals of its word; more is a dwell of another length."""
 MOST_FEED_OFF = 0.05
 """mm/min; where a feed would be rounded by more it has more digits than the post's."""
 RARE_DIGITS = 4

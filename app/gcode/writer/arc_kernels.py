@@ -10,11 +10,13 @@ import numpy as np
 from ...core.jit import kernel
 
 SAMPLES = 8
+"""Places along an arc, in parts of it, at which what is written is held against what is meant."""
 DEEPEST = 1000
 """So many halves of halves are no arc that a machine makes, but numbers that are none."""
 FARTHEST_ROUNDED = math.sqrt(0.5)
 """How far a point may be from the nearest grid point, in steps of the last decimal."""
 NEIGHBOURS = np.array(((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)))
+"""Last digits of a centre that are tried about the rounded one, the nearest first."""
 
 _START_RADIUS, _END_RADIUS, _ANGLE, _SWEEP = range(4)  # columns of a shape
 _STEP, _SCALE, _CENTRE_SCALE, _TOLERANCE, _LARGEST_SWEEP, _LEAST, _MOST, _MISMATCH = range(8)  # of the rules

@@ -23,6 +23,7 @@ from ..operation_notes import ALLOWED, plain_numbers, spelled, written
 from ..posts import Post
 
 LONGEST_NAME = 60
+"""Letters of a part's name in a comment, at most."""
 
 
 @dataclass(frozen=True, slots=True)

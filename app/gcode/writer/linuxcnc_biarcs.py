@@ -18,6 +18,7 @@ from ...model.motion import Floats, MotionKind, Motions, Nurbs, Plane
 STEPS = 4
 """Steps a control point."""
 _STRAIGHT = 1e-12
+"""Of a length, and of a sine: what is less is a line."""
 _LEAST_TURN = 1e-5
 """Radians; where a step turns by less, the control's own formula divides by nothing, or by next to it."""
 

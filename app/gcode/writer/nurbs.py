@@ -22,11 +22,13 @@ from .template_fields import counts, numeral
 Floats = NDArray[np.float64]
 
 CUBIC = 3
+"""The highest degree that controls take."""
 LARGEST_WEIGHT = 9999.0
 """Of R: only the weights' ratios count, and R has few digits behind its point."""
 WEIGHT_DIGITS = 9
 """Of P of G5.2."""
 MOST_KNOTS = 99999
+"""The largest knot that is written."""
 _UNITS = tuple(2.0**-k for k in range(13))
 """Knots that are multiples of one of them are written as they are."""
 _CRUMB = 12.0

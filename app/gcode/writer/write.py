@@ -25,6 +25,7 @@ from .template_fields import Fields, program_fields, tool_fields
 from .work_moves import ArcRules, MotionRows, WorkMoves, motion_rows, work_moves
 
 MOVES_A_STEP = 8192
+"""Moves between two looks at whether to stop."""
 
 LARGEST_DEVIATION = 1e-3
 """No written arc leaves the meant one by more, mm, unless the last decimal itself is coarser."""

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from ...core import tolerances
+from ...core.options import option
 from ...core.wording import trimmed
 from ...model.curves import Circle, Line, Point, Primitive
 from ...model.finding import Finding, FindingKind
@@ -103,31 +104,48 @@ def overlap_findings(
     shared: Iterable[SharedPiece], contours: Sequence[Contour], join_tolerance: float
 ) -> list[Finding]:
     """Return a finding for each overlap; one that was removed, joined, or is the wall of two outlines is a remark."""
-    place = {entity: k for k, contour in enumerate(contours) for entity in contour.entity_ids}
+    place = {entity: contour for contour in contours for entity in contour.entity_ids}
     found = []
     for each in shared:
         a, b, overlap = each.first, each.second, each.overlap
-        middle = ((overlap.start[0] + overlap.end[0]) / 2, (overlap.start[1] + overlap.end[1]) / 2)
-        one, other = place.get(a.entity), place.get(b.entity)
-        counts = False
-        if overlap.removed:
-            what = f"; {_noun(b.primitives[0])} {b.entity} adds nothing and is left out."
-        elif overlap.trimmed:
-            what = "; one was cut to where the other ends."
-        elif one is None or other is None:
+        done = _removed(each) or _shared(each, place, join_tolerance)
+        if not done and not (a.entity in place and b.entity in place):
             continue
-        elif one != other and contours[one].closed and contours[other].closed:
-            what = f"; {_lower(named(contours[one]))} and {_lower(named(contours[other]))} share this stretch."
-        elif overlap.length <= join_tolerance + tolerances.WELD:
-            what = "; their ends were joined."
-        else:
-            length = rounded_up(overlap.length)
-            joined = f", or join with a tolerance of {length} mm if that is small enough for the part"
-            what = f"; trim one{joined * (float(length) <= LARGEST_JOIN)}."
-            counts = True
-        text = f"{_names(a, b)} overlap by {overlap.length:.3f} mm from {at(overlap.start)} to {at(overlap.end)}{what}"
-        found.append(Finding(FindingKind.OVERLAP, text, *middle, counts, (a.entity, b.entity), overlap.length))
+        middle = ((overlap.start[0] + overlap.end[0]) / 2, (overlap.start[1] + overlap.end[1]) / 2)
+        what = done or _to_trim(overlap)
+        text = (
+            f"{_names(a, b)} overlap by {overlap.length:.3f} mm from {at(overlap.start)} to {at(overlap.end)}; {what}"
+        )
+        found.append(Finding(FindingKind.OVERLAP, text, *middle, not done, (a.entity, b.entity), overlap.length))
     return limited(found, "overlapping curves")
+
+
+def _removed(shared: SharedPiece) -> str:
+    """Return what was taken away of an overlap, or ""."""
+    if shared.overlap.removed:
+        return f"{_noun(shared.second.primitives[0])} {shared.second.entity} adds nothing and is left out."
+    return "one was cut to where the other ends." if shared.overlap.trimmed else ""
+
+
+def _shared(shared: SharedPiece, place: Mapping[int, Contour], join_tolerance: float) -> str:
+    """Return why nothing is to be done about an overlap of contours, or "".
+
+    Args:
+        place: the contour of each entity that is in one. join_tolerance: mm.
+    """
+    one, other = place.get(shared.first.entity), place.get(shared.second.entity)
+    if one is None or other is None:
+        return ""
+    if one is not other and one.closed and other.closed:
+        return f"{_lower(named(one))} and {_lower(named(other))} share this stretch."
+    return "their ends were joined." if shared.overlap.length <= join_tolerance + tolerances.WELD else ""
+
+
+def _to_trim(overlap: Overlap) -> str:
+    """Return what to do about an overlap."""
+    length = rounded_up(overlap.length)
+    joined = f", or join with a tolerance of {length} mm if that is small enough for the part"
+    return f"trim one{joined * (float(length) <= LARGEST_JOIN)}."
 
 
 def repeat_findings(doubles: Sequence[tuple[Contour, Contour]]) -> list[Finding]:
@@ -302,6 +320,7 @@ def _spare(layer: str, bounding: set[str]) -> str:
 def _leaving(what: str, layer: str, bounding: set[str]) -> str:
     """Return how to leave lines out; `bounding` are the layers that must stay, for closed contours lie on them."""
     if layer in bounding:
-        return f"draw {what} on a layer of {'its' if what == 'it' else 'their'} own, which --skip-layer leaves out"
+        whose = "its" if what == "it" else "their"
+        return f"draw {what} on a layer of {whose} own, which {option('skip-layer')} leaves out"
     quoted = layer if layer.isalnum() else f'"{layer}"'
-    return f"leave the layer out: --skip-layer {quoted}"
+    return f"leave the layer out: {option('skip-layer', quoted)}"

@@ -40,6 +40,7 @@ _FIELD = 1e-6
 """mm; what the distance field may differ by from a radius, a thousandth of what a path may."""
 
 _PROBES = np.array([0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98])
+"""Shares of a piece of the axis at which its discs are held against the walls."""
 
 _ALIKE = 1e-9
 """mm; regions whose rows lie so near to one another about their middles have one axis. A distance from walls that are
@@ -47,6 +48,7 @@ moved by so much changes by no more, so what is proven of one holds for the othe
 """
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+"""Gauss's rule of 12 nodes for an area along a piece: exact for polynomials up to degree 23."""
 
 _HALVINGS = 24
 """Times a piece is halved at most while its area is integrated."""

@@ -74,6 +74,7 @@ not at all.
 """
 
 _ATTEMPTS = tuple((nudge, limit) for limit in (_EXACT, tolerances.LEVEL / 2) for nudge in _NUDGES)
+"""Nudge and limit of each try, mm, the exact limit first."""
 
 
 @dataclass(frozen=True)

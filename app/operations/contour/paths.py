@@ -382,6 +382,7 @@ def contour_strokes(rings: Sequence[Ring], direction: Direction) -> tuple[Stroke
 
 
 _NONE = np.zeros(0)
+"""Places along a path where it is broken: none."""
 
 _POINT = 0.01
 """mm; a shorter path is a plunge, which has neither tabs nor corners."""

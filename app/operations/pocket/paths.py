@@ -10,6 +10,7 @@ from itertools import pairwise
 from ...core import tolerances
 from ...core.errors import ParameterError
 from ...core.memory import ask
+from ...core.options import option
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, offset_levels
@@ -269,7 +270,7 @@ def pocket_distances(outermost: float, stepover: float, field: DistanceField) ->
     ask(
         count * _RING_BYTES,
         f"A pocket of {count:,} rings, {stepover:g} mm from one to the next,",
-        "use a larger tool (--pocket-tool) or stepover (--stepover)",
+        f"use a larger tool ({option('pocket-tool')}) or stepover ({option('stepover')})",
     )
     return tuple(outermost + k * stepover for k in range(count))
 

@@ -22,6 +22,7 @@ _ABOUT = 5e-3
 """mm; an arc whose centre is this near to a hole's axis goes round it."""
 
 _ANGLES = np.linspace(-1.2, 1.2, 2001)
+"""Radians to both sides of where a tooth cuts deepest, at which it is held against the thread's flank."""
 
 
 def milled_proof(evidence: ProofInput) -> ThreadProof | None:

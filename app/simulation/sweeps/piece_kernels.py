@@ -7,6 +7,7 @@ import math
 from ...core.jit import kernel
 
 _QUARTER = math.pi / 2
+"""Radians; directions at whose multiples an arc lies farthest along an axis."""
 _POINTS, _NUMBERS, _COUNTS = "float64[:, ::1]", "float64[::1]", "int64[::1]"
 _ARCS = (
     f"Tuple((int64[:, ::1], {_POINTS}, {_NUMBERS}, {_NUMBERS}, {_NUMBERS}, {_NUMBERS}, {_NUMBERS}, {_NUMBERS}, "

@@ -31,6 +31,7 @@ fewer chords.
 """
 
 QUARTER = math.pi / 2
+"""Radians; a longer level arc is swept in parts."""
 
 _BANDS, _WORTH_TWO_CORES = 4, 20_000
 """Bands that motions are split in, and pieces from which that is worth it."""

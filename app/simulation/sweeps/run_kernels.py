@@ -23,6 +23,9 @@ LANES = 16
 """Cells that are computed at a time, float32: as many as the widest vector registers hold."""
 _F = np.float32
 _ZERO, _ONE, _STEP, _NEVER = _F(0.0), _F(1.0), _F(LANES), _F(math.inf)
+"""In float32, since a number of Python would make all a run computes float64: nought, one, cells a step, and what is
+higher than any metal.
+"""
 _LINE = "void(float32[::1], int64, int64, UniTuple(float32, 5), UniTuple(float32, {}))"
 
 

@@ -25,6 +25,7 @@ STRIDE = TILE + 2 * LANES
 """Floats from line to line of a tile: runs end up to 15 cells behind their last cell."""
 
 BALL, FLAT_END, CONE, TAPER, BULL = range(5)
+"""Kinds of a run, by what of the cutter is over its cells."""
 _LEVEL = 5
 """Kind of a run, behind those of cutters: any of them on a level move."""
 
@@ -33,6 +34,7 @@ LOWEST_RISE = 1e-9
 
 _F = np.float32
 _ZERO, _FAR = _F(0.0), 1e18
+"""Nought in float32; mm that are farther than any grid is wide."""
 _SHAPE, _FRAME, _PLACE = "UniTuple(float64, 7)", "UniTuple(float64, 5)", "UniTuple(float64, 6)"
 _PLAN = "UniTuple(float64, 17)"
 _ARC = "UniTuple(float64, 4)"

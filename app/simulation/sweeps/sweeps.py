@@ -34,6 +34,7 @@ CHUNKS = 4
 """Parts in which pieces are sorted."""
 
 WORKERS = max(2, os.cpu_count() or 2)
+"""Pieces of work that sweep tiles beside one another: one a core, two at least."""
 
 Mask = NDArray[np.bool_]
 

@@ -15,7 +15,7 @@ from .trace_kernels import NOTES
 NOTHING, CUTS, ASKS = range(3)
 """What a piece does: nothing, it cuts, or it only tells where it would cut."""
 
-_PLACES, _BEFORE, _SHAPE = "Array(float64, 2, 'C', True)", "Array(float32, 2, 'C', True)", "UniTuple(float64, 7)"
+_PLACES, _BEFORE = "Array(float64, 2, 'C', True)", "Array(float32, 2, 'C', True)"
 _TABLES = "uint8[::1], int32[::1], int32[::1], float64[:, ::1], float64[:, ::1]"
 _COURSE = "UniTuple(float64, 5)"
 _BOX = "UniTuple(float64, 4)"

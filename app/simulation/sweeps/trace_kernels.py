@@ -22,6 +22,9 @@ _F = np.float32
 # mm; a motion that lowers a cell by no more only rounds otherwise, so the cell stays its former owner's
 _TRIFLE = _F(1e-5)
 _ZERO, _ONE, _STEP, _NEVER = _F(0.0), _F(1.0), _F(LANES), _F(math.inf)
+"""In float32, since a number of Python would make all a run computes float64: nought, one, cells a step, and what is
+higher than any metal.
+"""
 _CELLS = "float32[::1], int32[::1]"
 
 

@@ -25,6 +25,7 @@ DEEPEST = 64
 ROOM = 96
 """Rows of WORK: facets that wait, four for the quarters that are being sorted, one for what is quartered."""
 QUARTERS, LAST = ROOM - 4, ROOM - 5
+"""The first of the rows for quarters, and the row of what is quartered."""
 LIKELY = 64
 """Facets that may be touched at one place and are remembered, the highest of them."""
 OFF, HIGHEST, GROUP = 15, 16, 16

@@ -10,6 +10,7 @@ _FIRST, _SECOND = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xC2B2AE3D27D4EB4F)
 """Odd numbers that spread the bits of a word over all of it."""
 
 _SHIFT = np.uint64(32)
+"""Bits: half a word, so that a hash of its upper half reaches the lower one that picks the slot."""
 
 
 @kernel("int64(uint64[:, ::1], int32[::1], int64[::1])")

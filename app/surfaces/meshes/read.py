@@ -21,6 +21,9 @@ _SANE = 1e12
 """No corner of a part lies so far out; one that does is no number that anybody has written."""
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+"""A triangle of a binary STL file, 50 bytes, little-endian: its normal, its corners, and a number that nobody agrees
+on.
+"""
 _LINE_END = re.compile(rb"[\r\n]+")
 _MARK = b"\xef\xbb\xbf"
 """Before a text that some editor has saved."""

@@ -25,7 +25,9 @@ NONE = -1
 _PART = 1 << 16
 """Facets that are looked at together: what is needed meanwhile stays near the processor, and small."""
 _BITS = 16
+"""Of a coordinate in the number that facets are sorted by, so that those beside one another lie together."""
 _STEEP = 4.0
+"""mm up per mm sideways; an upright facet rises by any length and counts as of so much."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 HIGHEST_DEGREE = 9
+"""Degree along either parameter, at most."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,7 @@ from ...core.jit import kernel
 from ...model.scene_curves import MOST_DEGREE
 
 _BINOMIALS = np.array([[math.comb(n, k) for k in range(MOST_DEGREE + 1)] for n in range(MOST_DEGREE + 1)], np.float64)
+"""n over k in row n, column k: what weighs a control point of a degree."""
 _MANY, _NETS = "float64[:, ::1]", "float64[:, :, :, ::1]"
 
 

@@ -27,6 +27,7 @@ Ints = NDArray[np.int64]
 _GRID = 8
 """Most facets along a side of a sub-patch; one that wants more is halved, and bounded anew, more closely."""
 MOST_FACETS = 8_000_000
+"""Facets of all surfaces, at most; more fill the memory."""
 _AT_ONCE = 100_000
 """Facets whose bulge is asked at once."""
 

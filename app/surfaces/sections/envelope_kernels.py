@@ -24,6 +24,7 @@ FROM, TO, PIECE, Z_FROM, Z_TO = range(5)
 AT, HERE, UNTIL, THERE, BEFORE, AFTER, BU, BV, AU, AV, KIND = range(11)
 """Columns of marks: along the plane and height; those on the next surface; pieces; parameters on both; kind."""
 CROSSING, EDGE, JUMP, TANGENT = range(4)
+"""Where one piece is topmost after another: they cross, one ends, one is higher at once, or they touch."""
 COUNT, MARKED, CURRENT, TIED, TIED_FROM, TIED_UNTIL = range(6)
 """What is known on the way: spans and marks so far, the surface that is topmost, the one that lies on it, and from
 where to where.

@@ -17,6 +17,7 @@ Floats = NDArray[np.float64]
 Stretch = tuple[float, float]
 
 MOST_PLANES = 100_000
+"""Planes, at most; more are a slip in the spacing."""
 _NEAR = 1e-9
 """Of a pitch: so much beyond the surfaces a plane still meets them."""
 _PART = 1 << 17

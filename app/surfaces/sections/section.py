@@ -151,9 +151,8 @@ def _within(
     facets: SurfaceFacets, planes: CuttingPlanes, plane: int, pieces: _Pieces, areas: Mapping[int, shapely.Geometry]
 ) -> _Pieces:
     """Return what of pieces lies where their surfaces count, cut at the borders."""
-    from .envelope_kernels import over
     from .planes import stretches
-    from .section_kernels import S0, S1, Z0, Z1
+    from .section_kernels import S0, S1
 
     if not areas or not len(pieces.rows):
         return pieces
@@ -165,18 +164,31 @@ def _within(
         mine = np.flatnonzero(owner == number)
         for low, high in stretches(planes, plane, whole, area):
             inside = mine[(pieces.rows[mine, S1] >= low) & (pieces.rows[mine, S0] <= high)]
-            part = pieces.rows[inside].copy()
-            for n in np.flatnonzero((part[:, S0] < low) | (part[:, S1] > high)).tolist():
-                at, patch = int(inside[n]), int(facets.patch[pieces.facet[inside[n]]])
-                for column, level, border in ((S0, Z0, max(low, part[n, S0])), (S1, Z1, min(high, part[n, S1]))):
-                    if part[n, column] != border:
-                        part[n, level : level + 3] = over(facets.patches.control, patch, pieces.rows, at, line, border)
-                        part[n, column] = border
-            rows.append(part)
-            facet.append(pieces.facet[inside])
+            chosen = _Pieces(pieces.rows[inside], pieces.facet[inside])
+            rows.append(_cut_off(facets, chosen, line, (low, high)))
+            facet.append(chosen.facet)
     every, numbers = np.concatenate(rows), np.concatenate(facet)
     order = np.argsort(every[:, S0], kind="stable")
     return _Pieces(every[order], numbers[order])
+
+
+def _cut_off(facets: SurfaceFacets, pieces: _Pieces, line: Floats, within: tuple[float, float]) -> Floats:
+    """Return the rows of pieces without what of them lies beyond two places of their plane's line.
+
+    Args:
+        line: a place of it and its direction. within: mm along it; each piece has some of itself between them.
+    """
+    from .envelope_kernels import over
+    from .section_kernels import S0, S1, Z0, Z1
+
+    part, (low, high) = pieces.rows.copy(), within
+    for n in np.flatnonzero((part[:, S0] < low) | (part[:, S1] > high)).tolist():
+        patch = int(facets.patch[pieces.facet[n]])
+        for column, level, border in ((S0, Z0, max(low, part[n, S0])), (S1, Z1, min(high, part[n, S1]))):
+            if part[n, column] != border:
+                part[n, level : level + 3] = over(facets.patches.control, patch, pieces.rows, n, line, border)
+                part[n, column] = border
+    return part
 
 
 def _topmost(

@@ -237,6 +237,7 @@ def spans(begin: Floats, end: Floats, first: Floats, last: Floats) -> tuple[Indi
 
 
 _SIDE = 1 << SHIFT
+"""Cells along a side of a tile."""
 
 _ODD = (math.sqrt(5) - 1) / 2
 """Keeps paths at round coordinates off the cells' borders, where rounding would decide."""

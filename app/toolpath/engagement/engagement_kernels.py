@@ -20,6 +20,7 @@ HAIR = 1e-3
 """mm; metal no higher than this above the tip is none: a floor that is cut twice, within rounding."""
 
 _SIDE = 1 << SHIFT
+"""Cells along a side of a tile."""
 _CELLS = _SIDE * _SIDE
 _FRAME = "UniTuple(float64, 3)"
 _FIELD = f"float32[::1], int32[:, ::1], {_FRAME}"

@@ -20,9 +20,9 @@ from ...geometry.sort_kernels import order_of
 
 _SHAPES = "float64[:, ::1]"
 _HALF, _TURN = math.pi / 2, 2 * math.pi
+"""Radians: from the way ahead to the rim beside, and all round."""
 _STACK = 64
 """Stretches that wait, at most: what is halved more often is taken as it is."""
-_CIRCLE = "UniTuple(float64, 3)"
 _RIM = "UniTuple(float64, 7)"  # at both ends of a piece its centre and where its front half begins; its radius
 _A_HAIR = 1e-10  # radians
 _ROUNDING = 1e-12  # radians between stretches that end and begin at one place

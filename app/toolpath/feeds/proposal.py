@@ -396,6 +396,7 @@ class _Slowed:
 
 
 _AS_MILLS = _Slowed(1.0, 1.0)
+"""Speed and feed as shares of those of an end mill: the same."""
 _SLOWED = {
     "ball": _Slowed(1.0, 0.8),  # its chips are thinner towards the tip, where it has no speed
     "v": _Slowed(1.0, 0.5),  # its tip is slender

@@ -8,6 +8,7 @@ from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 from dataclasses import dataclass
 from time import monotonic
 
+from ...core.options import option
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.wording import minutes_words
 from .lanes import Lane
@@ -17,6 +18,7 @@ TRIES = 4
 """So often a part is begun whose process is killed: whoever kills at random seldom meets the same part again."""
 
 LIMIT_S = 3600.0
+"""Seconds that a part may take where nobody says otherwise; then it counts as hanging."""
 _TICK_S = 0.1
 """How long a look at what is running waits for something to be done."""
 _NAMED = 4
@@ -88,7 +90,8 @@ class BatchRun:
         elif monotonic() - running.since > self._limit_s:
             del self._running[number]
             self._lanes[number].renew(running.future)
-            text = f"It took longer than {minutes_words(self._limit_s)} min and was ended; give it more with --limit."
+            more = f"give it more with {option('limit')}."
+            text = f"It took longer than {minutes_words(self._limit_s)} min and was ended; {more}"
             self._end(running.place, BatchVerdict.OVERDUE, text)
 
     def _settle(self, number: int, running: _Running) -> None:
@@ -99,7 +102,8 @@ class BatchRun:
             if self._tries[running.place] < TRIES:
                 self._waiting.appendleft(running.place)
                 return
-            why = f"Its process was killed {TRIES} times ({type(error).__name__}); is the memory enough for --jobs?"
+            enough = f"is the memory enough for {option('jobs')}?"
+            why = f"Its process was killed {TRIES} times ({type(error).__name__}); {enough}"
             self._end(running.place, BatchVerdict.KILLED, why)
             return
         self._ended += 1

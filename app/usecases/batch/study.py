@@ -15,6 +15,7 @@ from itertools import product
 from urllib.parse import quote
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...core.wording import minutes_words
 from ...toolpath.advice.advise import Advice
 from .table import Files, PageTable, findings_html, harmless, listed, page_of
@@ -45,9 +46,10 @@ class StudyAxis:
 
     def __post_init__(self) -> None:
         if not self.values or not all(self.values):
-            raise InputError(f"--vary {self.option}: a value is missing; write --vary {self.option}=V1,V2,…")
+            written = option("vary", f"{self.option}=V1,V2,…")
+            raise InputError(f"{option('vary', self.option)}: a value is missing; write {written}")
         if len(set(self.values)) < len(self.values):
-            raise InputError(f"--vary {self.option}: a value is there twice; write each once")
+            raise InputError(f"{option('vary', self.option)}: a value is there twice; write each once")
 
 
 @dataclass(frozen=True)
@@ -85,9 +87,11 @@ def choices_of(axes: Sequence[StudyAxis]) -> tuple[StudyChoice, ...]:
     """
     names = [axis.option for axis in axes]
     if not names:
-        raise InputError("Nothing is varied; say --vary OPTION=V1,V2,…, or --which-tool.")
+        written = option("vary", "OPTION=V1,V2,…")
+        raise InputError(f"Nothing is varied; say {written}, or {option('which-tool')}.")
     if len(set(names)) < len(names):
-        raise InputError(f"--vary {max(names, key=names.count)} is there twice; write all its values in one.")
+        twice = option("vary", max(names, key=names.count))
+        raise InputError(f"{twice} is there twice; write all its values in one.")
     found = tuple(StudyChoice(tuple(axes), values) for values in product(*(axis.values for axis in axes)))
     if len(found) > MOST_CHOICES:
         raise InputError(f"That makes {len(found)} combinations; {MOST_CHOICES} are the most, so vary less.")

@@ -20,6 +20,7 @@ WIDTH, HEIGHT = 160, 110
 """Pixels of a whole picture."""
 
 MARGIN = 4
+"""Pixels round what is drawn."""
 MOST_POINTS = 4_000
 """Of a picture; where there would be more it is drawn more coarsely."""
 

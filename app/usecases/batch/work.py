@@ -9,6 +9,7 @@ import numpy as np
 
 from ...core.errors import Cancelled, HitofudeError
 from ...core.memory import MemoryShortError, within
+from ...core.options import option
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.finding import Finding
 from ..examine import ExaminedProgram, ExamineOptions, examine
@@ -39,7 +40,8 @@ def work(task: BatchTask, progress: Progress = NO_PROGRESS) -> BatchResult:
     except HitofudeError as error:
         return _without_files(task, BatchVerdict.REFUSED, str(error))
     except MemoryError:
-        return _without_files(task, BatchVerdict.FAILED, "The memory that a part may take ran out; use fewer --jobs.")
+        sentence = f"The memory that a part may take ran out; use fewer {option('jobs')}."
+        return _without_files(task, BatchVerdict.FAILED, sentence)
     except Exception as error:
         sentence = f"This should not have happened ({type(error).__name__}: {error}); please report it with the file."
         return _without_files(task, BatchVerdict.FAILED, sentence)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...core.progress import Progress
 from ...simulation.cutter import cutter_of
 from .context import CHORD_SHARE, SMOOTHING_SHARE, BetterContext
@@ -67,6 +68,6 @@ def _ensure_within(context: BetterContext, smoothed: SmoothSurfaces) -> None:
     spare = smoothed.farthest_mm / (1 - CHORD_SHARE - SMOOTHING_SHARE) * 1.02
     raise InputError(
         f"{context.name}: at X{x:.3f} Y{y:.3f} Z{z:.3f} the passes are {smoothed.farthest_mm:.4f} mm off the smooth "
-        f"surface behind them, and facets may be {share:.4f} mm off; use --tolerance {spare:.2g} or more, or keep the "
-        "program: a true edge is no facet."
+        f"surface behind them, and facets may be {share:.4f} mm off; use "
+        f"{option('tolerance', f'{spare:.2g}')} or more, or keep the program: a true edge is no facet."
     )

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...core.progress import Progress
 from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.dialect_guess import guess_dialect
@@ -109,7 +110,8 @@ def resolved(
     tracked = None if raster is not None else tracks_of(name, ready.setup.programs[0])
     if tracked is not None and options.pitch is not None:
         raise InputError(
-            f"{name}: a pitch is for straight passes of a ball; these are lifted where they are. Leave --pitch out."
+            f"{name}: a pitch is for straight passes of a ball; these are lifted where they are. Leave "
+            f"{option('pitch')} out."
         )
     return BetterContext(
         name, data, options, request, examined, ready, tool, raster, dialect, post, post_name, digit, shares, look
@@ -138,6 +140,6 @@ def _only_tool(name: str, ready: ReadySetup) -> Tool:
     if len(used) != 1:
         raise InputError(
             f"{name}: {len(used)} tools cut; a program that can be made better is the passes of one. Take the others "
-            "apart, and give what they leave with --stock HEIGHTS.npy."
+            f"apart, and give what they leave with {option('stock', 'HEIGHTS.npy')}."
         )
     return ready.setup.tools[used.pop()]

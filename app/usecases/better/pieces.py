@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...core.progress import Progress
 from ...fitting.point_surfaces.chord_bounds import chord_bounds
 from ...fitting.point_surfaces.facet_corners import FacetCorners
@@ -128,7 +129,8 @@ def smooth_pieces(
     useful = [each for each in found if np.mean(each.piece != NO_PIECE) > 0.5]
     if not useful:
         raise InputError(
-            f"{name}: its passes lie on no facets that tell of a smooth surface; use another --epsilon, or smooth."
+            f"{name}: its passes lie on no facets that tell of a smooth surface; use another {option('epsilon')}, "
+            "or smooth."
         )
     within = [each for each in useful if each.farthest_mm <= limits.off]
     return min(within or useful, key=lambda each: (each.kept_places if within else 0, each.farthest_mm))

@@ -16,6 +16,7 @@ from ...model.motion import Floats, MotionKind
 _ALONG = math.cos(math.radians(20.0))
 """A move is of a pass where its way over the plane is within that of the passes' direction."""
 _FEWEST_POINTS, _FEWEST_ROWS = 4, 4
+"""Points of a pass, and passes: fewer tell of no surface."""
 _STRAIGHT = 0.02
 """mm; by so much a pass may leave its own line, seen from above."""
 _SHARE = 0.8

@@ -41,6 +41,7 @@ _SECTIONS = 3
 one.
 """
 _MOST_SECTIONS = 160
+"""Sections along either way of a surface, at most."""
 _ENOUGH, _FEWEST, _ROUNDS = 4000, 64, 12
 """Points that say roughly where a surface is, and times that those above it are taken out."""
 _HOPELESS = 3.0

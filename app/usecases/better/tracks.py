@@ -16,6 +16,7 @@ from ...model.motion import Floats, MotionKind
 from .area import PassArea
 
 _FEWEST_POINTS, _FEWEST_TRACKS = 4, 4
+"""Points of a pass, and passes: fewer tell of no surface."""
 _STEEP = 0.02
 """A move that goes so little sideways for its length is a plunge or a lift, of no direction."""
 _TURN = math.radians(50.0)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.effort import Reckoning, announce
+from ...core.options import option
 from ...core.progress import NO_PROGRESS, Progress
 from ...gcode.interpreter.program import NcProgram
 from ...model.finding import Finding, FindingKind, worst_first
@@ -393,9 +394,9 @@ def cut_effort(
         count += len(program.motions)
     seconds = (cells * _CELL_S + count * _MOTION_S) * (_JUDGED if judged else 1.0)
     floors = pieces * _FLOOR_S if drawn else 0.0
-    fewer = "choose fewer cells (--grid) or a part of the stock (--window)"
+    fewer = f"choose fewer cells ({option('grid')}) or a part of the stock ({option('window')})"
     return Reckoning(
         seconds + floors,
         f"{count:,.0f} motions in cells of {pitch:.3g} mm",
-        "leave out what it is compared with (--against)" if floors > seconds else fewer,
+        f"leave out what it is compared with ({option('against')})" if floors > seconds else fewer,
     )

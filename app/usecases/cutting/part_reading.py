@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 
+from ...core.options import option
 from ...formats.readers import fit_for
 from ...model.finding import Finding, FindingKind
 from ...model.part import Units
@@ -48,10 +49,10 @@ def part_reading(
 
 
 def _differing(given: dict[str, object], noted: DrawingOptions) -> Iterator[Finding]:
-    for field, option in OPTION_OF.items():
+    for field, name in OPTION_OF.items():
         before = getattr(noted, field)
         if field in given and before != getattr(AS_DRAWN, field) and _plain(before) != _plain(given[field]):
-            yield _as_asked(_words(option, before), _words(option, given[field]))
+            yield _as_asked(_words(name, before), _words(name, given[field]))
 
 
 def other_units(requested: Units | None, noted: Units | None, read: Units) -> Iterator[Finding]:
@@ -60,16 +61,16 @@ def other_units(requested: Units | None, noted: Units | None, read: Units) -> It
         yield _as_asked(f"units {noted.name.lower()}", f"units {read.name.lower()}")
 
 
-def other_names(option: str, requested: tuple[str, ...], noted: tuple[str, ...]) -> Iterator[Finding]:
+def other_names(name: str, requested: tuple[str, ...], noted: tuple[str, ...]) -> Iterator[Finding]:
     """Say that other layers are compared than those of which the program was made, as asked."""
     if requested and noted and _plain(requested) != _plain(noted):
-        yield _as_asked(_words(option, noted), _words(option, requested))
+        yield _as_asked(_words(name, noted), _words(name, requested))
 
 
-def other_length(option: str, requested: float | None, noted: float | None) -> Iterator[Finding]:
+def other_length(name: str, requested: float | None, noted: float | None) -> Iterator[Finding]:
     """Say that a length is another one than that with which the program was made, as asked."""
     if requested is not None and noted is not None and abs(requested - noted) > 1e-6:
-        yield _as_asked(f"{option} {noted:g}", f"{option} {requested:g}")
+        yield _as_asked(option(name, f"{noted:g}"), option(name, f"{requested:g}"))
 
 
 def _as_asked(before: str, now: str) -> Finding:
@@ -84,8 +85,8 @@ def _plain(value: object) -> object:
     return value.casefold() if isinstance(value, str) else value
 
 
-def _words(option: str, value: object) -> str:
-    """Return an option as it is typed."""
+def _words(name: str, value: object) -> str:
+    """Return an option with its value."""
     values = value if isinstance(value, tuple) else (f"{value:g}" if isinstance(value, float) else str(value),)
     short = (each[:60] for each in values)
-    return " ".join(f"{option} {each}" if each.isalnum() else f'{option} "{each}"' for each in short)
+    return " ".join(option(name, each if each.isalnum() else f'"{each}"') for each in short)

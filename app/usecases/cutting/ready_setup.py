@@ -13,6 +13,7 @@ import numpy as np
 
 from ...core.errors import HitofudeError, InputError
 from ...core.input_file import FileBytes
+from ...core.options import option
 from ...core.progress import NO_PROGRESS, Progress
 from ...formats.drawing import Drawing
 from ...formats.job.toml import JobFile, StatedOrigin
@@ -162,8 +163,8 @@ def _without_units(programs: tuple[ExaminedProgram, ...]) -> Iterator[Finding]:
     for each in programs:
         if each.unnamed:
             text = (
-                f"{each.name} names no units (G20, G21) and is read in mm; say --units in if it is in inches, or write "
-                "G20 into it."
+                f"{each.name} names no units (G20, G21) and is read in mm; say {option('units', 'in')} if it is in "
+                "inches, or write G20 into it."
             )
             yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
 
@@ -178,7 +179,7 @@ def _ensure_readable(examined: ExaminedProgram) -> None:
     if error is not None:
         raise InputError(
             f"{error.message(examined.name)} What stands behind it cannot be cut; correct it, or choose the control: "
-            "--dialect."
+            f"{option('dialect')}."
         )
     motions = examined.program.motions
     if np.all(motions.kind == MotionKind.RAPID):
@@ -300,7 +301,7 @@ def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], re
         said = " ".join(finding.text for finding in parts.findings[:3])
         raise InputError(
             f"{name}: there is no closed contour to compare with; choose other layers, or join loose ends: "
-            f"--join-tolerance. {said}".rstrip()
+            f"{option('join-tolerance')}. {said}".rstrip()
         )
     proven = header.path_tolerance if request.tolerance is None else None
     tolerance = TOLERANCE if request.tolerance is None else request.tolerance
@@ -353,8 +354,8 @@ def _drawing(
 def _differing(request: SetupRequest, header: HeaderNote, units: Units) -> Iterator[Finding]:
     """Yield where what was asked about the drawing is not what the program tells of how it was made."""
     yield from other_units(request.units, header.drawing_units, units)
-    yield from other_names("--layer", request.layers, header.layers)
-    yield from other_length("--join-tolerance", request.join_tolerance, header.join_tolerance)
+    yield from other_names("layer", request.layers, header.layers)
+    yield from other_length("join-tolerance", request.join_tolerance, header.join_tolerance)
 
 
 class _OnPurpose(NamedTuple):
@@ -457,8 +458,8 @@ def _operations(
     if not noted and request.depth is None:
         assert request.against is not None
         raise InputError(
-            f"{request.against[0]}: nobody tells how deep the part is milled; give --depth, mm from the stock's top "
-            "down to the floor, or a job file with operations."
+            f"{request.against[0]}: nobody tells how deep the part is milled; give {option('depth')}, mm from the "
+            "stock's top down to the floor, or a job file with operations."
         )
     requested = noted or tuple(PocketOperation(CutParameters(number)) for number in tools)
     return tuple(_with(operation, request) for operation in requested)

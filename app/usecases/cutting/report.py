@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.options import option
 from ...core.wording import counted, minutes_words
 from ...gcode.interpreter.program import Severity
 from ...gcode.timing.duration import TIME_METHOD
@@ -50,6 +51,7 @@ _TELLING = 10.0
 """Cells beyond the gouge that is told; a bound between the cells that is wider says nothing that a person could use."""
 
 HEIGHTS = 5e-6
+"""mm; how far heights of the processor's engine, float32, may be from exact ones."""
 HEIGHTS_METHODS = {
     Engine.CPU: "bound, times 1 + the surface's slope, for heights up to 32 mm; cells beside an upright wall may fall "
     "to either side",
@@ -403,7 +405,7 @@ def _summary(data: Json) -> Iterator[str]:
     """Yield a line about the whole, one about the space between the cells, and one a tool."""
     names = ", ".join(program["file"] for program in data["programs"])
     gouge, left, certificate = data["gouge"], data["left"], data["certificate"]
-    part = "compared with no part (--against)"
+    part = f"compared with no part ({option('against')})"
     if gouge is not None:
         part = (
             f"{gouge['max_mm']:.4f} mm gouge, {left['reachable_mm2']:.3f} mm2 left within reach, "

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...gcode.interpreter.program import StockNote
 from ...gcode.timing.extent import extent
 from ...model.finding import Finding, FindingKind
@@ -23,7 +24,8 @@ from ..examine import ExaminedProgram
 FINEST = MOST_CELLS
 """Cells along a side of a grid, at most."""
 
-HINT = "--stock X0,Y0,Z0,X1,Y1,Z1 gives another"
+_CORNERS = "X0,Y0,Z0,X1,Y1,Z1"
+"""What a box of stock is typed as: its lower left corner at the bottom, its upper right one at the top, mm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +96,7 @@ def stock_from_comments(programs: tuple[ExaminedProgram, ...], radius: float, pa
     if not np.all(around[1] > around[0]):
         raise _nothing(programs[0].name)
     what = "the cuts" if part is None else "the cuts and the part"
-    text = f"The stock is not told; a box round {what} is assumed, {_words(*around)}; {HINT}."
+    text = f"The stock is not told; a box round {what} is assumed, {_words(*around)}; {_hint()}."
     return KnownStock(BoxStock(_box(*around)), f"round {what}", Finding(FindingKind.ASSUMED, text, counts=False))
 
 
@@ -114,7 +116,7 @@ def _noted(note: StockNote, name: str, cuts: Floats, around: Floats) -> KnownSto
         raise _nothing(name)
     text = (
         f"The {source.removeprefix('the ')} tells the stock but not where it lies: {', '.join(words)}, so "
-        f"{_words(low, high)}; {HINT}."
+        f"{_words(low, high)}; {_hint()}."
     )
     return KnownStock(BoxStock(_box(low, high)), source, Finding(FindingKind.ASSUMED, text, counts=False))
 
@@ -157,10 +159,15 @@ def _with_part(box: Floats, part: Floats) -> Floats:
     return np.array([low, [high[0], high[1], part[1, 2]]])
 
 
+def _hint() -> str:
+    """Return how another stock is given."""
+    return f"{option('stock', _CORNERS)} gives another"
+
+
 def _nothing(name: str) -> InputError:
     return InputError(
         f"{name}: the program does not tell the stock, and no box can be laid round its cuts, as they do not go down; "
-        "give it: --stock X0,Y0,Z0,X1,Y1,Z1."
+        f"give it: {option('stock', _CORNERS)}."
     )
 
 

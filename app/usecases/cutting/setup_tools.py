@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...core.errors import HitofudeError, InputError
+from ...core.options import option
 from ...gcode.interpreter.program import NcProgram, ToolNote
 from ...gcode.timing.duration import duration
 from ...model.finding import Finding, FindingKind
@@ -179,7 +180,7 @@ def _only(examined: ExaminedProgram, noted: tuple[ToolSource, ...]) -> KnownTool
     line = cutting[NAMELESS]
     raise InputError(
         f"{examined.name}:{line}: a tool that the program does not name cuts from here on, and nobody says what it is; "
-        "give its shape, such as --tool 0=flat:6 (0 = the tool without a name, then kind:diameter)."
+        f"give its shape, such as {option('tool', '0=flat:6')} (0 = the tool without a name, then kind:diameter)."
     )
 
 
@@ -190,7 +191,8 @@ def _known(
     if found is None:
         raise InputError(
             f"{examined.name}:{line}: T{number} cuts from here on, and nobody says what it is; give its shape, "
-            f"such as --tool {number}=flat:6 (number=kind:diameter), or a job file or tool table that has it."
+            f"such as {option('tool', f'{number}=flat:6')} (number=kind:diameter), or a job file or tool table that "
+            "has it."
         )
     return found
 
@@ -212,14 +214,15 @@ def _by(noted: ToolSource, number: int) -> KnownTool:
     assumed = ""
     if noted.shapeless:
         assumed = (
-            f"T{number}: {noted.source} tells no shapes, so it is taken to be flat, {tool.diameter:g} mm; --tool says "
-            "otherwise."
+            f"T{number}: {noted.source} tells no shapes, so it is taken to be flat, {tool.diameter:g} mm; "
+            f"{option('tool')} says otherwise."
         )
     elif tool.kind.assumed_angle and not tool.tip_angle:
+        shaped = option("tool", f"{number}={tool.kind.spelled(f'{tool.diameter:g}')}")
         assumed = (
             f"T{number}: {noted.source} tells a {tool.kind.value} of {tool.diameter:g} mm but no angle; "
-            f"it is taken to have {np.degrees(tool.kind.assumed_angle):g} degrees; --tool "
-            f"{number}={tool.kind.spelled(f'{tool.diameter:g}')} says otherwise."
+            f"it is taken to have {np.degrees(tool.kind.assumed_angle):g} degrees; {shaped} says "
+            "otherwise."
         )
     return KnownTool(tool, noted.source, assumed)
 
@@ -232,9 +235,10 @@ def _noted(note: ToolNote, place: str) -> KnownTool:
     """
     kind = _kind(note)
     if kind.conical and not kind.assumed_angle and not note.angle:
+        shaped = option("tool", f"{note.number}={kind.spelled('DIAMETER')}")
         raise InputError(
             f"T{note.number}: {place} tells of a {kind.value} tool of {note.diameter:g} mm but not of its angle; "
-            f"give it: --tool {note.number}={kind.spelled('DIAMETER')}."
+            f"give it: {shaped}."
         )
     noted = {"corner_radius": note.corner_radius, "tip_angle": note.angle, "tip_diameter": note.tip_diameter}
     shape: dict[str, Any] = {key: value for key, value in noted.items() if key in shape_keys(kind)}
@@ -255,7 +259,7 @@ def _kind(note: ToolNote) -> ToolKind:
 def _assumed(note: ToolNote, kind: ToolKind, place: str) -> str:
     """Return what a comment leaves open, as a sentence."""
     said = f"T{note.number}: {place} tells {note.diameter:g} mm but no"
-    example = f"--tool {note.number}=KIND:DIAMETER says otherwise"
+    example = f"{option('tool', f'{note.number}=KIND:DIAMETER')} says otherwise"
     if not note.kind and kind is ToolKind.FLAT:
         return f"{said} shape; it is taken to be flat; {example}."
     if kind.assumed_angle and not note.angle:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...model.curves import Point
 from ...model.drawn_depths import DepthSource
 from ...model.finding import Finding, FindingKind
@@ -68,7 +69,8 @@ def with_drawn_depths(job: Job) -> JobToDepths:
         why = "".join(f" {each.text}" for each in _findings(read) if each.counts)
         raise InputError(
             f"{job.part.name}: the drawing tells no depth of a shape that is machined: no curve lies below the others, "
-            f"and no text such as 't=4' or 'depth 4' stands beside one.{why} Leave --depths drawing away, or add them."
+            f"and no text such as 't=4' or 'depth 4' stands beside one.{why} Leave "
+            f"{option('depths', 'drawing')} away, or add them."
         )
     return JobToDepths(read.job, read, (*_findings(read),))
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...model.curve_selectors import OnLayer
 from ...model.finding import Finding, FindingKind
 from ...model.layer_rules import LayerRule, depth_in
@@ -41,7 +42,8 @@ def with_layer_rules(part: Part, options: MakeOptions) -> RuledOptions:
         return RuledOptions(options)
     if options.propose is not None:
         raise InputError(
-            "--propose does not go with rules for layers, which say the operations; leave one of the two away."
+            f"{option('propose')} does not go with rules for layers, which say the operations; leave one of the "
+            "two away."
         )
     job, layers = options.job, _layers(part, options)
     made = [_Made(rule, layer) for rule in options.rules for layer in layers if rule.takes(layer)]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from ...core.errors import ParameterError
+from ...core.options import option
 from ...core.toml_tables import known_words
 from ...core.wording import either
 from ...model.fields import ParameterPlace, parameters_of, with_values
@@ -85,7 +86,8 @@ def with_drills(job: Job, diameters: tuple[float, ...], depth: float | None) -> 
     twice = next((diameter for k, diameter in enumerate(diameters) if diameter in diameters[:k]), None)
     if twice is not None:
         raise ParameterError(
-            f"--drill {twice:g} mm is given twice and would drill the same circles again; give each diameter once."
+            f"{option('drill', f'{twice:g}')} mm is given twice and would drill the same circles again; give each "
+            "diameter once."
         )
     deepest = max((each.cut.depth for each in job.operations if each.cut.enabled), default=CutParameters(1).depth)
     first = max((tool.number for tool in job.tools), default=0) + 1
@@ -117,7 +119,7 @@ def with_machining(job: Job, machining: MachiningOptions) -> Job:
                 raise no_effect(option_of(key), f"the job has {_lacking(placed, kinds)}")
     keep_out = machining.keep_out or job.keep_out_layers
     if machining.keep_out_height is not None and not keep_out:
-        raise no_effect("keep-out-height", "no layer of clamps is named; --keep-out NAME does")
+        raise no_effect("keep-out-height", f"no layer of clamps is named; {option('keep-out', 'NAME')} does")
     height = job.keep_out_height if machining.keep_out_height is None else machining.keep_out_height
     return replace(
         job,
@@ -150,8 +152,10 @@ def _lacking(placed: ParameterPlace, kinds: tuple[type[Operation], ...]) -> str:
     needs = placed.parameter.needs
     mills = {kind for kind in OPERATION_KINDS.values() if kind.LEVELS and not kind.HOLES}
     what = "operation that mills" if mills <= set(kinds) else f"{either(kind.WORD for kind in kinds)} operation"
-    added = "; --drill D adds one" if DrillOperation in kinds and all(kind.HOLES for kind in kinds) else ""
-    with_ = f" with {needs.with_}{'; ' * bool(needs.option)}{needs.option}" if needs else ""
+    drills = DrillOperation in kinds and all(kind.HOLES for kind in kinds)
+    added = f"; {option('drill', 'D')} adds one" if drills else ""
+    asked = f"; {needs.option()}" if needs and needs.option else ""
+    with_ = f" with {needs.with_}{asked}" if needs else ""
     return f"no {what}{with_}{added}"
 
 
@@ -174,11 +178,11 @@ def check_order(job: Job, order: Order | None) -> None:
         raise no_effect("order", f"the job has {lacking}")
 
 
-def no_effect(option: str, why: str) -> ParameterError:
+def no_effect(name: str, why: str) -> ParameterError:
     """Return the error that something has no effect on a job.
 
     Args:
-        option: without its dashes.
+        name: of the option, without its dashes.
         why: what the job lacks, without a full stop.
     """
-    return ParameterError(f"--{option} has no effect: {why}. Leave the option away, or use a job that it concerns.")
+    return ParameterError(f"{option(name)} has no effect: {why}. Leave the option away, or use a job that it concerns.")

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from ...core.errors import InputError, ParameterError
+from ...core.options import option
 from ...formats.readers import known_format
 from ...formats.tools.materials import stock_material
 from ...model.curve_selectors import OnLayer, Selector, layer_names
@@ -162,8 +163,8 @@ def with_feeds(job: Job, options: MakeOptions) -> JobWithFeeds:
         return JobWithFeeds(replace(job, stock=replace(job.stock, material=word)))
     if not material:
         raise ParameterError(
-            "Feeds are to be proposed, and nobody says what the stock is made of; add --material NAME, or material to "
-            "the job's [stock]."
+            f"Feeds are to be proposed, and nobody says what the stock is made of; add "
+            f"{option('material', 'NAME')}, or material to the job's [stock]."
         )
     made = with_proposed_feeds(job, FeedsOptions(material, options.machine))
     return replace(made, job=replace(made.job, tools=tuple(_speeds(tool, options) for tool in made.job.tools)))

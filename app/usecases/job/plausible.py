@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import PurePath
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...core.wording import either
 from ...formats.drawing import Drawing
 from ...formats.drawing_account import size_of
@@ -165,12 +166,12 @@ def _doubt(found: Size, diameters: tuple[float, ...]) -> str:
 def _options(drawing: Drawing) -> str:
     """Return what to say on the command line."""
     word = _UNITS[drawing.part.units]
-    others = either(f"--units {each}" for each in ("mm", "in", "m") if each != word)
+    others = either(option("units", each) for each in ("mm", "in", "m") if each != word)
     per_inch = drawing.contents.per_inch
     if per_inch is not None:
         return (
-            f"It has no real size; say which units are meant, --units mm or {others}, or --px-per-inch {per_inch:g} "
-            "if this is right."
+            f"It has no real size; say which units are meant, {option('units', 'mm')} or {others}, or "
+            f"{option('px-per-inch', f'{per_inch:g}')} if this is right."
         )
     named = f"It names {word} as its units" if drawing.units_named else f"It names no units, and {word} is assumed"
-    return f"{named}; say which are meant, {others}, or --units {word} if this is right."
+    return f"{named}; say which are meant, {others}, or {option('units', word)} if this is right."

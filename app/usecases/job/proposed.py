@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.part import Part
 from ..proposal.propose import Proposal, propose
@@ -33,10 +34,14 @@ def with_proposal(part: Part, options: MakeOptions, progress: Progress = NO_PROG
         return ProposedOptions(options, None)
     requested = options.machining
     if requested.drills:
-        raise InputError("--drill does not go with --propose, which proposes the drills; leave one of the two away.")
+        raise InputError(
+            f"{option('drill')} does not go with {option('propose')}, which proposes the drills; leave one of the two "
+            "away."
+        )
     if "curves" in requested.values:
         raise InputError(
-            "--curves does not go with --propose, which says what curves each operation has; leave one of the two away."
+            f"{option('curves')} does not go with {option('propose')}, which says what curves each operation has; "
+            "leave one of the two away."
         )
     about = replace(
         options,

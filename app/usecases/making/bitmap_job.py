@@ -9,6 +9,7 @@ from pathlib import PurePath
 import numpy as np
 
 from ...core.errors import GeometryError, InputError, ParameterError
+from ...core.options import option
 from ...geometry.outlines import nest
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
@@ -64,8 +65,8 @@ def bitmap_job(name: str, data: bytes, options: MakeOptions) -> BitmapJob:
     if is_picture(name):
         if options.reading != AS_DRAWN:
             raise InputError(
-                f"{name}: a picture has no layers, types, layouts or units to choose; take --skip-layer, --skip-type, "
-                "--layout, --to-zero and --px-per-inch away."
+                f"{name}: a picture has no layers, types, layouts or units to choose; take {option('skip-layer')}, "
+                f"{option('skip-type')}, {option('layout')}, {option('to-zero')} and {option('px-per-inch')} away."
             )
         return picture_job(read_picture(name, data, bitmap.picture), options, bitmap.picture, PurePath(name).stem)
     options = with_own_job(name, data, options)

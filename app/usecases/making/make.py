@@ -16,6 +16,7 @@ import numpy as np
 from ...core.beside import beside
 from ...core.errors import GeometryError, InputError
 from ...core.memory import give_back
+from ...core.options import option
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.tolerances import LEVEL
 from ...formats.drawing import Drawing
@@ -255,7 +256,7 @@ def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress)
     if options.rules:
         raise InputError("Rules for layers have no effect on pixels, which have none; leave the template away.")
     if options.drawn_depths:
-        raise InputError("--depths drawing has no effect on pixels, which tell no depth; leave it away.")
+        raise InputError(f"{option('depths', 'drawing')} has no effect on pixels, which tell no depth; leave it away.")
     ready = bitmap_job(name, data, options)
     fed = with_feeds(ready.job, options)
     return MakeContext(

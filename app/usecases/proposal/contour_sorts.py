@@ -31,6 +31,7 @@ _GAP = 0.05
 _SAME_CENTRE = 1e-4  # mm
 
 _HALF_TURN = math.pi - 0.01
+"""Radians; arcs on one circle that turn by so much in all are half a circle, as at the end of a slot."""
 
 
 class ContourSort(Enum):

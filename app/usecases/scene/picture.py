@@ -25,6 +25,7 @@ _SHARE, _FINEST, _FEW = 4e-5, 1e-3, 200_000
 quickly.
 """
 _COARSER = 4.0
+"""Times the tolerance of the paths: fine enough to be looked at."""
 
 
 _ROLES = {Purpose.CONTOUR: LineRole.PATH, Purpose.LINK: LineRole.LINK, Purpose.PLUNGE: LineRole.PLUNGE}

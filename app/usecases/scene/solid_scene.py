@@ -16,6 +16,7 @@ from ...toolpath.advice.advise import SERIES
 from .solid_files import STEPS
 
 INCH = 25.4
+"""mm."""
 _WITHOUT_UNITS = (".stl", ".obj", ".ply")
 _TOOL_SHARE = 1 / 8
 """Diameter of the first tool as a share of the solid's shorter side."""

@@ -27,6 +27,7 @@ more where passes lie close, so that what stays between two of them is some cell
 """
 
 CELLS_A_PASS = 4
+"""Cells from pass to pass, so that what one leaves is seen."""
 
 LEAST_CELLS = 4.0
 """Cells in a tool's diameter from which on its load is told."""

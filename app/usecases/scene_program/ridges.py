@@ -17,6 +17,7 @@ ridge.
 """
 
 _SLOPES = np.tan(np.radians(np.linspace(0.0, 85.0, 86)))
+"""mm up per mm sideways at which ridges are tabled: every degree up to 85."""
 _PLACES = 801
 """Across the cutter, where its profile is asked: its rim's steep end is told to a four-hundredth of its radius."""
 

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...core.progress import NO_PROGRESS, Progress
 from ...fitting.point_curves.space_curve import SpaceCurve
 from ...gcode.posts import load_post
@@ -69,9 +70,9 @@ class CurvesOverSurfaces:
         if not spare > 4 * grid:
             least = passes.chord_tolerance + sag + _DIGITS * grid + 10 * grid
             raise InputError(
-                f"--smooth {self.tolerance:g} mm leaves {max(2 * spare, 0.0):.4g} mm to the curves: chords of "
-                f"{passes.name or 'the passes'} take {passes.chord_tolerance:g} mm, facets of surfaces {sag:g} mm; use "
-                f"more than {least:.3g} mm, or a smaller chord_tolerance."
+                f"{option('smooth', f'{self.tolerance:g}')} mm leaves {max(2 * spare, 0.0):.4g} mm to the curves: "
+                f"chords of {passes.name or 'the passes'} take {passes.chord_tolerance:g} mm, facets of surfaces "
+                f"{sag:g} mm; use more than {least:.3g} mm, or a smaller chord_tolerance."
             )
         return spare
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...core import tolerances
+from ...core.options import option
 from ...core.wording import counted, minutes_words
 from ...formats.job.write import job_lines
 from ...formats.plot.picture import CONTOUR, PART, POCKET
@@ -60,7 +61,7 @@ def made_sheet(made: MakeResult, program: Path, sources: Mapping[str, bytes]) ->
     box = stock_box(job, made.program.regions, made.program.lines)
     counting = tuple(finding.text for finding in made.findings if finding.counts)
     names = [file.named(program).name for file in made.files]
-    as_file = ("Job as --write-job writes it", ("\n".join(job_lines(job)) + "\n").encode())
+    as_file = (f"Job as {option('write-job')} writes it", ("\n".join(job_lines(job)) + "\n").encode())
     texts = [(f"Program: {name}", file.nc.text.encode("ascii")) for name, file in zip(names, made.files, strict=True)]
     post = load_post(job.post)
     units = "inches" if job.out_units is Units.INCH else "millimetres"

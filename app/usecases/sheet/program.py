@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.options import option
 from ...core.wording import counted, minutes_words
 from ...formats.plot.page import TracedPolyline
 from ...formats.plot.picture import POCKET, RAPID
@@ -96,6 +97,7 @@ def program_sheet(
 
 
 _COUNTING, _REMARKS = 12, 6
+"""Findings that count, and remarks, that have room on the page."""
 _PROGRAM = "Program: "
 """What the names of files that are programs begin with."""
 
@@ -241,7 +243,7 @@ def _proofs(
 def _part_proofs(data: Json, kinds: set[FindingKind]) -> Iterator[SheetProof]:
     gouge, left, certificate = data["gouge"], data["left"], data["certificate"]
     if gouge is None:
-        yield SheetProof("No gouge, nothing left", "no part was given to compare with: --against", None)
+        yield SheetProof("No gouge, nothing left", f"no part was given to compare with: {option('against')}", None)
         return
     between = f"; nowhere more than {certificate['gouge_mm']:.4f} mm" if telling(certificate) else ""
     yield SheetProof("No gouge", f"deepest {gouge['max_mm']:.4f} mm{between}", FindingKind.GOUGE not in kinds)

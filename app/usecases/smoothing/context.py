@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.options import option
 from ...core.progress import Progress
 from ...fitting.point_curves.corners import corners
 from ...fitting.point_curves.effective_method import states_across, without_repeats
@@ -99,8 +100,8 @@ def resolved(name: str, data: bytes, options: SmoothOptions, progress: Progress)
     source = read_source(name, data, options.dialect, options.post, progress.part(0.0, 0.75))
     if options.insist and source.post.nurbs.form is NurbsForm.NONE:
         raise InputError(
-            f"{source.post.title} knows no splines, so none can be insisted on; leave --insist out, or name a post "
-            "that has them, --post fanuc or --post linuxcnc."
+            f"{source.post.title} knows no splines, so none can be insisted on; leave {option('insist')} out, or name "
+            f"a post that has them, {option('post', 'fanuc')} or {option('post', 'linuxcnc')}."
         )
     found = find_stretches(source.program, ProgramBuffer(source.data), progress.part(0.75, 1.0))
     own = [source.points(stretch) for stretch in found.stretches]

@@ -25,6 +25,7 @@ SIDEWAYS = 0.005
 """mm beside a wall; what is left and less than that is not told."""
 
 _CHORD = 5e-4
+"""mm between an arc and the chords that stand for it where what is left is measured."""
 
 
 @dataclass(frozen=True)
