@@ -449,9 +449,16 @@ class Control:
             return self._offset_value(OFFSETS[(key - 5221) // 20], (key - 5221) % 20)
         if key == 5400:
             return float(self.modal.tool)
-        if key == 5403:
-            return self.offsets.tool[2] / self.unit
-        return self.tool_table.get(self.modal.tool, ToolOffset()).diameter / self.unit if key == 5410 else None
+        if 5401 <= key <= 5403 or key == 5410:
+            return self._tool_value(key - 5401)
+        return None
+
+    def _tool_value(self, item: int) -> float:
+        """Return an offset (0 to 2) or the diameter (9) of the tool in the spindle, in the table's own units, mm; what
+        is in force (G43.1, G43 H of another tool) says nothing of them.
+        """
+        tool = self.tool_table.get(self.modal.tool, ToolOffset())
+        return tool.diameter if item == 9 else tool.offset[item]
 
     def _note_request(self, key: Key) -> None:
         """Note a parameter that the machine may tell, where the program asks for it."""

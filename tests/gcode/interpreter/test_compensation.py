@@ -6,6 +6,7 @@ from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind
 from tests.gcode.interpreter.programs import ends, kinds, read
+from tests.gcode.interpreter.rs274_motions import OPTIONS, assert_same, rs274
 
 TABLE = {1: ToolOffset(diameter=2.0), 2: ToolOffset(diameter=10.0)}
 
@@ -85,3 +86,31 @@ def test_other_planes_and_given_diameters() -> None:
 )
 def test_what_cannot_be_done_is_told(text: str, expected: str) -> None:
     assert expected in told(text)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "G1 X10 Y0\nG3 X20 Y10 J10\nG3 X10 Y20 I-10\nG3 X18 Y28 J8",
+        "G1 X10 Y0\nG2 X20 Y10 I10\nG2 X10 Y20 J10\nG1 X0",
+        "G1 X30 Y0\nG3 X30 Y20 R10\nG3 X10 Y30 R15\nG1 X0",
+        "G1 X30 Y0\nG3 X30 Y40 R20\nG3 X20 Y5 R25\nG1 X0",
+        "G1 X30 Y0\nG3 X10 Y30 R40\nG3 X-20 Y0 R50\nG3 X0 Y-30 R40",
+    ],
+)
+@pytest.mark.parametrize("side", ["G41.1", "G42.1"])
+@pytest.mark.parametrize("diameter", [1.0, 6.0, 30.0])
+def test_arcs_that_meet_arcs_are_cut_off_and_rolled_round_as_linuxcnc_does(
+    path: str, side: str, diameter: float
+) -> None:
+    text = f"G21 F100 G17\nG0 X30 Y-40\n{side} D{diameter}\n{path}\nG40 G1 X-90\nM2\n"
+    printed, complaint = rs274(text.encode())
+    program = read_program(text.encode(), OPTIONS)
+    assert bool(program.error) == bool(complaint), (complaint, program.error)
+    if not complaint:
+        assert_same(program, printed)
+
+
+def test_the_first_move_is_measured_from_where_the_tool_is() -> None:
+    assert "must be longer than the tool's radius" in told("G0 X30 Y-10\nG41 G1 X30.5\nX40")
+    assert told("G0 X30 Y-10\nG41 G1 X31.5\nX40") == ""

@@ -46,6 +46,15 @@ def compared(text: str) -> None:
         "#5413=3\nG0 X1\nM2\n",
         "#5428=3\nG0 X1\nM2\n",
         "#5414=3\nG0 X1\nM2\n",
+        "G0 X10 Y5 Z2\nG92 X0 Y1 Z0\nG1 X[#5211/mm(1)] Y[#5212/mm(1)] Z[#5213/mm(1)] F100\nM2\n",
+        "T2 M6\nG0 X[#5403/mm(1)] Y[#5410/mm(1)]\nM2\n",
+        "G20 T2 M6 G43\nG0 X[#5403/mm(1)] Y[#5410/mm(1)] Z9\nG49\nG0 X[#5403/mm(1)+1] Z9\nM2\n",
+        "T2 M6\nG43.1 Z7\nG0 X[#5403/mm(1)] Z9\nG43 H3\nG0 X[#5403/mm(1)+1] Z9\nM2\n",
+        "T2 M6\nG43\nG10 L1 P2 Z4 R3\nG0 X[#5403/mm(1)] Y[#5410/mm(1)] Z9\nM2\n",
+        "T3\nG0 X[#5403+1]\nM2\n",
+        "G0 X3 Y4\nG0 X[#<_y>] Y[#<_x>+1]\nG20 G0 X[#<_y>] Z[#<_x>]\nM2\n",
+        "G20 G43.1 Z5\nG0 X#<_tool_offset> Y#<_metric> Z#<_imperial>\nG21 G0 Y[#<_metric>+2] Z[#<_imperial>+2]\nM2\n",
+        "o1 sub\nG0 X#<_call_level>\no1 endsub\no1 call\nG0 Y[#<_call_level>+2]\nM2\n",
     ],
 )
 def test_what_linuxcnc_makes_of_it(text: str) -> None:
