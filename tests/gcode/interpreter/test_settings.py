@@ -248,3 +248,21 @@ def test_fanuc_repeats_holes_by_k() -> None:
 def test_motions_to_the_machines_own_places_are_told_apart() -> None:
     assert read("G0 X1\nG28 Z5\nG0 X2\nG53 G0 Z0\nG0 X3\nM2\n").homeward == (2, 4)
     assert read("G0 X1.\nG91 G28 Z0.\nG90 X2.\nM30\n", Dialect.FANUC).homeward == (1,)
+
+
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_offsets_grow_by_what_g91_sets_on_fanuc_and_haas(dialect: Dialect) -> None:
+    text = "G21 G90 G54\nG10 L2 P1 X10. Y4.\nG91 G10 L2 P1 X5. Y-1.\nG90 G0 X1. Y1.\nM30\n"
+    assert ends(read(text, dialect)) == [(16, 4, 0)]
+    assert ends(read(text)) == [(6, 0, 0)], "LinuxCNC sets them, whatever the mode"
+
+
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_the_common_offset_moves_every_other_one(dialect: Dialect) -> None:
+    text = "G21 G90 G54\nG10 L2 P0 X10.\nG0 X1.\nG10 L2 P1 X3.\nG0 X1.\nG55 X1.\nM30\n"
+    assert ends(read(text, dialect)) == [(11, 0, 0), (14, 0, 0), (11, 0, 0)]
+
+
+def test_a_radius_that_is_too_small_is_told_with_how_far_the_end_is() -> None:
+    far = "the radius 5 mm is too small to reach the end, which is 20 mm away"
+    assert far in told("G0 X10 Y10\nG2 X30 Y10 R5 F100\nM2\n")
