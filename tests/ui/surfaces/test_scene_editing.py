@@ -411,6 +411,7 @@ def after_a_program(qtbot, wiring, tmp_path):
     return wiring
 
 
+@pytest.mark.exhaustive
 def test_a_program_of_a_file_in_the_nc_view_keeps_no_scene_from_being_cut(qtbot, after_a_program):
     proven(qtbot, after_a_program)
     window, display = after_a_program.window_, after_a_program.display_controller
