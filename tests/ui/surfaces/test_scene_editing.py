@@ -411,6 +411,7 @@ def after_a_program(qtbot, wiring, tmp_path):
     return wiring
 
 
+@pytest.mark.exhaustive
 def test_a_program_of_a_file_in_the_nc_view_keeps_no_scene_from_being_cut(qtbot, after_a_program):
     proven(qtbot, after_a_program)
     window, display = after_a_program.window_, after_a_program.display_controller
@@ -419,6 +420,7 @@ def test_a_program_of_a_file_in_the_nc_view_keeps_no_scene_from_being_cut(qtbot,
     assert window.file_label.text() == "mine.ngc" and window.actions_["export"].isEnabled()
     display.show_view(View.NC)
     assert window.file_label.text() == "other.ngc" and not window.actions_["compute"].isEnabled()
+    after_a_program.cut_controller.back()
 
 
 def test_where_a_scene_s_program_is_to_come_title_badge_and_side_are_the_scene_s(after_a_program):
