@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,16 +13,15 @@ from ...core.memory import MemoryShortError, within
 from ...core.options import option
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.finding import Finding
-from ..examine import ExaminedProgram, ExamineOptions, examine
 from ..job.options import MakeOptions
 from ..make_files import other_files
 from ..making.make import MakeResult, make
-from ..smoothing.report import findings as smooth_findings
-from ..smoothing.report import report_text
-from ..smoothing.result import SmoothOptions
-from ..smoothing.smooth import smooth
 from .task import BatchResult, BatchRow, BatchTask, BatchVerdict
 from .thumbnail import motions_picture, part_picture
+
+if TYPE_CHECKING:
+    from ..examine import ExaminedProgram, ExamineOptions
+    from ..smoothing.result import SmoothOptions
 
 
 def work(task: BatchTask, progress: Progress = NO_PROGRESS) -> BatchResult:
@@ -54,6 +54,8 @@ def _without_files(task: BatchTask, verdict: BatchVerdict, sentence: str) -> Bat
 def _done(task: BatchTask, progress: Progress) -> BatchResult:
     if isinstance(task.options, MakeOptions):
         return _made(task, task.options, progress)
+    from ..smoothing.result import SmoothOptions  # each process imports what its parts take, and no more
+
     if isinstance(task.options, SmoothOptions):
         return _smoothed(task, task.options, progress)
     return _checked(task, task.options, progress)
@@ -104,6 +106,8 @@ def _told(findings: Sequence[Finding]) -> tuple[tuple[str, ...], int]:
 
 
 def _checked(task: BatchTask, options: ExamineOptions, progress: Progress) -> BatchResult:
+    from ..examine import examine
+
     examined = examine(_file_name(task), task.data, options, progress)
     problems = tuple(each.message(examined.name) for each in examined.problems)
     files = {path.as_posix(): examined.text().encode() for path in _beside(task).values()}
@@ -111,6 +115,11 @@ def _checked(task: BatchTask, options: ExamineOptions, progress: Progress) -> Ba
 
 
 def _smoothed(task: BatchTask, options: SmoothOptions, progress: Progress) -> BatchResult:
+    from ..examine import ExamineOptions, examine
+    from ..smoothing.report import findings as smooth_findings
+    from ..smoothing.report import report_text
+    from ..smoothing.smooth import smooth
+
     done = smooth(_file_name(task), task.data, options, progress.part(0.0, 0.9))
     after = examine(_file_name(task), done.data, ExamineOptions(dialect=done.dialects[1]), progress.part(0.9, 1.0))
     sentences, counting = _told(smooth_findings(done))
