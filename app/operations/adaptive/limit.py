@@ -21,8 +21,10 @@ the most, and proofs need some room.
 
 _LESS = math.radians(0.15)
 
-_ASIDE = 1.5e-4
-"""mm by which fine digits move one end of a row beside the other at most, both rounded in x and y."""
+_ASIDE = 3e-4
+"""mm by which fine digits move one end of a row beside the other at most, both rounded in x and y, and as much again
+as the row before it, whose side is clear, is turned as well.
+"""
 
 _LEAST_CENTRE = 0.002
 """mm; the least radius of a path that all controls know as an arc is 0.005 mm, and the tip of a corner needs a few."""
