@@ -14,6 +14,7 @@ from typing import Any
 
 from ...core.errors import InputError
 from ..drawing_account import MOST_CURVES
+from . import subclass_marks
 from .numbers import NO_COMMAS, DecimalCommas, with_points
 from .splines import MOST_POINTS, too_many
 
@@ -84,16 +85,13 @@ def load(data: bytes, name: str) -> LoadedDocument:
         except Exception as fault:  # it has other faults too
             data, reason = commas.data, fault
     try:
-        load_ezdxf()
-        from ezdxf import recover
-
-        document, auditor = recover.read(io.BytesIO(data))
+        document, repaired = _load_damaged(data)
         _probed(document)
     except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
         raise InputError(
             f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); save it again from the CAD program."
         ) from error
-    return LoadedDocument(document, max(1, len(auditor.errors) + len(auditor.fixes)), replace(commas, data=b""))
+    return LoadedDocument(document, max(1, repaired), replace(commas, data=b""))
 
 
 def _refuse_others(data: bytes, name: str) -> None:
@@ -157,17 +155,46 @@ def _refuse_endless_curves(data: bytes, name: str) -> None:
 
 def _load_sound(data: bytes) -> Any:
     load_ezdxf()
-    from ezdxf.document import Drawing
-    from ezdxf.filemanagement import read
     from ezdxf.lldxf.encoding import decode_dxf_unicode
-    from ezdxf.lldxf.tagger import binary_tags_loader
+    from ezdxf.lldxf.loader import load_dxf_structure
+    from ezdxf.lldxf.tagger import ascii_tags_loader, binary_tags_loader, tag_compiler
 
     if data.startswith(_BINARY):
-        return Drawing.load(binary_tags_loader(data, errors="surrogateescape"))
-    if b"\\U+" not in data:
-        return read(io.TextIOWrapper(io.BytesIO(data), encoding=_encoding(data[:_HEAD]), errors="surrogateescape"))
-    text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
-    return read(io.StringIO(text, newline=None))
+        tags = binary_tags_loader(data, errors="surrogateescape")
+    elif b"\\U+" not in data:
+        stream = io.TextIOWrapper(io.BytesIO(data), encoding=_encoding(data[:_HEAD]), errors="surrogateescape")
+        tags = ascii_tags_loader(stream)
+    else:
+        text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
+        tags = ascii_tags_loader(io.StringIO(text, newline=None))
+    return _document(load_dxf_structure(tag_compiler(iter(tags))))
+
+
+def _load_damaged(data: bytes) -> tuple[Any, int]:
+    """Return the document of a damaged file, and how many faults in it were repaired."""
+    load_ezdxf()
+    from ezdxf.audit import Auditor
+    from ezdxf.recover import Recover
+
+    found = Recover.run(io.BytesIO(data))
+    subclass_marks.put_in(found.section_dict)
+    unreadable = subclass_marks.without_unreadable(found.section_dict)
+    document = _document(found.section_dict)
+    auditor = Auditor(document)
+    auditor.run()
+    told = len(found.errors) + len(found.fixes)
+    return document, unreadable + told + len(auditor.errors) + len(auditor.fixes)
+
+
+def _document(sections: Any) -> Any:
+    """Return the document of a file's sections."""
+    from ezdxf.document import Drawing
+
+    sections.pop("THUMBNAILIMAGE", None)
+    subclass_marks.put_in(sections)
+    document = Drawing()
+    document._load_section_dict(sections)
+    return document
 
 
 def _probed(document: Any) -> Any:

@@ -1,0 +1,123 @@
+"""Subclass marks, which a DXF since R13 has in every entity: put in where the program that wrote it left them out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+_OWN = {
+    "LWPOLYLINE": "AcDbPolyline",
+    "SPLINE": "AcDbSpline",
+    "MTEXT": "AcDbMText",
+    "HATCH": "AcDbHatch",
+    "MPOLYGON": "AcDbMPolygon",
+    "LEADER": "AcDbLeader",
+    "IMAGE": "AcDbRasterImage",
+    "MLINE": "AcDbMline",
+}
+"""The mark of each kind that the library reads by its marks alone, behind that of what all kinds have."""
+_MARKED = frozenset({*_OWN, "HELIX", "WIPEOUT", "MESH", "MULTILEADER"})
+"""Kinds that R12 does not know, and that are read as one of R12 in a file that says nothing of its version."""
+_ALL_KINDS = "AcDbEntity"
+
+_COMMON = frozenset({6, 8, 48, 60, 62, 67, 370, 410, 420, 430, 440})
+"""Codes of what all kinds have: line type, layer, its scale, whether it is seen, colour, paper, weight, layout."""
+_HANDLE, _OWNER, _GROUP, _MARK, _EMBEDDED = 5, 330, 102, 100, 101
+_R12, _R2000 = "AC1009", "AC1015"
+_VERSION = "$ACADVER"
+
+Sections = dict[str, list[Any]]
+"""Of a file by name: each the entities of the library, as tags of codes and values."""
+
+
+def put_in(sections: Sections) -> None:
+    """Give the entities that are read by their marks those that they lack.
+
+    A file that names no version is R12 for the library, where no mark is looked at; one that has entities of later
+    versions all the same is taken for one of R2000.
+    """
+    kinds = set()
+    for entities in _drawn(sections):
+        for at, tags in enumerate(entities):
+            kind = tags[0].value
+            kinds.add(kind)
+            if kind in _OWN and not _is_marked(tags, kind):
+                entities[at] = _with_marks(tags, kind)
+    if kinds & _MARKED:
+        _raise_version(sections)
+
+
+def without_unreadable(sections: Sections) -> int:
+    """Call entities that the library cannot make objects of damaged, so that each is left out by itself, and drop such
+    objects, which draw nothing; return how many there are.
+    """
+    from ezdxf.entities import factory
+    from ezdxf.lldxf.extendedtags import ExtendedTags
+
+    def is_readable(tags: Any) -> bool:
+        try:
+            factory.load(ExtendedTags(tags))
+        except Exception:  # whatever the library makes of a damaged entity
+            return False
+        return True
+
+    unreadable = [tags for entities in _drawn(sections) for tags in entities if not is_readable(tags)]
+    for tags in unreadable:
+        _call_damaged(tags)
+    objects = sections.get("OBJECTS", [])
+    kept = objects[:1] + [tags for tags in objects[1:] if is_readable(tags)]
+    lost = len(objects) - len(kept)
+    objects[:] = kept
+    return len(unreadable) + lost
+
+
+def _call_damaged(tags: Any) -> None:
+    """Leave of an entity what all kinds have, and call it damaged: one of a kind that nobody knows."""
+    from ezdxf.lldxf.types import DXFTag
+
+    head = {tag.code: tag for tag in reversed(tags) if tag.code in (_HANDLE, _OWNER)}  # the first of each
+    common = [tag for tag in tags if tag.code in _COMMON]
+    tags[:] = [DXFTag(0, f"{tags[0].value} (damaged)"), *head.values(), DXFTag(_MARK, _ALL_KINDS), *common]
+
+
+def _drawn(sections: Sections) -> Iterator[list[Any]]:
+    return (sections[name] for name in ("BLOCKS", "ENTITIES") if name in sections)
+
+
+def _is_marked(tags: Any, kind: str) -> bool:
+    found = (tag.value for tag in tags if tag.code == _MARK)
+    return (next(found, ""), next(found, "")) == (_ALL_KINDS, _OWN[kind])
+
+
+def _with_marks(tags: Any, kind: str) -> Any:
+    """Return an entity's tags with its marks: handle, owner and groups first, what all kinds have, its own."""
+    from ezdxf.lldxf.types import DXFTag
+
+    head, common, own = [tags[0]], [DXFTag(_MARK, _ALL_KINDS)], [DXFTag(_MARK, _OWN[kind])]
+    in_group = False
+    rest = iter(tags[1:])
+    for tag in rest:
+        if tag.code == _EMBEDDED:
+            own += [tag, *rest]
+        elif in_group or tag.code in (_HANDLE, _OWNER, _GROUP):
+            in_group = str(tag.value).startswith("{") if tag.code == _GROUP else in_group
+            head.append(tag)
+        elif tag.code != _MARK:
+            (common if tag.code in _COMMON else own).append(tag)
+    return type(tags)([*head, *common, *own])
+
+
+def _raise_version(sections: Sections) -> None:
+    """Make a file of R12, or of none, one of R2000."""
+    from ezdxf.lldxf.tags import Tags
+    from ezdxf.lldxf.types import DXFTag
+
+    header = sections.setdefault("HEADER", [])
+    if not header:
+        header.append(Tags([DXFTag(0, "SECTION"), DXFTag(2, "HEADER")]))
+    tags = header[0]
+    at = next((k for k, tag in enumerate(tags) if tag.code == 9 and tag.value == _VERSION), None)
+    if at is None:
+        tags[2:2] = [DXFTag(9, _VERSION), DXFTag(1, _R2000)]
+    elif str(tags[at + 1].value) <= _R12:
+        tags[at + 1] = DXFTag(1, _R2000)
