@@ -30,7 +30,7 @@ def test_the_package_of_a_tree_reads_a_drawing(samples: Path, tmp_path: Path, mo
     vars(hooks)["BuildHookInterface"] = object
     monkeypatch.setitem(sys.modules, hooks.__name__, hooks)
     (tmp_path / "hitofude").mkdir()
-    text = runpy.run_path(str(ROOT / "hatch_build.py"))["door_text"](ROOT)
+    text = runpy.run_path(str(ROOT / ".ci" / "editable_package.py"))["door_text"](ROOT)
     (tmp_path / "hitofude" / "__init__.py").write_text(text, encoding="utf-8")
     said = printed_by(sys.executable, READ.format(drawing=str(samples / "fig2.dxf")), tmp_path)
     count, file = said.split(maxsplit=1)
@@ -40,7 +40,7 @@ def test_the_package_of_a_tree_reads_a_drawing(samples: Path, tmp_path: Path, mo
 @pytest.mark.exhaustive
 def test_pip_installs_a_tree_under_its_name(tmp_path: Path) -> None:
     source, environment = tmp_path / "source", tmp_path / "venv"
-    shutil.copytree(ROOT, source, ignore=shutil.ignore_patterns(".*", "tests", "__pycache__"))
+    shutil.copytree(ROOT, source, ignore=shutil.ignore_patterns(".[!c]*", "tests", "__pycache__"))
     subprocess.run([sys.executable, "-m", "venv", str(environment)], check=True, timeout=120)
     python = environment / "bin" / "python"
     pip = [str(python), "-m", "pip", "--disable-pip-version-check", "-q", "install", "--no-deps", "-e", str(source)]

@@ -44,7 +44,7 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """An environment that holds the wheel and what it depends on, and nothing else."""
     folder = tmp_path_factory.mktemp("wheel")
     source = folder / "source"
-    shutil.copytree(ROOT, source, ignore=shutil.ignore_patterns(".*", "tests", "__pycache__"))
+    shutil.copytree(ROOT, source, ignore=shutil.ignore_patterns(".[!c]*", "tests", "__pycache__"))
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "-q"]
     made = subprocess.run(
         [*pip, "wheel", "--no-deps", "-w", str(folder), str(source)], capture_output=True, text=True, timeout=300

@@ -37,6 +37,7 @@ def sort_integers(values):
 @kernel("void(int64[::1], int64[::1], int64, int64, int64)", counts=False)
 def _merge(values, left, low, middle, high):
     """Merge two runs that are sorted and lie side by side; `left` is room for the first one."""
+    # what is nearly in order already, as rows along a path are, costs a look a run
     if values[middle - 1] <= values[middle]:
         return
     for k in range(middle - low):
@@ -47,6 +48,7 @@ def _merge(values, left, low, middle, high):
         later = other < one
         values[k] = other if later else one
         i, j, k = i + (not later), j + later, k + 1
+    # what is left over of the second run is in its place; only the first one's rest has to go back
     while i < middle - low:
         values[k] = left[i]
         i, k = i + 1, k + 1
