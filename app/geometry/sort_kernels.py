@@ -20,6 +20,7 @@ _NO_NUMBER = 0x7FF8_0000_0000_0000
 def sort_integers(values):
     """Sort in place, from short runs by merging; numba's own way is no quicker and takes longer to compile."""
     count = len(values)
+    # short runs need no room beside them, and most of what is sorted is no longer
     for low in range(0, count, _SHORT):
         for k in range(low + 1, min(low + _SHORT, count)):
             value, at = values[k], k
@@ -61,6 +62,7 @@ def sort_numbers(values):
     The bits of floats are integers of the same order, but for the negative ones, whose order is turned.
     """
     bits = values.view(np.int64)
+    # the same change takes them back: it leaves the sign, which tells whether there was one
     for k in range(len(bits)):
         bits[k] = _NO_NUMBER if values[k] != values[k] else bits[k] ^ (bits[k] >> 63 & _ALL_BUT_SIGN)
     sort_integers(bits)
