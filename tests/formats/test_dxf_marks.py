@@ -103,6 +103,16 @@ def test_owners_groups_and_extended_data_stay_where_they_are() -> None:
     assert not any("damaged" in each.text for each in drawing.findings)
 
 
+@pytest.mark.parametrize("handle", ["0", "", "-1", "XYZ"])
+@pytest.mark.parametrize("version", ["AC1009", "AC1015"])
+def test_handles_that_are_none_are_made_anew(version: str, handle: str) -> None:
+    lines = "".join(f"0\nLINE\n5\n{handle}\n8\n0\n10\n0\n20\n{y}\n11\n9\n21\n{y}\n" for y in (0, 1))
+    header = f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n0\nENDSEC\n"
+    drawing = read(f"{header}0\nSECTION\n2\nENTITIES\n{lines}0\nENDSEC\n0\nEOF\n")
+    assert [curve for _, curve in seen(drawing)] == [Line((0, 0), (9, 0)), Line((0, 1), (9, 1))]
+    assert not any("damaged" in each.text for each in drawing.findings)
+
+
 @pytest.mark.parametrize("marks", ["", "100\nAcDbEntity\n"])
 @pytest.mark.parametrize("kind", ["MESH", "HELIX", "REGION"])
 def test_what_cannot_be_read_is_missing_and_the_rest_is_read(kind: str, marks: str) -> None:

@@ -1,4 +1,4 @@
-"""Subclass marks, which a DXF since R13 has in every entity: put in where the program that wrote it left them out."""
+"""What small exporters leave out of a DXF: subclass marks, which every entity has since R13, the version, handles."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ Sections = dict[str, list[Any]]
 
 
 def put_in(sections: Sections) -> None:
-    """Give the entities that are read by their marks those that they lack.
+    """Give the entities that are read by their marks those that they lack, and take away handles that are none, in
+    whose place the library makes new ones.
 
     A file that names no version is R12 for the library, where no mark is looked at; one that has entities of later
     versions all the same is taken for one of R2000.
@@ -41,6 +42,7 @@ def put_in(sections: Sections) -> None:
         for at, tags in enumerate(entities):
             kind = tags[0].value
             kinds.add(kind)
+            _without_wrong_handle(tags)
             if kind in _OWN and not _is_marked(tags, kind):
                 entities[at] = _with_marks(tags, kind)
     if kinds & _MARKED:
@@ -82,6 +84,19 @@ def _call_damaged(tags: Any) -> None:
 
 def _drawn(sections: Sections) -> Iterator[list[Any]]:
     return (sections[name] for name in ("BLOCKS", "ENTITIES") if name in sections)
+
+
+def _without_wrong_handle(tags: Any) -> None:
+    at = next((k for k, tag in enumerate(tags) if tag.code == _HANDLE), None)
+    if at is not None and not _is_handle(str(tags[at].value)):
+        del tags[at]
+
+
+def _is_handle(text: str) -> bool:
+    try:
+        return int(text, 16) > 0
+    except ValueError:
+        return False
 
 
 def _is_marked(tags: Any, kind: str) -> bool:
