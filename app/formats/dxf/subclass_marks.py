@@ -23,6 +23,7 @@ _ALL_KINDS = "AcDbEntity"
 _COMMON = frozenset({6, 8, 48, 60, 62, 67, 370, 410, 420, 430, 440})
 """Codes of what all kinds have: line type, layer, its scale, whether it is seen, colour, paper, weight, layout."""
 _HANDLE, _OWNER, _GROUP, _MARK, _EMBEDDED = 5, 330, 102, 100, 101
+_SEQUENCE_END = "SEQEND"
 _R12, _R2000 = "AC1009", "AC1015"
 _VERSION = "$ACADVER"
 
@@ -31,14 +32,15 @@ Sections = dict[str, list[Any]]
 
 
 def put_in(sections: Sections) -> None:
-    """Give the entities that are read by their marks those that they lack, and take away handles that are none, in
-    whose place the library makes new ones.
+    """Give the entities that are read by their marks those that they lack, polylines the ends that they lack, and take
+    away handles that are none, in whose place the library makes new ones.
 
     A file that names no version is R12 for the library, where no mark is looked at; one that has entities of later
     versions all the same is taken for one of R2000.
     """
     kinds = set()
     for entities in _drawn(sections):
+        entities[:] = _with_sequence_ends(entities)
         for at, tags in enumerate(entities):
             kind = tags[0].value
             kinds.add(kind)
@@ -84,6 +86,22 @@ def _call_damaged(tags: Any) -> None:
 
 def _drawn(sections: Sections) -> Iterator[list[Any]]:
     return (sections[name] for name in ("BLOCKS", "ENTITIES") if name in sections)
+
+
+def _with_sequence_ends(entities: list[Any]) -> Iterator[Any]:
+    """Yield entities with the end mark of each sequence of vertices that lacks it."""
+    from ezdxf.lldxf.tags import Tags
+    from ezdxf.lldxf.types import DXFTag
+
+    is_open = False
+    for tags in entities:
+        kind = tags[0].value
+        if is_open and kind not in ("VERTEX", _SEQUENCE_END):
+            yield Tags([DXFTag(0, _SEQUENCE_END)])
+        is_open = kind == "POLYLINE" or (is_open and kind == "VERTEX")
+        yield tags
+    if is_open:
+        yield Tags([DXFTag(0, _SEQUENCE_END)])
 
 
 def _without_wrong_handle(tags: Any) -> None:
