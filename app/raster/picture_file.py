@@ -27,6 +27,9 @@ _LEAST_DPI, _MOST_DPI = 1.0, 1e5
 _LONGEST = 10.0
 """Times as long as wide; a file that says pixels are longer says nothing that is meant."""
 
+_SHORT_BMP = 12
+"""Bytes of a BMP's header of the oldest kind, which says nothing of the size of pixels."""
+
 _PNG, _JPEG, _BMP = b"\x89PNG\r\n\x1a\n", b"\xff\xd8", b"BM"
 _TURN, _ACROSS, _DOWN, _UNIT = 0x112, 282, 283, 296
 """Tags of EXIF: how a picture is turned, how many pixels it has across and down a unit, and which unit."""
@@ -77,7 +80,8 @@ def picture_size(name: str, data: bytes) -> tuple[int, int]:
         if data[:8] == _PNG:
             return _whole(struct.unpack(">II", data[16:24]))
         if data[:2] == _BMP:
-            cols, rows = struct.unpack("<ii", data[18:26])
+            short = data[14:18] == struct.pack("<I", _SHORT_BMP)
+            cols, rows = struct.unpack("<HH" if short else "<ii", data[18:22] if short else data[18:26])
             return _whole((cols, abs(rows)))
         if data[:2] == _JPEG:
             return _jpeg_size(data)
@@ -127,7 +131,8 @@ def density_of(data: bytes) -> PictureDensity | None:
 def _own_densities(data: bytes) -> list[PictureDensity]:
     """Return what the format's own header says."""
     if data[:2] == _BMP:
-        return [_density(struct.unpack("<ii", data[38:46]), 1000.0)] if len(data) >= 46 else []
+        says = len(data) >= 46 and data[14:18] != struct.pack("<I", _SHORT_BMP)
+        return [_density(struct.unpack("<ii", data[38:46]), 1000.0)] if says else []
     if data[:2] == _JPEG:
         return [
             _density(struct.unpack(">HH", body[8:12]), {1: MM_PER_INCH, 2: 10.0}.get(body[7], 0.0))
@@ -205,7 +210,8 @@ def decoded(name: str, data: bytes) -> Gray:
     import cv2
 
     _ensure_whole(name, data)
-    flags = cv2.IMREAD_UNCHANGED if _is_see_through(data) else cv2.IMREAD_GRAYSCALE
+    see_through = _is_see_through(data)
+    flags = cv2.IMREAD_UNCHANGED if see_through else cv2.IMREAD_GRAYSCALE
     with _silence():
         try:
             image = cv2.imdecode(np.frombuffer(data, np.uint8), flags)
@@ -213,7 +219,29 @@ def decoded(name: str, data: bytes) -> Gray:
             image = None
     if image is None:
         raise InputError(f"{name}: the picture is damaged and cannot be decoded; save it again.")
-    return _on_paper(np.asarray(image))
+    if not see_through:
+        return _on_paper(np.asarray(image))
+    upright = _turned(np.asarray(image), int(_exif(data).get(_TURN, 1)))  # as the decoder does with all others
+    return _on_paper(_without_clear_grey(upright, data))
+
+
+def _turned(image: NDArray[Any], turn: int) -> NDArray[Any]:
+    """Return a picture upright that is turned as EXIF says, 1 ... 8."""
+    if 5 <= turn <= 8:
+        image = np.swapaxes(image, 0, 1)
+    if turn in (3, 4, 7, 8):
+        image = image[::-1]
+    return np.ascontiguousarray(image[:, ::-1] if turn in (2, 3, 6, 7) else image)
+
+
+def _without_clear_grey(image: NDArray[Any], data: bytes) -> NDArray[Any]:
+    """Return a picture with white for the grey that its file calls clear; the decoder knows of clear colours alone."""
+    clear = next((body for kind, body in _chunks(data) if kind == b"tRNS"), b"")
+    if image.ndim != 2 or data[25] != 0 or len(clear) < 2:
+        return image
+    depth, most = data[24], np.iinfo(image.dtype).max
+    grey = struct.unpack(">H", clear[:2])[0] & ((1 << depth) - 1)
+    return np.where(image == grey * most // ((1 << depth) - 1), most, image).astype(image.dtype)
 
 
 def _ensure_whole(name: str, data: bytes) -> None:

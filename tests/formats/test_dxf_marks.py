@@ -103,6 +103,34 @@ def test_owners_groups_and_extended_data_stay_where_they_are() -> None:
     assert not any("damaged" in each.text for each in drawing.findings)
 
 
+@pytest.mark.parametrize("handle", ["0", "", "-1", "XYZ"])
+@pytest.mark.parametrize("version", ["AC1009", "AC1015"])
+def test_handles_that_are_none_are_made_anew(version: str, handle: str) -> None:
+    lines = "".join(f"0\nLINE\n5\n{handle}\n8\n0\n10\n0\n20\n{y}\n11\n9\n21\n{y}\n" for y in (0, 1))
+    header = f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n0\nENDSEC\n"
+    drawing = read(f"{header}0\nSECTION\n2\nENTITIES\n{lines}0\nENDSEC\n0\nEOF\n")
+    assert [curve for _, curve in seen(drawing)] == [Line((0, 0), (9, 0)), Line((0, 1), (9, 1))]
+    assert not any("damaged" in each.text for each in drawing.findings)
+
+
+LINE = "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nNüt\n10\n0\n20\n0\n11\n9\n21\n0\n0\nENDSEC\n0\nEOF\n"
+
+
+@pytest.mark.parametrize("version", ["AC1009", "AC1024"])
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_mark_of_the_order_of_bytes_is_no_letter(encoding: str, version: str) -> None:
+    text = f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n9\n$INSUNITS\n70\n5\n0\nENDSEC\n{LINE}"
+    assert seen(read_drawing("x.dxf", text.encode(encoding))) == [("Nüt", Line((0, 0), (90, 0)))]
+
+
+@pytest.mark.parametrize("after", ["", "0\nLINE\n8\n0\n10\n0\n20\n5\n11\n9\n21\n5\n"])
+def test_a_polyline_without_its_end_mark_ends_where_something_else_begins(after: str) -> None:
+    vertices = "".join(f"0\nVERTEX\n8\n0\n10\n{x}\n20\n0\n" for x in (0, 4))
+    drawing = read(f"0\nSECTION\n2\nENTITIES\n0\nPOLYLINE\n8\n0\n66\n1\n70\n0\n{vertices}{after}0\nENDSEC\n0\nEOF\n")
+    curves = [curve for _, curve in seen(drawing)]
+    assert curves == [Line((0, 0), (4, 0)), Line((0, 5), (9, 5))][: len(curves)] and len(curves) == 1 + bool(after)
+
+
 @pytest.mark.parametrize("marks", ["", "100\nAcDbEntity\n"])
 @pytest.mark.parametrize("kind", ["MESH", "HELIX", "REGION"])
 def test_what_cannot_be_read_is_missing_and_the_rest_is_read(kind: str, marks: str) -> None:

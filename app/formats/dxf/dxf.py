@@ -61,7 +61,7 @@ from .findings import (
     text_findings,
 )
 from .letters import TextCurves
-from .load import layout_named, load, paper
+from .load import layout_named, load, paper, without_byte_order
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     1: (25.4, Units.INCH),
@@ -112,6 +112,7 @@ def read_dxf(
     Raises:
         InputError: the file is no usable DXF, has no curves, or has not one of the layers or the layout.
     """
+    data = without_byte_order(data)
     loaded = load(data, name)
     document, reading = loaded.document, ReadingOptions(units, layers, how)
     unit = _unit(document, data, units, how.overrule)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import io
 import logging
 import re
@@ -32,6 +33,10 @@ _CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*3[ \t]*\r?\n[ \t]*(\S+)"
 
 _VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*1[ \t]*\r?\n[ \t]*(AC\d+)")
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to say is in our own findings
+
+_BYTE_ORDERS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+
+_BEYOND_ASCII = re.compile("[\u0080-\uffff]")
 
 _HEAD, _TAIL = 1 << 16, 1 << 12
 
@@ -66,7 +71,7 @@ def load(data: bytes, name: str) -> LoadedDocument:
     """Return what a file holds.
 
     Args:
-        data: the whole file.
+        data: the whole file, without a mark of the order of its bytes.
         name: for messages.
 
     Raises:
@@ -92,6 +97,20 @@ def load(data: bytes, name: str) -> LoadedDocument:
             f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); save it again from the CAD program."
         ) from error
     return LoadedDocument(document, max(1, repaired), replace(commas, data=b""))
+
+
+def without_byte_order(data: bytes) -> bytes:
+    """Return a file that begins with a mark of the order of its bytes as UTF-8 without one.
+
+    Numbers and lines stay as they are; letters of a file of before R2007 are escaped, since it is in a code page.
+    """
+    mark = next((each for each in _BYTE_ORDERS if data.startswith(each)), None)
+    if mark is None or len(data) > 2 * MOST_BYTES:
+        return data
+    text = data.decode(_BYTE_ORDERS[mark], "replace")
+    if _encoding(text[:_HEAD].encode()) == "utf-8":
+        return text.encode()
+    return _BEYOND_ASCII.sub(lambda letter: f"\\U+{ord(letter[0]):04X}", text).encode()
 
 
 def _refuse_others(data: bytes, name: str) -> None:

@@ -6,6 +6,8 @@ import math
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from ...core.errors import InputError
 from ...model.curves import Spline
 
@@ -18,7 +20,8 @@ Homogeneous = tuple[float, float, float]
 def spline_curve(entity: Any) -> Spline | None:
     """Return a SPLINE as a clamped (rational) spline in drawing units; None when it is not a curve at all.
 
-    One given by fit points alone becomes the interpolating cubic that CAD programs draw. One whose knots are not
+    One given by fit points alone becomes the interpolating cubic that CAD programs draw, a closed one that which goes
+    on without a corner where it began. One whose knots are not
     clamped (closed and periodic ones) gets knots inserted at both ends, which leaves its shape as it is.
 
     Raises:
@@ -26,9 +29,30 @@ def spline_curve(entity: Any) -> Spline | None:
     """
     _ensure_few(entity, entity.dxf.layer)
     try:
+        if entity.closed and not len(entity.control_points):
+            return _closed_through([(float(p[0]), float(p[1])) for p in entity.fit_points])
         return _clamped(entity.construction_tool())
     except (ValueError, IndexError, ZeroDivisionError, ArithmeticError):
         return None
+
+
+def _closed_through(points: list[tuple[float, float]]) -> Spline | None:
+    """Return the closed cubic through points, of a continuous curvature also where it begins; its parameter is the
+    length of the chords. None of fewer than three points.
+    """
+    from scipy.interpolate import CubicSpline
+
+    corners = [point for point, following in zip(points, points[1:] + points[:1], strict=True) if point != following]
+    if len(corners) < 3:
+        return None
+    ring = np.array([*corners, corners[0]])
+    at = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(ring, axis=0).T))])
+    thirds = CubicSpline(at, ring, bc_type="periodic").derivative()(at) / 3
+    steps = np.diff(at)[:, None]
+    inner = np.stack([ring[:-1] + thirds[:-1] * steps, ring[1:] - thirds[1:] * steps, ring[1:]], axis=1)
+    control = np.concatenate([ring[:1], inner.reshape(-1, 2)])
+    knots = [at[0], *np.repeat(at, 3), at[-1]]
+    return Spline(3, tuple(map(tuple, control.tolist())), tuple(map(float, knots)))
 
 
 def spline_of_edge(edge: Any, layer: str) -> Spline | None:

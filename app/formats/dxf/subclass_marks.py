@@ -1,4 +1,4 @@
-"""Subclass marks, which a DXF since R13 has in every entity: put in where the program that wrote it left them out."""
+"""What small exporters leave out of a DXF: subclass marks, which every entity has since R13, the version, handles."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ _ALL_KINDS = "AcDbEntity"
 _COMMON = frozenset({6, 8, 48, 60, 62, 67, 370, 410, 420, 430, 440})
 """Codes of what all kinds have: line type, layer, its scale, whether it is seen, colour, paper, weight, layout."""
 _HANDLE, _OWNER, _GROUP, _MARK, _EMBEDDED = 5, 330, 102, 100, 101
+_SEQUENCE_END = "SEQEND"
 _R12, _R2000 = "AC1009", "AC1015"
 _VERSION = "$ACADVER"
 
@@ -31,16 +32,19 @@ Sections = dict[str, list[Any]]
 
 
 def put_in(sections: Sections) -> None:
-    """Give the entities that are read by their marks those that they lack.
+    """Give the entities that are read by their marks those that they lack, polylines the ends that they lack, and take
+    away handles that are none, in whose place the library makes new ones.
 
     A file that names no version is R12 for the library, where no mark is looked at; one that has entities of later
     versions all the same is taken for one of R2000.
     """
     kinds = set()
     for entities in _drawn(sections):
+        entities[:] = _with_sequence_ends(entities)
         for at, tags in enumerate(entities):
             kind = tags[0].value
             kinds.add(kind)
+            _without_wrong_handle(tags)
             if kind in _OWN and not _is_marked(tags, kind):
                 entities[at] = _with_marks(tags, kind)
     if kinds & _MARKED:
@@ -82,6 +86,35 @@ def _call_damaged(tags: Any) -> None:
 
 def _drawn(sections: Sections) -> Iterator[list[Any]]:
     return (sections[name] for name in ("BLOCKS", "ENTITIES") if name in sections)
+
+
+def _with_sequence_ends(entities: list[Any]) -> Iterator[Any]:
+    """Yield entities with the end mark of each sequence of vertices that lacks it."""
+    from ezdxf.lldxf.tags import Tags
+    from ezdxf.lldxf.types import DXFTag
+
+    is_open = False
+    for tags in entities:
+        kind = tags[0].value
+        if is_open and kind not in ("VERTEX", _SEQUENCE_END):
+            yield Tags([DXFTag(0, _SEQUENCE_END)])
+        is_open = kind == "POLYLINE" or (is_open and kind == "VERTEX")
+        yield tags
+    if is_open:
+        yield Tags([DXFTag(0, _SEQUENCE_END)])
+
+
+def _without_wrong_handle(tags: Any) -> None:
+    at = next((k for k, tag in enumerate(tags) if tag.code == _HANDLE), None)
+    if at is not None and not _is_handle(str(tags[at].value)):
+        del tags[at]
+
+
+def _is_handle(text: str) -> bool:
+    try:
+        return int(text, 16) > 0
+    except ValueError:
+        return False
 
 
 def _is_marked(tags: Any, kind: str) -> bool:
