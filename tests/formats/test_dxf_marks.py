@@ -131,6 +131,15 @@ def test_a_polyline_without_its_end_mark_ends_where_something_else_begins(after:
     assert curves == [Line((0, 0), (4, 0)), Line((0, 5), (9, 5))][: len(curves)] and len(curves) == 1 + bool(after)
 
 
+@pytest.mark.parametrize("attribute", ["", "0\nATTRIB\n8\n0\n10\n1\n20\n1\n40\n2\n1\n \n2\nT\n"])
+def test_a_block_whose_attributes_do_not_end_is_inserted(attribute: str) -> None:
+    block = "0\nBLOCK\n8\n0\n2\nB\n70\n0\n10\n0\n20\n0\n0\nLINE\n8\n0\n10\n0\n20\n0\n11\n9\n21\n0\n0\nENDBLK\n"
+    insert = f"0\nINSERT\n8\n0\n66\n1\n2\nB\n10\n0\n20\n2\n{attribute}"
+    both = LINE.replace("0\nLINE", f"{insert}0\nLINE")
+    drawing = read(f"0\nSECTION\n2\nBLOCKS\n{block}0\nENDSEC\n{both}")
+    assert {curve for _, curve in seen(drawing)} == {Line((0, 0), (9, 0)), Line((0, 2), (9, 2))}
+
+
 @pytest.mark.parametrize("marks", ["", "100\nAcDbEntity\n"])
 @pytest.mark.parametrize("kind", ["MESH", "HELIX", "REGION"])
 def test_what_cannot_be_read_is_missing_and_the_rest_is_read(kind: str, marks: str) -> None:

@@ -23,7 +23,7 @@ _ALL_KINDS = "AcDbEntity"
 _COMMON = frozenset({6, 8, 48, 60, 62, 67, 370, 410, 420, 430, 440})
 """Codes of what all kinds have: line type, layer, its scale, whether it is seen, colour, paper, weight, layout."""
 _HANDLE, _OWNER, _GROUP, _MARK, _EMBEDDED = 5, 330, 102, 100, 101
-_SEQUENCE_END = "SEQEND"
+_SEQUENCE_END, _PARTS_FOLLOW = "SEQEND", 66
 _R12, _R2000 = "AC1009", "AC1015"
 _VERSION = "$ACADVER"
 
@@ -32,7 +32,7 @@ Sections = dict[str, list[Any]]
 
 
 def put_in(sections: Sections) -> None:
-    """Give the entities that are read by their marks those that they lack, polylines the ends that they lack, and take
+    """Give the entities that are read by their marks those that they lack, sequences the ends that they lack, and take
     away handles that are none, in whose place the library makes new ones.
 
     A file that names no version is R12 for the library, where no mark is looked at; one that has entities of later
@@ -89,19 +89,28 @@ def _drawn(sections: Sections) -> Iterator[list[Any]]:
 
 
 def _with_sequence_ends(entities: list[Any]) -> Iterator[Any]:
-    """Yield entities with the end mark of each sequence of vertices that lacks it."""
+    """Yield entities with the end mark of each sequence of vertices or attributes that lacks it."""
     from ezdxf.lldxf.tags import Tags
     from ezdxf.lldxf.types import DXFTag
 
-    is_open = False
+    follows = ""
     for tags in entities:
         kind = tags[0].value
-        if is_open and kind not in ("VERTEX", _SEQUENCE_END):
+        if follows and kind not in (follows, _SEQUENCE_END):
             yield Tags([DXFTag(0, _SEQUENCE_END)])
-        is_open = kind == "POLYLINE" or (is_open and kind == "VERTEX")
+        if kind != follows:
+            follows = _following(tags)
         yield tags
-    if is_open:
+    if follows:
         yield Tags([DXFTag(0, _SEQUENCE_END)])
+
+
+def _following(tags: Any) -> str:
+    """Return the kind of entities that follow one as its parts, "" for none."""
+    kind = tags[0].value
+    if kind == "INSERT":
+        return "ATTRIB" if any(tag.code == _PARTS_FOLLOW and tag.value for tag in tags) else ""
+    return "VERTEX" if kind == "POLYLINE" else ""
 
 
 def _without_wrong_handle(tags: Any) -> None:
