@@ -45,6 +45,28 @@ def test_file_cut_short(data: Path) -> None:
             read_dxf(whole[: int(len(whole) * share)], "gear.dxf")
 
 
+LEAST = b"0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n1.0\n20\n2.0\n40\n5.0\n0\nENDSEC\n"
+
+
+@pytest.mark.parametrize("before", [b"", b"\n", b"\r\n  \r\n"])
+@pytest.mark.parametrize("end", [b"", b"\n\n", b"0\nEOF\n", b"0\nEOF"])
+def test_a_whole_drawing_without_its_end_mark_is_read_and_told(before: bytes, end: bytes) -> None:
+    found = read_dxf(before + LEAST + end, "a.dxf")
+    assert len(found.part.entities) == 1
+    assert [each.amount for each in found.findings if "repaired" in each.text] == ([] if b"EOF" in end else [1.0])
+
+
+@pytest.mark.parametrize("end", [b"0\nENDSE", b"0\n", b""])
+def test_entities_that_do_not_end_are_cut_short(end: bytes) -> None:
+    with pytest.raises(InputError, match="cut short"):
+        read_dxf(LEAST.removesuffix(b"0\nENDSEC\n") + end, "a.dxf")
+
+
+def test_a_file_that_ends_before_its_entities_is_cut_short() -> None:
+    with pytest.raises(InputError, match="cut short"):
+        read_dxf(LEAST.replace(b"ENTITIES", b"HEADER"), "a.dxf")
+
+
 def test_least_dxf_of_old() -> None:
     line = ["0", "LINE", "8", "0", "10", "0.0", "20", "0.0", "11", "5.0", "21", "7.0"]
     lines = ["0", "SECTION", "2", "ENTITIES", *line, "0", "ENDSEC", "0", "EOF"]

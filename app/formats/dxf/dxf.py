@@ -310,7 +310,8 @@ def _unit_findings(given: Units | None, unit: _Unit) -> Iterable[Finding]:
 
 def _damage(repaired: int) -> Iterable[Finding]:
     if repaired:
-        text = f"The DXF is damaged; {repaired} faults were repaired on reading. Compare it with the original."
+        were = "1 fault was" if repaired == 1 else f"{repaired} faults were"
+        text = f"The DXF is damaged; {were} repaired on reading. Compare it with the original."
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(repaired))
 
 

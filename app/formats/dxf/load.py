@@ -28,6 +28,8 @@ _ENTITIES = re.compile(
 )
 _SECTION_END = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*ENDSEC[ \t]*\r?\n", re.MULTILINE)
 _FILE_END = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*EOF\b", re.MULTILINE)
+_WHOLE = re.compile(rb"(?:^|\n)[ \t]*0[ \t]*\r?\n[ \t]*ENDSEC\s*\Z")
+_END_MARK = b"\n0\nEOF\n"
 
 _CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*3[ \t]*\r?\n[ \t]*(\S+)")
 
@@ -77,10 +79,11 @@ def load(data: bytes, name: str) -> LoadedDocument:
     Raises:
         InputError: the data is empty, no DXF, cut short, or damaged beyond repair; or a number in it is none.
     """
+    data, unended = _with_end(data)
     _refuse_others(data, name)
     data = _with_one_section(data)
     try:
-        return LoadedDocument(_probed(_load_sound(data)))
+        return LoadedDocument(_probed(_load_sound(data)), unended)
     except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
         reason = fault
     commas = DecimalCommas(data) if data.startswith(_BINARY) else with_points(data, name)
@@ -111,6 +114,19 @@ def without_byte_order(data: bytes) -> bytes:
     if _encoding(text[:_HEAD].encode()) == "utf-8":
         return text.encode()
     return _BEYOND_ASCII.sub(lambda letter: f"\\U+{ord(letter[0]):04X}", text).encode()
+
+
+def _with_end(data: bytes) -> tuple[bytes, int]:
+    """Return a file without blank lines before it and with its end mark, and how many marks (0, 1) had to be put in: one
+    where the section of entities is there to its end, so that nothing of the drawing is missing.
+    """
+    if data.startswith(_BINARY):
+        return data, 0
+    data = data.lstrip()
+    tail = data[-_TAIL:]
+    if b"EOF" in tail or not _WHOLE.search(tail) or not _ENTITIES.search(data):
+        return data, 0
+    return data.rstrip() + _END_MARK, 1
 
 
 def _refuse_others(data: bytes, name: str) -> None:
