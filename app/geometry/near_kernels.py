@@ -54,41 +54,76 @@ def nearest_points(points, order, nodes, places, away, which):
                 away[p, at], which[p, at] = d, i
 
 
+@kernel("boolean(float64[:, ::1], int64, float64[:, ::1], int64)", counts=False)
+def _apart(boxes, i, others, j):
+    """Tell whether box i of the one and box j of the others neither meet nor touch."""
+    beside = boxes[i, 0] > others[j, 2] or boxes[i, 2] < others[j, 0]
+    return beside or boxes[i, 1] > others[j, 3] or boxes[i, 3] < others[j, 1]
+
+
+@kernel("Tuple((int64[::1], int64[::1]))(int64[::1], int64, int64[::1])")
+def _node_contents(order, count, owner):
+    """Return for each of `count` nodes the place in the order that its last box comes before, and whose all its boxes
+    are: -1 where they are of several owners, or where there are none.
+    """
+    leaves, last, single = (count + 1) // 2, np.empty(count, np.int64), np.full(count, -1)
+    for k in range(count - 1, -1, -1):
+        if k < leaves - 1:
+            last[k] = last[2 * k + 2]
+            if single[2 * k + 1] == single[2 * k + 2]:
+                single[k] = single[2 * k + 1]
+            continue
+        first = (k - leaves + 1) * LEAF
+        last[k] = min(first + LEAF, len(order))
+        if first < len(order):
+            single[k] = owner[order[first]]
+            for place in range(first + 1, last[k]):
+                if owner[order[place]] != single[k]:
+                    single[k] = -1
+    return last, single
+
+
 @kernel("Tuple((int64[:, ::1], int64))(int64[::1], float64[:, ::1], float64[:, ::1], int64[::1])")
 def meeting_boxes(order, nodes, boxes, owner):
     """Return (pairs (m, 2) of owners a < b of boxes that meet or touch, by chance more than once; how many).
 
-    Each pair is found from the box that stands first in the tree's order, so that half of the tree need not be walked.
+    The tree is walked once a leaf, not once a box, and only where it holds boxes later in its order, so that each pair
+    is found once. What belongs to the leaf's only owner is left out as a whole: along a contour most neighbours are its
+    own.
 
     Args:
-        order, nodes: tree of boxes (n, 4). owner: (n,) of each.
+        order, nodes: tree of boxes (n, 4). owner: (n,) of each, >= 0.
     """
     leaves, stack, found, count = (len(nodes) + 1) // 2, np.empty(DEPTH, np.int64), np.empty((256, 2), np.int64), 0
-    last = np.empty(len(nodes), np.int64)  # place in the order that a node's last box comes before
-    for k in range(len(nodes) - 1, -1, -1):
-        last[k] = min((k - leaves + 2) * LEAF, len(order)) if k >= leaves - 1 else last[2 * k + 2]
-    for at in range(len(order)):
-        i = order[at]
-        x0, y0, x1, y1, mine, top = boxes[i, 0], boxes[i, 1], boxes[i, 2], boxes[i, 3], owner[i], 1
+    last, single = _node_contents(order, len(nodes), owner)
+    for begin in range(0, len(order), LEAF):
+        here, top = leaves - 1 + begin // LEAF, 1
         stack[0] = 0
         while top > 0:
             top -= 1
             k = stack[top]
-            if last[k] <= at + 1 or nodes[k, 0] > x1 or nodes[k, 2] < x0 or nodes[k, 1] > y1 or nodes[k, 3] < y0:
+            if last[k] <= begin + 1 or (single[here] >= 0 and single[k] == single[here]):
+                continue
+            if _apart(nodes, here, nodes, k):
                 continue
             if k < leaves - 1:
                 stack[top], stack[top + 1] = 2 * k + 2, 2 * k + 1
                 top += 2
                 continue
-            for place in range(max((k - leaves + 1) * LEAF, at + 1), last[k]):
-                j = order[place]
-                if owner[j] == mine or boxes[j, 0] > x1 or boxes[j, 2] < x0 or boxes[j, 1] > y1 or boxes[j, 3] < y0:
+            first = (k - leaves + 1) * LEAF
+            for at in range(begin, last[here]):
+                i = order[at]
+                if _apart(boxes, i, nodes, k):
                     continue
-                if count == len(found):
-                    larger = np.empty((2 * count, 2), np.int64)
-                    for n in range(count):
-                        larger[n, 0], larger[n, 1] = found[n, 0], found[n, 1]
-                    found = larger
-                found[count, 0], found[count, 1] = min(mine, owner[j]), max(mine, owner[j])
-                count += 1
+                for place in range(max(first, at + 1), last[k]):
+                    j = order[place]
+                    if owner[j] == owner[i] or _apart(boxes, i, boxes, j):
+                        continue
+                    if count == len(found):
+                        larger = np.empty((2 * count, 2), np.int64)
+                        for n in range(count):
+                            larger[n, 0], larger[n, 1] = found[n, 0], found[n, 1]
+                        found = larger
+                    found[count, 0], found[count, 1] = min(owner[i], owner[j]), max(owner[i], owner[j])
+                    count += 1
     return found, count

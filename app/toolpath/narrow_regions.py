@@ -16,7 +16,7 @@ from ..core.pool import in_bands
 from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ..geometry.outlines import Outlines, polygons
-from ..geometry.primitives import Primitives, boxes, sample
+from ..geometry.primitives import Indices, Primitives, boxes, sample
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.operation import Operation
@@ -27,6 +27,9 @@ from .narrow_kernels import widest_way
 
 _CHORD = 1e-3
 """mm by which chords may leave arcs."""
+
+_SAME = 1e-6
+"""mm; places are told apart by so much where shapes are compared: a thousandth of what is told of a disc."""
 
 _WORTH_TWO_CORES = 32
 """Largest discs from which a second core is worth its start."""
@@ -122,14 +125,34 @@ def largest_discs(regions: Sequence[Region]) -> Floats:
     number, shapes = polygons(outlines, group, _CHORD)
     wide = shapely.area(shapes) > 0
     number, shapes = number[wide], shapes[wide]
+    corner, first, which = _alike(shapes)
     radii = np.concatenate(
         in_bands(
-            lambda band: shapely.maximum_inscribed_circle(shapes[band], tolerance=_CHORD), len(shapes), _WORTH_TWO_CORES
+            lambda band: shapely.maximum_inscribed_circle(first[band], tolerance=_CHORD), len(first), _WORTH_TWO_CORES
         )
     )
-    found[number, :2] = shapely.get_coordinates(radii)[::2]
-    found[number, 2] = 2 * shapely.length(radii)
+    found[number, :2] = corner + shapely.get_coordinates(radii)[::2][which]
+    found[number, 2] = 2 * shapely.length(radii)[which]
     return found
+
+
+def _alike(shapes: NDArray[np.object_]) -> tuple[Floats, NDArray[np.object_], Indices]:
+    """Return shapes that a translation brings onto one another within `_SAME`, as equal letters are, only once.
+
+    Args:
+        shapes: (n,) polygons, none empty.
+
+    Returns:
+        (n, 2) the first corner of each, mm; (m,) the different ones, about their first corners; (n,) which of these
+        each is.
+    """
+    places, owner = shapely.get_coordinates(shapes, return_index=True)
+    corner = places[np.searchsorted(owner, np.arange(len(shapes)))]
+    about = np.round((places - corner[owner]) / _SAME) * _SAME + 0.0  # -0 is another number in the bytes compared
+    moved = shapely.set_coordinates(shapes.copy(), about)
+    number: dict[bytes, int] = {}
+    which = np.array([number.setdefault(key, len(number)) for key in shapely.to_wkb(moved)], np.int64)
+    return corner, moved[np.unique(which, return_index=True)[1]], which
 
 
 def necks(level: OffsetLevel, primitives: Primitives, field: DistanceField, tool: Tool) -> list[Finding]:

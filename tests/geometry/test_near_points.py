@@ -71,10 +71,12 @@ def test_nearest(points, shift: float, count: int) -> None:
 @given(
     corners=arrays(np.float64, st.tuples(st.integers(0, 30), st.just(4)), elements=st.integers(-5, 5)),
     owners=st.lists(st.integers(0, 9), min_size=30, max_size=30),
+    few_owners=st.booleans(),
 )
-def test_pairs_of_boxes_that_meet(corners, owners: list[int]) -> None:
+def test_pairs_of_boxes_that_meet(corners, owners: list[int], few_owners: bool) -> None:
+    """Owners of many boxes, too: whole nodes of the tree are theirs."""
     boxes = np.hstack([np.minimum(corners[:, :2], corners[:, 2:]), np.maximum(corners[:, :2], corners[:, 2:])])
-    owner = np.array(owners[: len(boxes)], np.int64)
+    owner = np.array(owners[: len(boxes)], np.int64) // (5 if few_owners else 1)
     with pytest.MonkeyPatch.context() as monkeypatch:
         few, many = both(monkeypatch, lambda: pairs_meeting(boxes, owner))
     assert few.tolist() == many.tolist()
