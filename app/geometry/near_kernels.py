@@ -31,6 +31,7 @@ def nearest_points(points, order, nodes, places, away, which):
                 if far > away[p, count - 1] or away[p, count - 1] == 0.0:
                     continue
             if k < leaves - 1:
+                # the nearer child goes on the stack last, so that it is looked at first and rules out most of the other
                 nearer = 2 * k + 1
                 if box_distance(nodes, nearer + 1, x, y) < box_distance(nodes, nearer, x, y):
                     nearer += 1
@@ -67,6 +68,7 @@ def _node_contents(order, count, owner):
     are: -1 where they are of several owners, or where there are none.
     """
     leaves, last, single = (count + 1) // 2, np.empty(count, np.int64), np.full(count, -1)
+    # children have higher numbers than their node, so that from the last one on they are always known
     for k in range(count - 1, -1, -1):
         if k < leaves - 1:
             last[k] = last[2 * k + 2]
@@ -102,6 +104,7 @@ def meeting_boxes(order, nodes, boxes, owner):
         while top > 0:
             top -= 1
             k = stack[top]
+            # what ends before the leaf's second box was paired with it when that node's own leaf was walked
             if last[k] <= begin + 1 or (single[here] >= 0 and single[k] == single[here]):
                 continue
             if _apart(nodes, here, nodes, k):
