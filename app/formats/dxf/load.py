@@ -117,8 +117,9 @@ def without_byte_order(data: bytes) -> bytes:
 
 
 def _with_end(data: bytes) -> tuple[bytes, int]:
-    """Return a file without blank lines before it and with its end mark, and how many marks (0, 1) had to be put in: one
-    where the section of entities is there to its end, so that nothing of the drawing is missing.
+    """Return a file without blank lines before it and with its end mark, and how many marks (0, 1) had to be put in.
+
+    One is where the section of entities is there to its end, so that nothing of the drawing is missing.
     """
     if data.startswith(_BINARY):
         return data, 0
