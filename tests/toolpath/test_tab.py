@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.geometry.outlines import polygon_contour
-from app.geometry.primitives import lengths
+from app.geometry.primitives import lengths, points_at
 from app.model.contour_operation import ContourOperation
 from app.model.curves import Line, Primitive
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
@@ -19,6 +20,7 @@ from app.model.moves import Program, Purpose
 from app.model.operation import CutParameters, Side
 from app.model.part import Contour
 from app.operations.compute import compute
+from app.toolpath.coverage.areas import move_rows
 from tests import plain_distance
 from tests.examples import examples
 from tests.operations.contour_jobs import about, contour_job, outside, rows_of
@@ -222,6 +224,11 @@ def standing(program: Program) -> list[float]:
     return [each - tab.diameter for each, tab in zip(found, program.tabs, strict=False)]
 
 
+def sample_row(row: np.ndarray) -> np.ndarray:
+    """Return points along a line or arc."""
+    return points_at(np.repeat(row[None], 65, axis=0), np.linspace(0.0, 1.0, 65))
+
+
 CORNERS = polygon_contour([(0, 0), (60, 0), (60, 30), (30, 30), (30, 60), (0, 60)])
 
 
@@ -236,6 +243,23 @@ def test_a_tab_by_hand_at_a_corner_is_as_wide_as_asked_for(
     )
     program = compute(contour_job([CORNERS], operation))
     assert min(standing(program)) >= width - 2e-6 and not about(program, "narrower")
+
+
+@pytest.mark.parametrize("finish_width", [0.2, 0.8])
+@pytest.mark.parametrize("side", [Side.OUTSIDE, Side.INSIDE])
+def test_what_stands_between_roughed_and_finished_is_as_wide_as_asked_for(side: Side, finish_width: float) -> None:
+    operation = replace(
+        outside(tabs=Tabs(places=((0.0, 0.0), (30.0, 30.0)), width=4.0), finish_width=finish_width),
+        side=side,
+        cut=CutParameters(2, depth=4.0, stepdown=2.0, entry=PLUNGE),
+    )
+    program = compute(contour_job([CORNERS], operation))
+    low = (program.moves.kind != 0) & (np.maximum(program.moves.start, program.moves.end)[:, 2] < -3.9)
+    paths = shapely.MultiLineString([sample_row(row) for row in move_rows(program.moves)[low]])
+    for tab in program.tabs:
+        round_it = paths.intersection(shapely.Point(tab.x, tab.y).buffer(tab.width / 2 + tab.diameter / 2 + 1.0))
+        cut = sorted(shapely.get_parts(round_it.buffer(tab.diameter / 2, 64)), key=lambda each: -each.area)
+        assert cut[0].distance(cut[1]) >= 4.0 - 2e-3
 
 
 @settings(max_examples=examples(8), deadline=None)

@@ -283,8 +283,8 @@ def _rough(
     ways: Sequence[CornerRelief],
 ) -> _ContourStrokes:
     """Return the paths that leave the finish width, with their tabs where the finish path has its own."""
-    shape = TabShape.of(work.operation, work.tool)
     width = work.operation.finish_width
+    shape = replace(TabShape.of(work.operation, work.tool), finish_width=width)
     tabs: list[list[float]] = [[] for _ in paths]
     middles = [
         run.path.points(np.array(places)) for run, places in zip(finish.runs, finish.tabs, strict=True) if places

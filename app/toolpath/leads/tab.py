@@ -68,11 +68,14 @@ class TabShape:
         tabs: what was asked for.
         tool: the cutter.
         top: height of their tops, mm, <= -0.001.
+        finish_width: what a path leaves for one nearer to the wall, mm: at a bend the ends of both lie otherwise, and
+            the metal between one's and the other's is to be as wide as asked for, too.
     """
 
     tabs: Tabs
     tool: Tool
     top: float
+    finish_width: float = 0.0
 
     @staticmethod
     def of(operation: ContourOperation, tool: Tool) -> TabShape:
@@ -94,9 +97,11 @@ class TabShape:
         as wide as asked for; where no way is, the widest is taken.
         """
         found = np.full(len(places), self.half)
-        bent = np.flatnonzero(self._metal(path, places, found) < self.tabs.width - _SHORT)
+        short = self.tabs.width - self._metal(path, places, found)
+        bent = np.flatnonzero(short > _SHORT)
         if len(bent):
-            found[bent] = self._longer(path, places[bent])
+            wanted = self.tabs.width + np.minimum(short[bent], 2 * self.finish_width)
+            found[bent] = self._longer(path, places[bent], wanted)
         return found
 
     def metal(self, path: ContourPath, places: Floats) -> Floats:
@@ -113,19 +118,19 @@ class TabShape:
         metal: Floats = np.where(beyond & (not path.closed), np.inf, apart - self.tool.diameter)
         return metal
 
-    def _longer(self, path: ContourPath, places: Floats) -> Floats:
-        """Return the shortest ways (m,) that leave metal as wide as asked for, half of each, mm; else those that leave
-        the widest.
+    def _longer(self, path: ContourPath, places: Floats, wanted: Floats) -> Floats:
+        """Return the shortest ways (m,) that leave metal as wide as wanted (m,), half of each, mm; else those that
+        leave the widest.
         """
         most = min(_LONGEST * self.half, (path.length - self.tool.diameter) / 2)
         tried = np.linspace(self.half, max(most, self.half), _STEPS)
         wide = np.stack([self._metal(path, places, np.full(len(places), half)) for half in tried], 1)
-        enough = wide >= self.tabs.width
+        enough = wide >= wanted[:, None]
         first = np.where(enough.any(axis=1), np.argmax(enough, axis=1), np.argmax(wide, axis=1))
         low, high = tried[np.maximum(first - 1, 0)], tried[first]
         for _ in range(_HALVINGS):
             middle = (low + high) / 2
-            good = self._metal(path, places, middle) >= self.tabs.width
+            good = self._metal(path, places, middle) >= wanted
             low, high = np.where(good, low, middle), np.where(good, middle, high)
         found: Floats = np.where(enough.any(axis=1), high, tried[first])
         return found
