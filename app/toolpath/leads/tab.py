@@ -47,11 +47,8 @@ _BESIDE = 2.0
 _LONGEST = 3.0
 """Times the way over a straight tab; what a bend of the path makes it longer by ends there."""
 
-_STEPS = 64
-"""Ways over a tab that are tried up to the longest."""
-
-_HALVINGS = 40
-"""Of the interval between two of them: 1e-11 of it."""
+_ROUNDS = 100
+"""Ways over a tab that are tried, each longer than the one before by what the metal lacks."""
 
 _SHORT = 1e-6
 """mm by which metal may be narrower than asked for."""
@@ -123,17 +120,18 @@ class TabShape:
         leave the widest.
         """
         most = min(_LONGEST * self.half, (path.length - self.tool.diameter) / 2)
-        tried = np.linspace(self.half, max(most, self.half), _STEPS)
-        wide = np.stack([self._metal(path, places, np.full(len(places), half)) for half in tried], 1)
-        enough = wide >= wanted[:, None]
-        first = np.where(enough.any(axis=1), np.argmax(enough, axis=1), np.argmax(wide, axis=1))
-        low, high = tried[np.maximum(first - 1, 0)], tried[first]
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            good = self._metal(path, places, middle) >= wanted
-            low, high = np.where(good, low, middle), np.where(good, middle, high)
-        found: Floats = np.where(enough.any(axis=1), high, tried[first])
-        return found
+        half = np.full(len(places), self.half)
+        best, widest = half, np.full(len(places), -np.inf)
+        for _ in range(_ROUNDS):
+            metal = self._metal(path, places, half)
+            best, widest = np.where(metal > widest, half, best), np.maximum(metal, widest)
+            short = wanted - metal
+            unfinished = (short > _SHORT / 2) & (half < most)
+            if not unfinished.any():
+                break
+            # metal grows by no more than the way does at both ends, so this passes no way that is long enough
+            half = np.where(unfinished, np.minimum(half + short / 2, most), half)
+        return best
 
 
 def by_hand(
