@@ -17,6 +17,9 @@ _TRIANGLE = math.sqrt(3) / 2
 _WHITWORTH = 0.960491
 """Height of the triangle of 55 degrees, in pitches (ISO 228-1)."""
 
+_UP = 0.004
+"""mm; what is rounded to the hundredth is not rounded down."""
+
 
 class ThreadForm(Enum):
     """The profile of a thread; the value says the angle between its flanks, degrees."""
@@ -129,7 +132,8 @@ class ThreadSize(Enum):
 
     @property
     def tap_drill(self) -> float:
-        """Diameter of the drill before the tap, mm, to the tenth: a little more than the core, so that the tap
-        turns.
+        """Diameter of the drill before the tap, mm, to the tenth where that is no less than the core, else to the
+        hundredth: a little more than the core, so that the tap turns.
         """
-        return round(max(self.major - self.pitch, self.nut_core), 1)
+        wanted = max(self.major - self.pitch, self.nut_core)
+        return next(size for size in (round(wanted, 1), round(wanted + _UP, 2)) if size >= self.nut_core)

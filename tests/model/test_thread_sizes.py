@@ -32,13 +32,21 @@ def test_every_thread_is_sound() -> None:
     assert len(set(words)) == len(words)
     for each in ThreadSize:
         assert 0 < each.bolt_core <= each.nut_core < each.pitch_diameter < each.major
-        assert each.nut_core - 1e-9 <= each.tap_drill + 0.05 and each.tap_drill < each.major
+        assert each.nut_core <= each.tap_drill < each.pitch_diameter
         slope = math.tan(math.radians(each.form.value / 2))
         # at the pitch diameter, tooth and gap are half a pitch wide: the crest's flat and the flank make it so
         flat = each.pitch / 2 - (each.major - each.pitch_diameter) * slope
         share = 1 / 8 if each.form is ThreadForm.ISO else 1 / 6
         assert flat == pytest.approx(each.pitch * share, rel=1e-4)
         assert 0.35 * each.pitch < (each.major - each.nut_core) / 2 < 0.7 * each.pitch
+
+
+@pytest.mark.parametrize(
+    ("name", "drill"),  # ISO 2306
+    [("M1.6", 1.25), ("M2", 1.6), ("M2.5", 2.05), ("M3", 2.5), ("M8", 6.8), ("M12", 10.2), ("M10x1.25", 8.8)],
+)
+def test_the_drill_before_a_tap_is_the_handbook_s(name: str, drill: float) -> None:
+    assert ThreadSize(name).tap_drill == drill
 
 
 def test_no_core_is_less_than_what_a_tool_is_taken_to_have() -> None:

@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.geometry.outlines import polygon_contour
-from app.geometry.primitives import lengths
+from app.geometry.primitives import lengths, points_at
 from app.model.contour_operation import ContourOperation
 from app.model.curves import Line, Primitive
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
@@ -19,6 +20,7 @@ from app.model.moves import Program, Purpose
 from app.model.operation import CutParameters, Side
 from app.model.part import Contour
 from app.operations.compute import compute
+from app.toolpath.coverage.areas import move_rows
 from tests import plain_distance
 from tests.examples import examples
 from tests.operations.contour_jobs import about, contour_job, outside, rows_of
@@ -206,3 +208,74 @@ def test_no_cut_at_the_floor_comes_into_a_tab(count: int, width: float, diameter
         # corners bring the path's ends nearer than they are along it: the triangle is left out
         assert chord > 0.6 * (width + diameter) / 2 or width + diameter > 15
     assert len(program.tabs) <= 3 * count
+
+
+def standing(program: Program) -> list[float]:
+    """Return how wide the metal in each tab is: between the cutter where it rises and where it comes down."""
+    moves = program.moves
+    over = (moves.purpose == Purpose.TAB) & (np.hypot(*(moves.end - moves.start)[:, :2].T) > 0)
+    begins = np.flatnonzero(over & ~np.append(False, over[:-1]) & (moves.start[:, 2] > -3.9))
+    found = []
+    for begin in begins.tolist():
+        end = begin
+        while over[end + 1]:
+            end += 1
+        found.append(float(np.hypot(*(moves.end[end] - moves.start[begin])[:2])))
+    return [each - tab.diameter for each, tab in zip(found, program.tabs, strict=False)]
+
+
+def sample_row(row: np.ndarray) -> np.ndarray:
+    """Return points along a line or arc."""
+    return points_at(np.repeat(row[None], 65, axis=0), np.linspace(0.0, 1.0, 65))
+
+
+CORNERS = polygon_contour([(0, 0), (60, 0), (60, 30), (30, 30), (30, 60), (0, 60)])
+
+
+@pytest.mark.parametrize("side", [Side.OUTSIDE, Side.INSIDE])
+@pytest.mark.parametrize("place", [(0.0, 0.0), (30.0, 30.0), (60.0, 29.0), (31.5, 30.0)])
+@pytest.mark.parametrize("width", [1.0, 5.0])
+def test_a_tab_by_hand_at_a_corner_is_as_wide_as_asked_for(
+    width: float, place: tuple[float, float], side: Side
+) -> None:
+    operation = replace(
+        outside(tabs=Tabs(places=(place,), width=width)), side=side, cut=CutParameters(2, depth=4.0, entry=PLUNGE)
+    )
+    program = compute(contour_job([CORNERS], operation))
+    assert min(standing(program)) >= width - 2e-6 and not about(program, "narrower")
+
+
+@pytest.mark.parametrize("finish_width", [0.2, 0.8])
+@pytest.mark.parametrize("side", [Side.OUTSIDE, Side.INSIDE])
+def test_what_stands_between_roughed_and_finished_is_as_wide_as_asked_for(side: Side, finish_width: float) -> None:
+    operation = replace(
+        outside(tabs=Tabs(places=((0.0, 0.0), (30.0, 30.0)), width=4.0), finish_width=finish_width),
+        side=side,
+        cut=CutParameters(2, depth=4.0, stepdown=2.0, entry=PLUNGE),
+    )
+    program = compute(contour_job([CORNERS], operation))
+    low = (program.moves.kind != 0) & (np.maximum(program.moves.start, program.moves.end)[:, 2] < -3.9)
+    paths = shapely.MultiLineString([sample_row(row) for row in move_rows(program.moves)[low]])
+    for tab in program.tabs:
+        round_it = paths.intersection(shapely.Point(tab.x, tab.y).buffer(tab.width / 2 + tab.diameter / 2 + 1.0))
+        cut = sorted(shapely.get_parts(round_it.buffer(tab.diameter / 2, 64)), key=lambda each: -each.area)
+        assert cut[0].distance(cut[1]) >= 4.0 - 2e-3
+
+
+@settings(max_examples=examples(8), deadline=None)
+@given(st.floats(2.0, 30.0), st.integers(1, 6), st.floats(0.5, 12), st.floats(0.5, 8))
+def test_a_tab_on_a_bend_is_as_wide_as_asked_for_or_told(
+    radius: float, count: int, width: float, diameter: float
+) -> None:
+    operation = replace(outside(tabs=Tabs(count, width=width)), cut=CutParameters(2, 4.0, 4.0, entry=PLUNGE))
+    program = compute(contour_job([circle(radius)], operation, diameter))
+    widths = standing(program)
+    assert len(widths) == len(program.tabs)
+    assert min(widths, default=width) >= width - 2e-6 or about(program, "narrower than asked for")
+    assert width + diameter > 2 * radius + diameter or not about(program, "narrower than asked for")
+
+
+def test_a_bend_too_tight_for_a_tab_is_told() -> None:
+    program = compute(job_with(Tabs(places=((3.0, 0.0),), width=6.5), [circle(3)]))
+    (told,) = [each for each in program.findings if "narrower" in each.text]
+    assert told.amount == pytest.approx(standing(program)[0]) and not told.counts

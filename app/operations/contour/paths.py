@@ -31,6 +31,7 @@ from ...toolpath.leads.tab import (
     TabShape,
     by_hand,
     far_tab_findings,
+    narrow_tab_findings,
     spans_of,
     spread,
     tab_findings,
@@ -249,20 +250,21 @@ def _finish_over_tabs(work: _ContourJob, paths: Sequence[ContourPath], ways: Seq
     context, shape = work.context, TabShape.of(work.operation, work.tool)
     own, left_out = by_hand(paths, shape, context.job.copies.shifts, _followed(work, paths))
     context.findings.extend(left_out)
-    taken = [spans_of(path, places, shape.half) for path, places in zip(paths, own, strict=True)]
+    taken = [spans_of(path, places, shape) for path, places in zip(paths, own, strict=True)]
     around = work.around(work.wall)
     made = runs(paths, taken, around)
     tabs = tuple((*places, *spread(run, places, shape, around)) for run, places in zip(made, own, strict=True))
     context.findings.extend(lead_findings(made, around))
     context.findings.extend(far_tab_findings(paths, shape, context.job.copies.shifts))
     context.findings.extend(tab_findings(made, tabs, shape, work.operation))
+    context.findings.extend(narrow_tab_findings(made, tabs, shape))
     bridges = [tab for run, places in zip(made, tabs, strict=True) for tab in tabs_at(run.path, places, shape)]
     context.tabs.extend(bridges)
     walls = _followed(work, paths)
     if work.operation.side is Side.OUTSIDE and walls is not None:
         box = stock_box(context.job, context.regions)
         context.findings.extend(unheld_findings(bridges, walls, box))
-    extras = StrokeExtras(shape.half, shape.top, ways)
+    extras = StrokeExtras(shape, ways)
     return _ContourStrokes(made, strokes_of(made, tabs, extras), tabs)
 
 
@@ -281,8 +283,8 @@ def _rough(
     ways: Sequence[CornerRelief],
 ) -> _ContourStrokes:
     """Return the paths that leave the finish width, with their tabs where the finish path has its own."""
-    shape = TabShape.of(work.operation, work.tool)
     width = work.operation.finish_width
+    shape = replace(TabShape.of(work.operation, work.tool), finish_width=width)
     tabs: list[list[float]] = [[] for _ in paths]
     middles = [
         run.path.points(np.array(places)) for run, places in zip(finish.runs, finish.tabs, strict=True) if places
@@ -293,9 +295,9 @@ def _rough(
         for k, owner in enumerate(np.argmin(np.array([far for _, far in near]), axis=0).tolist()):
             if near[owner][1][k] <= _FAR * width:
                 tabs[owner].append(float(near[owner][0][k]))
-    taken = [spans_of(path, places, shape.half) for path, places in zip(paths, tabs, strict=True)]
+    taken = [spans_of(path, places, shape) for path, places in zip(paths, tabs, strict=True)]
     made = runs(paths, taken, work.around(distance), _beginnings(paths, finish, _FAR * width))
-    extras = StrokeExtras(shape.half, shape.top, ways)
+    extras = StrokeExtras(shape, ways)
     return _ContourStrokes(
         made,
         strokes_of(made, tabs, extras),
@@ -393,13 +395,11 @@ class StrokeExtras:
     """What a path along a wall goes over and into.
 
     Attributes:
-        half: how far before and behind its middle a path goes over a tab, mm.
-        top: height of tabs, mm.
+        tabs: what they have in common; None: none.
         corner_reliefs: ways into corners.
     """
 
-    half: float = 0.0
-    top: float = 0.0
+    tabs: TabShape | None = None
     corner_reliefs: Sequence[CornerRelief] = ()
 
 
@@ -414,7 +414,10 @@ def strokes_of(
     if not runs:
         return ()
     joined = ContourPaths.of([run.path for run in runs])
-    spans = [spans_of(run.path, places, extras.half) if places else [] for run, places in zip(runs, tabs, strict=True)]
+    spans = [
+        spans_of(run.path, places, extras.tabs) if places and extras.tabs else []
+        for run, places in zip(runs, tabs, strict=True)
+    ]
     start, stop = np.array([run.start for run in runs]), np.array([run.stop for run in runs])
     point = joined.lengths < _POINT
     start, stop = np.where(point, 0.0, start), np.where(point, 1.0, stop)
@@ -451,9 +454,9 @@ def _stroke(run: PathWithLeads, cut: _CutRows, spans: Sequence[tuple[float, floa
     purpose = np.where(relief, Purpose.DOG_BONE, np.where(over, Purpose.TAB, Purpose.CONTOUR))
     ends = [np.full(len(way), Purpose.LEAD) for way in (run.way_in, run.way_out)]
     least_z = None
-    if over.any():
+    if extras.tabs and over.any():
         free = [np.full(len(way), -np.inf) for way in (run.way_in, run.way_out)]
-        least_z = np.concatenate([free[0], np.where(over, extras.top, -np.inf), free[1]])
+        least_z = np.concatenate([free[0], np.where(over, extras.tabs.top, -np.inf), free[1]])
     return Stroke(
         np.concatenate([run.way_in, rows, run.way_out]),
         np.concatenate([ends[0], purpose, ends[1]]).astype(np.uint8),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +44,15 @@ _HOLD = 0.5
 _BESIDE = 2.0
 """mm of stock beyond the slot that are advised."""
 
+_LONGEST = 3.0
+"""Times the way over a straight tab; what a bend of the path makes it longer by ends there."""
+
+_ROUNDS = 100
+"""Ways over a tab that are tried, each longer than the one before by what the metal lacks."""
+
+_SHORT = 1e-6
+"""mm by which metal may be narrower than asked for."""
+
 _FAR = 5.0
 """Tool diameters; a place by hand that is farther than this from every path is told."""
 
@@ -55,11 +65,14 @@ class TabShape:
         tabs: what was asked for.
         tool: the cutter.
         top: height of their tops, mm, <= -0.001.
+        finish_width: what a path leaves for one nearer to the wall, mm: at a bend the ends of both lie otherwise, and
+            the metal between one's and the other's is to be as wide as asked for, too.
     """
 
     tabs: Tabs
     tool: Tool
     top: float
+    finish_width: float = 0.0
 
     @staticmethod
     def of(operation: ContourOperation, tool: Tool) -> TabShape:
@@ -68,8 +81,57 @@ class TabShape:
 
     @property
     def half(self) -> float:
-        """How far before and behind its middle a path goes over a tab, mm: half the metal, and the cutter's radius."""
+        """How far before and behind its middle a straight path goes over a tab, mm: half the metal, and the cutter's
+        radius.
+        """
         return (self.tabs.width + self.tool.diameter) / 2
+
+    def halves(self, path: ContourPath, places: Floats) -> Floats:
+        """Return how far before and behind each middle (m,) a path goes over a tab there, mm.
+
+        What stands is as wide as the cutter's two places at its ends are apart, less its diameter. A bend brings these
+        nearer to one another than they are along the path, so the way over the tab is made longer until the metal is
+        as wide as asked for; where no way is, the widest is taken.
+        """
+        found = np.full(len(places), self.half)
+        short = self.tabs.width - self._metal(path, places, found)
+        bent = np.flatnonzero(short > _SHORT)
+        if len(bent):
+            wanted = self.tabs.width + np.minimum(short[bent], 2 * self.finish_width)
+            found[bent] = self._longer(path, places[bent], wanted)
+        return found
+
+    def metal(self, path: ContourPath, places: Floats) -> Floats:
+        """Return how wide the metal of tabs with these middles (m,) is where it is narrowest, mm."""
+        return self._metal(path, places, self.halves(path, places))
+
+    def _metal(self, path: ContourPath, places: Floats, halves: Floats) -> Floats:
+        """Return what stands (m,) between the ends of ways over tabs, mm; on an open path that a way leaves the metal
+        goes on.
+        """
+        low, high = places - halves, places + halves
+        apart: Floats = np.hypot(*(path.points(high) - path.points(low)).T)
+        beyond = (low <= 0) | (high >= path.length)
+        metal: Floats = np.where(beyond & (not path.closed), np.inf, apart - self.tool.diameter)
+        return metal
+
+    def _longer(self, path: ContourPath, places: Floats, wanted: Floats) -> Floats:
+        """Return the shortest ways (m,) that leave metal as wide as wanted (m,), half of each, mm; else those that
+        leave the widest.
+        """
+        most = min(_LONGEST * self.half, (path.length - self.tool.diameter) / 2)
+        half = np.full(len(places), self.half)
+        best, widest = half, np.full(len(places), -np.inf)
+        for _ in range(_ROUNDS):
+            metal = self._metal(path, places, half)
+            best, widest = np.where(metal > widest, half, best), np.maximum(metal, widest)
+            short = wanted - metal
+            unfinished = (short > _SHORT / 2) & (half < most)
+            if not unfinished.any():
+                break
+            # metal grows by no more than the way does at both ends, so this passes no way that is long enough
+            half = np.where(unfinished, np.minimum(half + short / 2, most), half)
+        return best
 
 
 def by_hand(
@@ -139,10 +201,45 @@ def spread(run: PathWithLeads, own: Sequence[float], shape: TabShape, around: Le
     good = np.concatenate([np.append(np.arange(low, high, apart / _FINE), high) for low, high in spans])
     good = np.concatenate([good % path.length, even[_in_spans(even, spans, path.length)] % path.length])
     good = good[(good - first) % path.length <= free + _ROUNDING]
+    room = _Room(path, shape, first - half, first + free + half)
+    return _nearest_to(even, room.fitting(good), own, room)
+
+
+class _Room(NamedTuple):
+    """Where tabs may be on a path: from one place to another, mm along it, which may be past its end."""
+
+    path: ContourPath
+    shape: TabShape
+    start: float
+    stop: float
+
+    def fitting(self, places: Floats) -> Floats:
+        """Return which middles leave room for all of a tab: of those as wide as asked for, if there are any, else of
+        those that leave metal at all.
+        """
+        halves, length = self.shape.halves(self.path, places), self.path.length
+        before = (places - self.start) % length
+        inside = (before >= halves - _ROUNDING) & (before + halves <= self.stop - self.start + _ROUNDING)
+        places = places[inside]
+        metal = self.shape.metal(self.path, places)
+        wide = metal >= self.shape.tabs.width - _SHORT
+        return places[wide if wide.any() else metal > _SHORT]
+
+
+def _nearest_to(even: Floats, good: Floats, own: Sequence[float], room: _Room) -> list[float]:
+    """Return for each even place the nearest good one, as long as a cutter's width is cut between two tabs.
+
+    Args:
+        own: where tabs by hand are.
+    """
+    path, shape = room.path, room.shape
+    halves = shape.halves(path, good)
     made: list[float] = []
     for requested in even.tolist():
         for each in (*made, *own) if not made else made[-1:]:
-            good = good[_apart(good, each, path.length) >= apart - _ROUNDING]
+            beside = float(shape.halves(path, np.array([each]))[0]) + shape.tool.diameter
+            clear = _apart(good, each, path.length) >= halves + beside - _ROUNDING
+            good, halves = good[clear], halves[clear]
         if len(good):
             made.append(float(good[int(np.argmin(_apart(good, requested, path.length)))]))
     return made
@@ -173,8 +270,12 @@ def _off_corners(path: ContourPath, half: float, corners: Floats) -> list[tuple[
 
 def tabs_at(path: ContourPath, places: Sequence[float], shape: TabShape) -> list[Tab]:
     """Return the record of tabs on a path."""
-    points = path.points(np.array(places, dtype=np.float64))
-    return [Tab(float(x), float(y), shape.tabs.width, shape.top, shape.tool.diameter) for x, y in points]
+    where = np.array(places, dtype=np.float64)
+    widths = shape.tabs.width + 2 * (shape.halves(path, where) - shape.half)
+    return [
+        Tab(x, y, width, shape.top, shape.tool.diameter)
+        for (x, y), width in zip(path.points(where).tolist(), widths.tolist(), strict=True)
+    ]
 
 
 def tab_findings(
@@ -205,6 +306,31 @@ def tab_findings(
             )
         )
     return findings
+
+
+def narrow_tab_findings(
+    made: Sequence[PathWithLeads], tabs: Sequence[Sequence[float]], shape: TabShape
+) -> list[Finding]:
+    """Return what there is to say about tabs whose path bends too tightly for metal as wide as asked for.
+
+    It counts where nothing stands at all.
+    """
+    narrow: list[tuple[float, float, float]] = []
+    for run, places in zip(made, tabs, strict=True):
+        where = np.array(places, dtype=np.float64)
+        metal, points = shape.metal(run.path, where), run.path.points(where)
+        short = metal < shape.tabs.width - _SHORT
+        narrow += [(wide, x, y) for wide, (x, y) in zip(metal[short].tolist(), points[short].tolist(), strict=True)]
+    if not narrow:
+        return []
+    least, x, y = min(narrow)
+    of = f"of T{shape.tool.number} {shape.tool.label}"
+    who = f"1 tab {of} is" if len(narrow) == 1 else f"{len(narrow)} tabs {of} are"
+    text = (
+        f"{who} narrower than asked for, as the path bends too tightly there: "
+        f"{max(least, 0.0):.3f} mm instead of {shape.tabs.width:g} mm at ({x:.3f}, {y:.3f})."
+    )
+    return [Finding(FindingKind.LEFT_OUT, text, x, y, counts=least <= 0, amount=max(least, 0.0))]
 
 
 def _too_few(paths: Sequence[ContourPath], shape: TabShape, loose: bool) -> Finding:
@@ -268,11 +394,11 @@ def far_tab_findings(paths: Sequence[ContourPath], shape: TabShape, shifts: Sequ
     return findings
 
 
-def spans_of(path: ContourPath, places: Sequence[float], half: float) -> list[tuple[float, float]]:
+def spans_of(path: ContourPath, places: Sequence[float], shape: TabShape) -> list[tuple[float, float]]:
     """Return (from, to) of tabs along a path, mm; on a closed one they may go past its ends."""
-    if path.closed:
-        return [(place - half, place + half) for place in places]
-    return [(max(place - half, 0.0), min(place + half, path.length)) for place in places]
+    halves = shape.halves(path, np.array(places, dtype=np.float64)).tolist() if places else []
+    spans = [(place - half, place + half) for place, half in zip(places, halves, strict=True)]
+    return spans if path.closed else [(max(low, 0.0), min(high, path.length)) for low, high in spans]
 
 
 def under_tabs(path: ContourPath, where: Floats, spans: Sequence[tuple[float, float]]) -> np.ndarray:
