@@ -209,3 +209,17 @@ BAD = [
 def test_files_that_hold_no_heights(heights: bytes, where: bytes) -> None:
     with pytest.raises(InputError, match=r"left\.npy.*--heights"):
         read_heights("left.npy", heights, where)
+
+
+def test_metal_over_another_grid_is_that_of_the_cell_where_each_centre_lies() -> None:
+    old = Grid(-3.0, 2.0, 0.5, 8, 12)
+    rows, cols = np.indices((old.rows, old.cols))
+    heights = (-0.1 * rows - 0.01 * cols).astype(np.float32)
+    stock = HeightStock(workpiece.Workpiece(old, heights, -9.0))
+    grid = Grid(-3.6, 1.3, 0.2, 30, 40)
+    found = stock.over(grid)
+    x, y = np.meshgrid(grid.xs(), grid.ys())
+    col, row = np.floor((x + 3.0) / 0.5), np.floor((y - 2.0) / 0.5)
+    within = (col >= 0) & (col < 12) & (row >= 0) & (row < 8)
+    assert 100 < np.count_nonzero(within) < found.heights.size
+    assert found.heights == pytest.approx(np.where(within, -0.1 * row - 0.01 * col, -9.0), abs=1e-6)
