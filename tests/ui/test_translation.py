@@ -28,7 +28,7 @@ from app.core.catalogue import Catalogue, catalogue, catalogue_files
 from app.core.settings import Language, load_settings
 from app.drafting.document import Document
 from app.ui.framework.catalogue import set_language, tr
-from app.ui.framework.fields import LABEL_WIDTH, NumberField
+from app.ui.framework.fields import LABEL_WIDTH, NumberField, NumberSpec
 from app.ui.framework.figures import counted
 from app.ui.framework.legend import LegendRow
 from app.ui.framework.samples import PathLineKind
@@ -181,6 +181,21 @@ def test_what_is_said_later_is_looked_up_before_it_is_seen(qtbot, japanese) -> N
     japanese.display_controller.show_hovered("Cancelled; nothing has changed.")
     window.grab()
     assert window.status.message.text() == "中止しました。何も変更していません。"
+
+
+def test_what_an_empty_field_stands_for_is_shown_and_understood_in_the_language(qtbot) -> None:
+    set_language("ja")
+    field = NumberField(NumberSpec("Stepover", auto="auto"))
+    qtbot.addWidget(field)
+    field.show_value(None)
+    translate_all(field)
+    assert (field.edit.text(), field.edit.placeholderText()) == ("", "自動")
+    for word in ("自動", "auto", ""):
+        field.show_value(2.0)
+        field.edit.setText(word)
+        field.edit.setModified(True)
+        field.commit()
+        assert field.value is None and field.reason.text() == "", word
 
 
 def test_english_comes_back_without_a_trace(wiring) -> None:

@@ -48,6 +48,18 @@ def test_what_is_fitted_keeps_clear_of_the_legend(qtbot, views):
     assert right < views.width() - views.legend.width()
 
 
+def test_what_is_missing_hides_nothing_of_the_drawing(qtbot, views):
+    views.canvas.fit_to(views.canvas.picture.box)
+    views.show_view(View.PATHS)
+    views.show_missing("There are no tool paths yet.", "Compute  F5", False)
+    box = views.canvas.picture.box
+    assert box is not None and views.empty.isVisible()
+    qtbot.waitUntil(lambda: views.canvas.view.to_screen((box[2], 50.0)).x() < views.empty.x())
+    views.show_view(View.NC)
+    views.show_missing("There is no NC program yet.", "Compute  F5", False)
+    assert abs(views.empty.geometry().center().x() - views.rect().center().x()) <= 1, "nothing is behind it"
+
+
 def test_legend_closes_up_when_an_entry_goes(views):
     legend = views.legend
     views.show_view(View.PATHS)

@@ -15,6 +15,7 @@ from ...core.errors import HitofudeError
 from ...drafting.expressions.errors import CommandError
 from ...drafting.expressions.numbers import length
 from .boxes import h_box
+from .catalogue import tr
 from .display_unit import clean, display_unit_name, display_unit_size
 from .labels import Elided, muted, restyle, show_words
 
@@ -34,7 +35,7 @@ class NumberSpec:
         decimals: shown when the field is not being typed in.
         is_length: units such as 1in can be typed; else plain numbers only.
         tip: what it means, one sentence.
-        auto: what an empty field stands for, such as "auto"; "" = it must hold a number.
+        auto: what an empty field stands for and shows, such as "auto"; "" = it must hold a number.
     """
 
     name: str
@@ -155,6 +156,7 @@ class NumberField(QWidget):
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.setFixedSize(VALUE_WIDTH, ROW_HEIGHT)
         self.edit.setAccessibleName(spec.name)
+        self.edit.setPlaceholderText(spec.auto)
         self.edit.textEdited.connect(self._check)
         self.edit.editingFinished.connect(self.commit)
         self.edit.installEventFilter(self)
@@ -195,7 +197,7 @@ class NumberField(QWidget):
 
     def _take(self, value: float | None) -> None:
         self._value = value
-        self.edit.setText(self.spec.auto if value is None else self.spec.text(value))
+        self.edit.setText("" if value is None else self.spec.text(value))
         self.edit.setModified(False)
 
     def follow_unit(self) -> None:
@@ -232,7 +234,7 @@ class NumberField(QWidget):
         return super().eventFilter(watched, event)
 
     def _is_auto(self, text: str) -> bool:
-        return bool(self.spec.auto) and text.strip().lower() in ("", self.spec.auto)
+        return bool(self.spec.auto) and text.strip().lower() in ("", self.spec.auto, tr(self.spec.auto))
 
     def _check(self, text: str) -> float | None:
         """Return the value of a text; None where it is wrong, or stands for the automatic one."""

@@ -33,13 +33,13 @@ class EmptyState(Themed, QWidget):
     """One sentence that says what is missing, and the button that makes it.
 
     Signals:
-        pressed(): the button was.
+        pressed(): the button was. resized(): the words want another size.
 
     Attributes:
         on_paper: the view behind it has the panels' ground, not the canvas'.
     """
 
-    pressed = Signal()
+    pressed, resized = Signal(), Signal()
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
@@ -61,12 +61,11 @@ class EmptyState(Themed, QWidget):
         self.show()
 
     def event(self, event: QEvent) -> bool:
-        """Stay as large as the words, about the same middle: they are looked up in another language when painted."""
+        """Stay as large as the words: they are looked up in another language when painted."""
         handled = super().event(event)
         if event.type() == QEvent.Type.LayoutRequest and self.size() != self.sizeHint():
-            middle = self.geometry().center()
             self.adjustSize()
-            self.move(middle - self.rect().center())
+            self.resized.emit()
         return handled
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
@@ -95,6 +94,7 @@ class ViewStack(QStackedWidget):
             self.addWidget(widget)
         self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
         self.legend.hide()
+        self.empty.resized.connect(self._place_empty)
         self.installEventFilter(self)
 
     def take_pages(self, pages: dict[View, ViewPage]) -> None:
@@ -165,13 +165,18 @@ class ViewStack(QStackedWidget):
         if sentence and not self.covered:
             self.empty.say(sentence, button)
             self.empty.raise_()
-        has_legend = self.view is View.PATHS and shows_paths and not self.covered
-        self.legend.setVisible(has_legend)
+        self.legend.setVisible(self.view is View.PATHS and shows_paths and not self.covered)
         self.legend.raise_()
-        if self.currentWidget() is self.canvas:
-            self.canvas.cover_right(self.legend.width() + _MARGIN_PX if has_legend else 0.0)
         self.fade.raise_()
         self.place()
+        if self.currentWidget() is self.canvas:
+            beside = self.legend if not self.legend.isHidden() else self.empty if self._beside_drawing else None
+            self.canvas.cover_right(beside.width() + _MARGIN_PX if beside is not None else 0.0)
+
+    @property
+    def _beside_drawing(self) -> bool:
+        """Whether the empty state has a drawing behind it, which it must not hide: it stands where the legend will."""
+        return self.currentWidget() is self.canvas and not self.empty.isHidden() and self.canvas.picture.box is not None
 
     def place(self) -> None:
         """Put the overlays where they belong."""
@@ -179,8 +184,15 @@ class ViewStack(QStackedWidget):
         self.legend.fit_into(QSize(self.width(), self.height() - _RULER_PX - _MARGIN_PX))
         self.legend.move(self.width() - self.legend.width() - _MARGIN_PX, _RULER_PX + 12)
         self.fade.resize(self.size())
+        self._place_empty()
+
+    def _place_empty(self) -> None:
+        """Put what is missing into the middle of the view, or beside the drawing."""
         self.empty.adjustSize()
         self.empty.on_paper = self.view is View.STAGES
+        if self._beside_drawing:
+            self.empty.move(max(self.width() - self.empty.width() - _MARGIN_PX, 0), _RULER_PX + 12)
+            return
         behind = self.stages.pixels if self.empty.on_paper else self
         middle = behind.mapTo(self, behind.rect().center()) - self.empty.rect().center()
         self.empty.move(max(middle.x(), 0), max(middle.y(), 0))

@@ -17,6 +17,7 @@ from app.ui.views.cut.cut_picture import CutPaths
 from app.ui.views.cut.legend import CutLegend, SectionAxis
 from app.ui.views.cut.surface import ImageSurface, widgets_have_opengl
 from app.ui.views.cut.view import CutView
+from app.ui.views.nc.motion_shapes import MotionLineStyle
 from tests.ui.cut.made_up import made_up
 from tests.ui.cut.pictures import without_a_screen
 
@@ -224,6 +225,22 @@ def test_paths_can_be_hidden(qtbot, view):
     hidden = pixels(view)
     green = (np.array(shown)[..., 1] - np.array(shown)[..., 0] > 60).sum(), (hidden[..., 1] - hidden[..., 0] > 60).sum()
     assert green[0] > 500 > green[1]
+
+
+def test_many_steps_down_along_one_wall_hide_no_metal(view, picture):
+    ring = np.array([[10.0, 10.0, 0.0], [50.0, 10.0, 0.0], [50.0, 40.0, 0.0], [10.0, 40.0, 0.0]])
+    levels = [ring - (0.0, 0.0, 0.1 * step) for step in range(200)]
+    start, end = np.concatenate(levels), np.concatenate([np.roll(level, -1, axis=0) for level in levels])
+    look = np.full(len(start), MotionLineStyle.CONTOUR, np.uint8)
+    wall = CutPaths(start, end, look)
+    assert wall.ground_length(MotionLineStyle.CONTOUR) == pytest.approx(140.0)
+    view.show_cut(None)
+    view.show_cut(replace(picture, paths=wall))
+    assert view.legend.rows[PathLineKind.CONTOUR].isChecked()
+    aside = np.repeat(np.linspace(0.0, 9.0, 200), 4)[:, None] * (1.0, 1.0, 0.0)
+    view.show_cut(None)
+    view.show_cut(replace(picture, paths=CutPaths(start + aside, end + aside, look)))
+    assert not view.legend.rows[PathLineKind.CONTOUR].isChecked()
 
 
 def test_paths_that_would_hide_the_metal_are_left_out_until_somebody_wants_them(view, picture):

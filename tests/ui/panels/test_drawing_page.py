@@ -107,7 +107,7 @@ def test_what_is_no_number_is_marked_while_it_is_typed(qtbot, page, document):
 def test_several_show_what_they_have_in_common(qtbot, page, document):
     select(page, document, 3, 4)
     fields = page.properties.fields
-    assert list(fields) == ["radius", "diameter", "length"] and fields["radius"].edit.text() == "various"
+    assert list(fields) == ["radius", "diameter", "length"] and fields["radius"].edit.placeholderText() == "various"
     assert (
         page.properties.figures["Kinds"].value.text() == "2 circles"
         and page.properties.layer.box.currentText() == "holes"

@@ -18,6 +18,8 @@ Numbered = tuple[NDArray[np.int32], NDArray[np.int64]]
 TOUCHED = 1e-5
 """A cell lower than the top by more than this, mm, counts as cut where nobody says which move cut it."""
 
+_SAME_PLACE_MM = 1e-3
+
 
 @dataclass(frozen=True, eq=False)
 class CutMoves:
@@ -66,6 +68,16 @@ class CutPaths:
         """Return how long all pieces of a look are, seen from above, mm."""
         chosen = self.look == look
         return float(np.sum(np.hypot(*(self.end - self.start)[chosen, :2].T)))
+
+    def ground_length(self, look: int) -> float:
+        """Return the length of a look's pieces, mm, seen from above: pieces over each other, as in the steps down along
+        a wall, count once.
+        """
+        chosen = self.look == look
+        start, end = self.start[chosen, :2], self.end[chosen, :2]
+        middle = np.round((start + end) / (2 * _SAME_PLACE_MM))
+        _, first = np.unique(middle[:, 0] + 1j * middle[:, 1], return_index=True)
+        return float(np.sum(np.hypot(*(end - start)[first].T)))
 
 
 @dataclass(frozen=True, slots=True)

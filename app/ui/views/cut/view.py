@@ -149,11 +149,16 @@ class CutView(QWidget):
             self.surface_host.need()
 
     def _thin_out(self, picture: CutPicture) -> None:
-        """Leave out paths of cuts that would hide the metal, until the user wants them."""
-        area = float(np.prod((picture.high - picture.low)[:2]))
-        for sample in (PathLineKind.POCKET, PathLineKind.CONTOUR):
-            length = picture.paths.length(int(_LOOKS[sample])) if picture.paths is not None else 0.0
-            self.legend.rows[sample].setChecked(length * _CROWDED_PX < area * self.model.camera.scale)
+        """Leave out paths of cuts that would hide the metal, until the user wants them; a wall's steps down, which lie
+        over each other, hide no more of it than one.
+        """
+        room = float(np.prod((picture.high - picture.low)[:2])) * self.model.camera.scale / _CROWDED_PX
+        paths = picture.paths
+        pocket, contour = int(_LOOKS[PathLineKind.POCKET]), int(_LOOKS[PathLineKind.CONTOUR])
+        few = paths is None or paths.length(pocket) < room
+        self.legend.rows[PathLineKind.POCKET].setChecked(few)
+        few = paths is None or paths.length(contour) < room or paths.ground_length(contour) < room
+        self.legend.rows[PathLineKind.CONTOUR].setChecked(few)
 
     def show_detail(self, detail: CutPicture | None) -> None:
         """Show a part of the cut in finer cells, or only the whole again."""
