@@ -8,13 +8,10 @@ from pathlib import Path
 from ..gcode.interpreter.dialect import Dialect
 from ..gcode.posts import load_post, post_names
 from ..usecases.better.result import BetterOptions
-from ..usecases.cutting.ready_setup import SetupRequest
-from ..usecases.cutting.setup_tools import ToolSource
 from ..usecases.examine import CONTROLS
 from ..usecases.smoothing.result import OutputForm
-from .command import OptionParser, number, typed
-from .cut_options import stock_given, tool_given
-from .cut_request import with_stock
+from .command import OptionParser, number
+from .setup_options import add_setup_options
 
 EPILOG = """\
 For programs of one tool that go over surfaces in passes beside one another, as CAM systems write them from a
@@ -59,20 +56,7 @@ def add_better_options(parser: OptionParser) -> None:
         default=OutputForm.ARCS.value,
         help="what curves are written as (default arcs)",
     )
-    parser.add_argument(
-        "--stock",
-        metavar="BOX|FILE",
-        type=typed(stock_given),
-        help="as for cut: X0,Y0,Z0,X1,Y1,Z1, a solid, or heights that other tools have left",
-    )
-    parser.add_argument(
-        "--tool",
-        metavar="NUMBER=KIND:DIAMETER",
-        type=typed(tool_given),
-        action="append",
-        default=[],
-        help="the tool, where the program does not tell of it",
-    )
+    add_setup_options(parser)
     parser.add_argument("--post", metavar="NAME", choices=post_names(), help="whose words the new program has")
     parser.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
     parser.add_argument("--scene", metavar="OUT.toml", type=Path, help="the smooth surface and its passes as a scene")
@@ -95,12 +79,3 @@ def better_options(arguments: argparse.Namespace) -> BetterOptions:
         post=arguments.post,
         dialect=Dialect(arguments.dialect) if arguments.dialect else None,
     )
-
-
-def better_setup(arguments: argparse.Namespace) -> SetupRequest:
-    """Return tools and stock as they are told.
-
-    Raises:
-        InputError: a file cannot be read.
-    """
-    return with_stock(SetupRequest((ToolSource("--tool", dict(arguments.tool)),)), arguments.stock)

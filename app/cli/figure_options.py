@@ -10,6 +10,7 @@ from ..core.errors import InputError
 from ..exhibits.die_programs import PROGRAMS
 from ..exhibits.figure_eleven import FigureOptions
 from .command import OptionParser, number, typed
+from .setup_options import add_setup_options
 
 LEAST_CELLS, MOST_CELLS, MOST_RUNS = 16, 4096, 100
 _USUAL = FigureOptions()
@@ -30,6 +31,7 @@ def add_figure_options(parser: OptionParser) -> None:
         nargs="*",
         help="NC programs to measure by, as `make` and `surface` write",
     )
+    add_setup_options(parser, "own programs: ")
     parser.add_argument(
         "--programs",
         metavar="A,B,C",

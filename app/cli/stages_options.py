@@ -26,11 +26,12 @@ from .command import OptionParser, join_tolerance, number, typed
 from .files import check_outputs
 from .make_options import stepover
 from .reading_options import add_reading_options, reading
+from .setup_options import add_setup_options
 
 _OWN = re.compile(rf"(?:{TURNS}/)?\d\d_\d{{3}}(?:_r\d+_t\d+)?\.(?:png|npy|txt)", re.IGNORECASE)
 """Names of the files that the stages are written to, seen from their folder."""
 
-_FILM_OPTIONS = {"facet": "B", "epsilon": "D", "tolerance": "D", "region": "E"}
+_FILM_OPTIONS = {"facet": "B", "tool": "B", "stock": "B", "epsilon": "D", "tolerance": "D", "region": "E"}
 """Options of films, and the text that each belongs to."""
 
 _OF_BITMAP = ("job", "contour_tool", "pocket_tool", "stepover", "overlap", "stock_to_leave", "units", "join_tolerance")
@@ -70,6 +71,7 @@ def add_stages_options(parser: OptionParser) -> None:
     films.add_argument(
         "--facet", metavar="D", type=number("facet"), help="B: size of the facets (default: twice the dexels' distance)"
     )
+    add_setup_options(films, "B, of a program of your own: ")
     films.add_argument("--epsilon", metavar="E", type=number("epsilon"), help="D: of one facet's points (default 0.01)")
     films.add_argument(
         "--tolerance", metavar="T", type=number("tolerance"), help="D: to the facets, for the last step (default 0.2)"
@@ -179,8 +181,7 @@ def ensure_of_text(arguments: argparse.Namespace, text: PublishedText) -> None:
         InputError: naming the first of them.
     """
     if text is PublishedText.A:
-        names = ("epsilon", "tolerance", "region", "facet")
-        if late := [name for name in names if getattr(arguments, name) is not None]:
+        if late := [name for name in _FILM_OPTIONS if getattr(arguments, name) is not None]:
             raise InputError(f"--{late[0]} belongs to another text than A; give --text {_FILM_OPTIONS[late[0]]}")
         return
     if late := [name for name in _OF_BITMAP if getattr(arguments, name) is not None]:
@@ -188,6 +189,8 @@ def ensure_of_text(arguments: argparse.Namespace, text: PublishedText) -> None:
     for name, letters in _FILM_OPTIONS.items():
         if getattr(arguments, name) is not None and text.value not in letters:
             raise InputError(f"--{name} belongs to --text {letters}; leave it out")
+    if arguments.drawing is None and (arguments.tool or arguments.stock is not None):
+        raise InputError("--tool and --stock are those of a program of your own; name it, or leave them out")
 
 
 def film_options(arguments: argparse.Namespace) -> FilmOptions:
@@ -202,4 +205,8 @@ def film_source(arguments: argparse.Namespace, text: PublishedText) -> FilmSourc
     path: Path | None = arguments.drawing
     if path is None:
         return sample_of(text)
+    if text is PublishedText.C and path.suffix.lower() != ".toml":
+        raise InputError(
+            f"{path.name} is no scene; text C is shown on one, a .toml that names surfaces, tools and passes"
+        )
     return FilmSource(path.name, read_input(path), lambda name: read_input(path.parent / name))

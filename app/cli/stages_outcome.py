@@ -15,6 +15,7 @@ from ..exhibits.films.step import TEXTS, PublishedText
 from ..exhibits.stage_files import run_stages, stage_files
 from ..exhibits.stages import Variant
 from .outcome import CommandOutcome
+from .setup_options import setup_request
 from .stages_lines import film_lines, stages_lines
 from .stages_options import film_options, film_source, stages_request
 
@@ -40,7 +41,8 @@ def film_outcome(arguments: argparse.Namespace, folder: Path, progress: Progress
     text, cutting = TEXTS[arguments.text], None
     source = film_source(arguments, text)
     if text is PublishedText.B and source is not None:
-        cutting = program_input(source.name, source.data, arguments.facet, progress.part(0.0, 0.1))
+        part = progress.part(0.0, 0.1)
+        cutting = program_input(source.name, source.data, arguments.facet, part, setup_request(arguments))
     film = make_film(text, source, film_options(arguments), progress.part(0.1, 0.8), cutting)
     files = {folder / name: data for name, data in film_files(film, progress.part(0.8, 1.0)).items()}
     if arguments.report is not None:

@@ -85,6 +85,18 @@ def test_a_facet_of_another_engine_is_refused(program: Path, capsys: pytest.Capt
     assert status == 2 and "--facet is of the engine patent" in capsys.readouterr().err
 
 
+def test_an_own_program_that_tells_no_tool_is_measured_by_the_advice_it_gets(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out, report = tmp_path / "own.ngc", tmp_path / "r.json"
+    out.write_text("G21 G90\nT1 M6\nS9000 M3\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX20 Z-3 F400\nX40 Y10\nG0 Z5\nM30\n")
+    told = ["figure11", str(out), "--grid", "32", "--repeat", "1", "--report", str(report), "--quiet"]
+    assert main(told) == 2 and "--tool 1=flat:6" in capsys.readouterr().err
+    assert main(["figure11", "--tool", "1=flat:6"]) == 2 and "programs of your own" in capsys.readouterr().err
+    assert main([*told, "--tool", "1=ball:6", "--stock", "-5,-5,-10,45,15,0"]) == 0
+    assert json.loads(report.read_text())["programs"][0]["radius_mm"] == 3.0
+
+
 def test_an_own_program_is_measured_in_every_way_and_with_several_facets(tmp_path: Path) -> None:
     from app.core.resources import resource
 

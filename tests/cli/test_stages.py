@@ -226,6 +226,10 @@ def test_make_takes_a_picture(tmp_path: Path, picture: Path) -> None:
         ("{picture} -o {tmp}/a --pitch 1 --dpi 100", "give one of them"),
         ("{picture} -o {tmp}/a --pitch 0.2 --bitmap 400", "a picture has its own pixels"),
         ("{picture} -o {tmp}/a --pitch 0.2 --threshold 300", "use 1 to 255"),
+        ("{fig2} -o {tmp}/a --tool 1=flat:6", "--tool belongs to another text than A; give --text B"),
+        ("--text D -o {tmp}/a --stock 0,0,-5,9,9,0", "--stock belongs to --text B; leave it out"),
+        ("--text B -o {tmp}/a --tool 1=flat:6", "are those of a program of your own"),
+        ("--text C {fig2} -o {tmp}/a", "fig2.dxf is no scene; text C is shown on one"),
     ],
 )
 def test_mistakes_are_told_in_one_line(tmp_path: Path, picture: Path, arguments: str, words: str) -> None:
@@ -234,6 +238,19 @@ def test_mistakes_are_told_in_one_line(tmp_path: Path, picture: Path, arguments:
     assert words in done.stderr
     assert len(without_how_far(done.stderr).strip().splitlines()) == 1
     assert not (tmp_path / "a").exists()
+
+
+def test_a_program_that_does_not_tell_its_tool_is_shown_by_the_advice_it_gets(tmp_path: Path) -> None:
+    (tmp_path / "own.ngc").write_text(
+        "G21 G90 G94\nT1 M6\nS9000 M3\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX20 Z-3 F400\nX40 Y10\nG0 Z5\nM30\n"
+    )
+    asked = ("stages", "--text", "B", tmp_path / "own.ngc", "-o", tmp_path / "film", "--quiet")
+    refused = call(*asked)
+    assert refused.returncode == 2 and "--tool 1=flat:6" in refused.stderr
+    assert "has no ball cutter" in call(*asked, "--tool", "1=flat:6").stderr
+    done = call(*asked, "--tool", "1=ball:6", "--stock", "-5,-5,-10,45,15,0")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "film" / "film.json").is_file()
 
 
 def test_help_names_every_option_and_code() -> None:

@@ -10,11 +10,12 @@ from ...formats.scene.write import scene_text
 from ...usecases.better.improve import better
 from ...usecases.better.picture import stock_picture
 from ...usecases.better.report import findings, lines, report_text
-from ..better_options import EPILOG, add_better_options, better_options, better_setup
+from ..better_options import EPILOG, add_better_options, better_options
 from ..command import CliCommand
 from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome
 from ..output import finding_lines
+from ..setup_options import setup_request
 from ..signals import StopFlag
 
 
@@ -23,7 +24,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     outputs = named_files(arguments, "output", "scene", "image", "report")
     check_outputs(outputs, [arguments.program])
     progress = shown_progress(arguments.quiet, stopped)
-    asked, setup = better_options(arguments), better_setup(arguments)
+    asked, setup = better_options(arguments), setup_request(arguments)
     done = better(arguments.program.name, read_input(arguments.program), asked, setup, progress)
     files = {outputs["output"]: done.data}
     if "scene" in outputs:

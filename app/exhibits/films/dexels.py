@@ -100,7 +100,9 @@ class _DexelSteps:
         self.given = given
         balls = {number: cutter for number, cutter in given.cutters.items() if is_ball(cutter)}
         if not balls:
-            raise InputError(f"{given.name} has no ball cutter; cylinders and wedges are the sweep of a ball.")
+            raise InputError(
+                f"{given.name} has no ball cutter; cylinders and wedges are the sweep of a ball: take a program of one."
+            )
         self.whole = given.stock.over(Grid.over(given.stock.box, CELLS))
         chains = [pair for pair in chains_of(given.course, given.cutters, 1.0) if is_ball(pair[0]) and len(pair[1])]
         if not chains:

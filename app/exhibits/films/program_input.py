@@ -1,4 +1,4 @@
-"""An NC program made ready for the film of text B: its stock and its tools as its own head tells them."""
+"""An NC program made ready for the film of text B: its stock and its tools as its head tells them, or as is said."""
 
 from __future__ import annotations
 
@@ -9,19 +9,28 @@ from ...usecases.examine import ExamineOptions, examine
 from ...verify.course import course_of
 from .dexels import CutFilmInput
 
+AS_THE_HEAD_TELLS = SetupRequest()
 
-def program_input(name: str, data: bytes, facet: float | None = None, progress: Progress = NO_PROGRESS) -> CutFilmInput:
+
+def program_input(
+    name: str,
+    data: bytes,
+    facet: float | None = None,
+    progress: Progress = NO_PROGRESS,
+    told: SetupRequest = AS_THE_HEAD_TELLS,
+) -> CutFilmInput:
     """Return what a film of a program cuts.
 
     Args:
         name, data: of the program. facet: size of the facets, mm; None: twice the distance of the dexels.
+        told: stock and tools that its head does not tell of.
 
     Raises:
-        HitofudeError: it cannot be read, or its head does not tell stock and tools.
+        HitofudeError: it cannot be read, or nobody tells what its tools are.
         Cancelled: the job was asked to stop.
     """
     ready = setup_of(
-        (examine(name, data, ExamineOptions(None), progress.part(0.0, 0.8)),), SetupRequest(), progress.part(0.8, 1.0)
+        (examine(name, data, ExamineOptions(None), progress.part(0.0, 0.8)),), told, progress.part(0.8, 1.0)
     )
     cutters = {number: cutter_of(tool) for number, tool in ready.setup.tools.items()}
     return CutFilmInput(name, course_of(ready.setup.programs[0]).course, cutters, ready.setup.stock, facet)
