@@ -172,10 +172,10 @@ def _alike(body: bytes, at: int, order: str, element: _Element) -> tuple[dict[st
             here += np.dtype(each.counted).itemsize
         lengths.append(length)
         here += length * np.dtype(each.kind).itemsize
-    fields = []
+    fields: list[tuple[str, str] | tuple[str, str, tuple[int, ...]]] = []
     for k, (each, length) in enumerate(zip(element.properties, lengths, strict=True)):
         fields += [(f"count{k}", order + each.counted)] if each.counted else []
-        fields.append((f"value{k}", order + each.kind, (length,) if each.counted else ()))  # type: ignore[arg-type]
+        fields.append((f"value{k}", order + each.kind, (length,) if each.counted else ()))
     row = np.dtype(fields)
     if at + row.itemsize * element.count > len(body):
         return None

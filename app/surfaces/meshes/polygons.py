@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+_SAME = 1e-9
+"""Of a face's area, by which its triangles may differ from it."""
 
 
 def triangulated(points: Floats, faces: Sequence[Ints]) -> Ints:
@@ -17,14 +21,15 @@ def triangulated(points: Floats, faces: Sequence[Ints]) -> Ints:
     Args:
         points: (n, 3). faces: numbers of each face's corners, at least three; of faces of one length (k, length).
 
-    Convex faces are fans. Of others ears are cut, corner by corner: a fan would cover what lies outside of them.
+    Convex faces are fans; of others a fan would cover what lies outside of them.
     """
     found = [np.zeros((0, 3), np.int64)]
     for group in faces:
         around = points[group]
-        bent = ~_convex(around)
+        bent = np.asarray(np.isfinite(around).all(axis=(1, 2)))  # places that are none are looked for by who asked
+        bent[bent] = ~_convex(around[bent])
         found.append(_fans(group[~bent]))
-        found += [_ears(around[row], group[row]) for row in np.nonzero(bent)[0]]
+        found += [_covering(around[row], group[row]) for row in np.nonzero(bent)[0]]
     return np.concatenate(found)
 
 
@@ -53,23 +58,30 @@ def _convex(around: Floats) -> NDArray[np.bool_]:
     return np.asarray((_turns(around) >= 0.0).all(axis=1))
 
 
-def _ears(corners: Floats, numbers: Ints) -> Ints:
-    """Return triangles of one face, by cutting ears.
-
-    A face that crosses itself has no ears at some time: what is left then is a fan.
-
-    References:
-        Meisters, Polygons have ears, 1975.
+def _covering(corners: Floats, numbers: Ints) -> Ints:
+    """Return triangles of one face that cover what lies within it: also of one that goes along a line to a hole, round
+    it, and back. A face that crosses itself has no inside: it is a fan.
     """
-    flat, left, found = _projected(corners), list(range(len(numbers))), []
-    while len(left) > 3:
-        at = next((k for k in range(len(left)) if _is_ear(flat, left, k)), None)
-        if at is None:
-            break
-        found.append([left[at - 1], left[at], left[(at + 1) % len(left)]])
-        del left[at]
-    found += [[left[0], left[k], left[k + 1]] for k in range(1, len(left) - 1)]
-    return np.asarray(numbers[np.array(found)])
+    flat = _projected(corners)
+    face = shapely.Polygon(flat)
+    parts = shapely.get_parts(face if face.is_valid else shapely.make_valid(face))
+    areas = parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON]
+    places = shapely.get_coordinates(shapely.constrained_delaunay_triangles(areas)).reshape(-1, 4, 2)[:, :3]
+    known = {place: at for at, place in enumerate(map(tuple, flat.tolist()))}
+    found = np.array([known.get(place, -1) for each in places.tolist() for place in map(tuple, each)], np.int64)
+    covered, own = _twice_areas(places), _twice_areas(flat[_fans(np.arange(len(flat))[None])])
+    # the areas of a fan's triangles, with their signs, sum up to the face's, whatever its form
+    if (found < 0).any() or abs(np.abs(covered).sum() - own.sum()) > _SAME * np.abs(own).sum():
+        return _fans(numbers[None])
+    triangles = found.reshape(-1, 3)
+    triangles[covered < 0.0] = triangles[covered < 0.0][:, ::-1]
+    return np.asarray(numbers[triangles])
+
+
+def _twice_areas(triangles: Floats) -> Floats:
+    """Return twice the areas of triangles (n, 3, 2), > 0 counter-clockwise."""
+    (ax, ay), (bx, by) = ((triangles[:, k] - triangles[:, 0]).T for k in (1, 2))
+    return np.asarray(ax * by - ay * bx)
 
 
 def _projected(corners: Floats) -> Floats:
@@ -79,18 +91,3 @@ def _projected(corners: Floats) -> Floats:
     u, v = ((1, 2), (2, 0), (0, 1))[along]
     flat = corners[:, [u, v]]
     return flat if normal[along] > 0 else flat[:, ::-1]
-
-
-def _is_ear(flat: Floats, left: list[int], at: int) -> bool:
-    """Tell whether a corner turns outwards, and no other one lies in its triangle."""
-    a, b, c = (flat[left[k % len(left)]] for k in (at - 1, at, at + 1))
-    if _area(a, b, c) <= 0.0:
-        return False
-    others = flat[[k for k in left if not any((flat[k] == corner).all() for corner in (a, b, c))]]
-    inside = (_area(a, b, others) >= 0.0) & (_area(b, c, others) >= 0.0) & (_area(c, a, others) >= 0.0)
-    return not bool(np.any(inside))
-
-
-def _area(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Return twice the area of triangles to places c (..., 2), > 0 counter-clockwise."""
-    return np.asarray((b[0] - a[0]) * (c[..., 1] - a[1]) - (b[1] - a[1]) * (c[..., 0] - a[0]))
