@@ -18,7 +18,7 @@ del _source
 """A package whose modules are the tree's; its own resources it finds beside them."""
 
 
-class EditableDoor(BuildHookInterface):  # type: ignore[misc]  # what builds the package is not there afterwards
+class EditableDoor(BuildHookInterface):
     """Puts a package `hitofude` in place of the folder of resources, which an installed tree finds beside its `app`."""
 
     PLUGIN_NAME = "custom"

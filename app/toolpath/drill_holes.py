@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -228,6 +228,11 @@ def made_by_drills(job: Job, drawn: DrawnContours) -> frozenset[CircleHole]:
         for hole in holes_of(job, drawn, each).drilled
         if hole.diameter <= each.made(hole.diameter, job.tool(each.cut.tool)) + ALIKE + 1e-6
     )
+
+
+def without_drilled(contours: Iterable[Contour], made: Collection[CircleHole | None]) -> list[Contour]:
+    """Return contours without the circles that drills make, see `made_by_drills`."""
+    return [each for each in contours if circle_of(each) not in made] if made else list(contours)
 
 
 def across_holes(findings: Iterable[Finding], job: Job, drawn: DrawnContours) -> list[Finding]:

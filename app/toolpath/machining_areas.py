@@ -33,7 +33,7 @@ from ..model.operation import Direction, Operation, Side, SideStrip
 from ..model.part import Contour, Region
 from ..model.stock_box import extent
 from .drawn_contours import DrawnContours, selected
-from .drill_holes import CircleHole, circle_of, hole_regions, made_by_drills
+from .drill_holes import CircleHole, hole_regions, made_by_drills, without_drilled
 from .leads.contour_path import ContourPath
 from .leads.lead import lead_size, straight_way
 from .open_strips import strips
@@ -277,8 +277,7 @@ class MachiningAreas:
 
     def _milled(self, contours: Sequence[Contour]) -> list[Contour]:
         """Return contours but for the circles that drills make."""
-        made = self._made_by_drills
-        return [each for each in contours if circle_of(each) not in made] if made else list(contours)
+        return without_drilled(contours, self._made_by_drills)
 
     def _opened(self, past: OpenedArea) -> tuple[Region, ...]:
         """Return the regions of an area that goes on past the stock's edges, without what clamps hold."""

@@ -125,7 +125,8 @@ def _text(name: str, data: bytes) -> Floats:
     """Return the triangles of a text; its first line is a name, in any code page. Lines may end in any way, or not."""
     rest = _LINE_END.split(data.lstrip(), maxsplit=1)[-1]
     try:
-        words = _VERTEX.findall(rest)
+        facets = [_VERTEX.findall(each) for each in _LOOP_END.split(rest)]
+        words = [word for each in facets for word in each]
         corners = np.array([[float(word) for word in each] for each in words[: len(words) // 3 * 3]]).reshape(-1, 3, 3)
     except ValueError as error:
         raise _no_stl(name) from error
@@ -134,7 +135,7 @@ def _text(name: str, data: bytes) -> Floats:
             f"{name}: this STL file was cut off after {len(corners):,} triangles, as its end, endsolid, is missing; "
             "copy or export it again."
         )
-    if any(len(_VERTEX.findall(each)) != 3 for each in _LOOP_END.split(rest)[:-1]):
+    if any(len(each) != 3 for each in facets[:-1]):
         raise InputError(f"{name}: a facet of this STL file has other than three corners; export the solid again.")
     return corners
 

@@ -47,6 +47,7 @@ from .display_controller import DisplayController
 from .drawing.advice_controller import AdviceController
 from .drawing.cleanup_controller import CleanUpController
 from .drawing.context_menu import ContextMenu
+from .drawing.contour_store import ContourStore
 from .drawing.drawing_page_controller import PAGE as DRAWING_PAGE
 from .drawing.drawing_page_controller import DrawingPageController
 from .drawing.engagement_controller import EngagementController
@@ -108,7 +109,7 @@ class WindowController(QObject):
         self.window_, self.document, self.computation = window, window.document, window.computation
         workspace, commands = window.workspace, window.actions_
         self.workspace, self.log = workspace, workspace.log
-        self._on = partial(on_trigger, commands)
+        self._on, self._contours = partial(on_trigger, commands), ContourStore()
         self.display_controller = DisplayController(window)
         self._make_controllers(window.views, workspace)
         openers = Openers(
@@ -184,8 +185,8 @@ class WindowController(QObject):
         self.advice_controller = AdviceController(window.panel, workspace)
         self.proposal_controller = ProposalController(window.panel, workspace, commands)
         self.template_controller = TemplateController(window.panel, workspace, commands)
-        self.purpose_words = PurposeWords(window.panel, canvas, workspace, self.proposal_controller)
-        self.owned_curves = OwnedCurvesController(window.panel, canvas, workspace)
+        self.purpose_words = PurposeWords(window.panel, canvas, workspace, self.proposal_controller, self._contours)
+        self.owned_curves = OwnedCurvesController(window.panel, canvas, workspace, self._contours)
         self.drawing_page_controller = DrawingPageController(window.drawing_page, window.notice, commands)
         self.cleanup_controller = CleanUpController(window.drawing_page.cleanup, canvas, workspace)
         self.engagement_controller = EngagementController(canvas, window.views.legend, workspace)
@@ -450,7 +451,7 @@ class WindowController(QObject):
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
         canvas.key_typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(self._on_tool)
-        self.selection_ways = SelectionWays(window.workspace, window)
+        self.selection_ways = SelectionWays(window.workspace, self._contours, window)
         self.ribbon = SelectionRibbon(canvas, self.document, window.actions_, self.selection_ways)
         self.context_menu = ContextMenu(canvas, self.document, window.actions_, self.selection_ways)
 

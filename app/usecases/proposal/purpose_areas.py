@@ -11,7 +11,7 @@ from ...model.job import Job
 from ...model.operation import Operation
 from ...model.part import Contour
 from ...toolpath.drawn_contours import DrawnContours, selected
-from ...toolpath.drill_holes import CircleHole, circle_of, made_by_drills
+from ...toolpath.drill_holes import CircleHole, made_by_drills, without_drilled
 
 MOST_AREAS = 4
 """An operation with more places has them told as one."""
@@ -84,9 +84,7 @@ def _with_curves(operation: Operation, curves: tuple[Selector, ...]) -> Operatio
 def _machined(operation: Operation, seen: DrawnContours, drilled: frozenset[CircleHole]) -> list[Contour]:
     """Return the contours of an operation, without the circles that drills make unless it drills."""
     found = selected(seen, operation.cut.curves)
-    if operation.HOLES or not drilled:
-        return [*found.closed, *found.open]
-    return [*(each for each in found.closed if circle_of(each) not in drilled), *found.open]
+    return [*without_drilled(found.closed, frozenset() if operation.HOLES else drilled), *found.open]
 
 
 def _areas_of(index: int, operation: Operation, contours: Sequence[Contour]) -> list[PurposeArea]:

@@ -2,88 +2,47 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
-
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QPainterPath
 
 from ....core.progress import Progress
 from ....model.curve_selectors import Selector
-from ....model.job import Copies, Job
+from ....model.job import Job
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
 from ...panels.changes import SubjectKind
 from ...panels.side_panel import SidePanel
 from ...views.canvas.canvas import Canvas
 from ...views.canvas.painting.curve_path import curve_path
-
-if TYPE_CHECKING:
-    from ....toolpath.drawn_contours import DrawnContours
+from .contour_store import ContourStore, same_contours
 
 
-@dataclass(frozen=True, eq=False)
-class OwnedCurves:
-    """Curves of a drawing that an operation has of its own.
-
-    Attributes:
-        job: whose drawing it is. drawn: its contours, which chaining takes time to find. path: of the curves, mm.
-    """
-
-    job: Job
-    drawn: DrawnContours
-    path: QPainterPath
-
-
-def same_contours(one: Job, other: Job) -> bool:
-    """Tell whether two jobs machine the same contours of the same drawing."""
-
-    def layers(job: Job) -> object:
-        return job.layer_names, job.keep_out_layers, [(each.cut.curves, each.cut.enabled) for each in job.operations]
-
-    def drills(job: Job) -> object:
-        return [each for each in job.operations if each.HOLES]
-
-    return (
-        drills(one) == drills(other)
-        and one.part is other.part
-        and one.join_tolerance == other.join_tolerance
-        and layers(one) == layers(other)
-    )
-
-
-def owned_curves(job: Job, index: int, known: OwnedCurves | None, progress: Progress) -> OwnedCurves:
-    """Return the curves of the operation at an index, without the circles that drills make, unless it drills.
+def owned_curves(job: Job, index: int, contours: ContourStore, progress: Progress) -> QPainterPath:
+    """Return the curves of the operation at an index, mm, without the circles that drills make, unless it drills.
 
     Args:
-        job: its drawing and operations. index: of the operation.
-        known: what was found before, whose contours still hold.
+        job: its drawing and operations. index: of the operation. contours: of the drawing.
         progress: to be cancelled by.
     """
-    from ....toolpath.drawn_contours import (
-        drawn_contours,  # chains contours: never on the window's thread
-        selected,
-    )
-    from ....toolpath.drill_holes import circle_of, made_by_drills
+    from ....toolpath.drawn_contours import selected
+    from ....toolpath.drill_holes import made_by_drills, without_drilled
 
     progress.step(0.0)
-    job, operation = replace(job, copies=Copies()), job.operations[index]
-    seen = known.drawn if known is not None else drawn_contours(job)
+    operation, seen = job.operations[index], contours.of(job)
     found = selected(seen, operation.cut.curves)
     made = frozenset() if operation.HOLES else made_by_drills(job, seen)
-    closed = [each for each in found.closed if not made or circle_of(each) not in made]
-    ids = {number for each in (*closed, *found.open) for number in each.entity_ids}
+    ids = {number for each in (*without_drilled(found.closed, made), *found.open) for number in each.entity_ids}
     progress.step(0.9)
-    return OwnedCurves(job, seen, curve_path(*(each.curve for each in job.part.entities if each.id in ids)))
+    return curve_path(*(each.curve for each in job.part.entities if each.id in ids))
 
 
 class OwnedCurvesController(QObject):
     """Follows the panel and the document; an operation that machines all curves of the job marks none."""
 
-    def __init__(self, panel: SidePanel, canvas: Canvas, workspace: Workspace) -> None:
+    def __init__(self, panel: SidePanel, canvas: Canvas, workspace: Workspace, contours: ContourStore) -> None:
         super().__init__(panel)
         self._panel, self._canvas, self._document = panel, canvas, workspace.document
-        self._known: OwnedCurves | None = None
+        self._contours = contours
         self._asked: tuple[Job, int] | None = None
         self.worker = Worker(self)
         workspace.activity.ended.connect(self.worker.finish)
@@ -99,7 +58,7 @@ class OwnedCurvesController(QObject):
         if subject.kind is SubjectKind.OPERATION and subject.key < len(job.operations):
             own = job.operations[subject.key].cut.curves
         if not own:
-            self._asked, self._known = None, None
+            self._asked = None
             self.worker.cancel()
             self._show_none()
             return
@@ -107,13 +66,13 @@ class OwnedCurvesController(QObject):
         if asked is not None and asked[1] == subject.key and same_contours(asked[0], job):
             return
         self._asked = job, subject.key
-        known = self._known if self._known is not None and same_contours(self._known.job, job) else None
-        self.worker.start(lambda progress: owned_curves(job, subject.key, known, progress), self._document.revision)
+        self.worker.start(
+            lambda progress: owned_curves(job, subject.key, self._contours, progress), self._document.revision
+        )
 
     def _on_done(self, answer: JobOutcome) -> None:
-        assert isinstance(answer.value, OwnedCurves)
-        self._known = answer.value
-        self._canvas.set_owned(answer.value.path)
+        assert isinstance(answer.value, QPainterPath)
+        self._canvas.set_owned(answer.value)
 
     def _show_none(self) -> None:
         self._canvas.set_owned(QPainterPath())

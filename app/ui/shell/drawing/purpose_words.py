@@ -24,7 +24,7 @@ from ...views.canvas.canvas import Canvas
 from ...views.canvas.modes import CanvasMode
 from ...views.canvas.painting.curve_path import chain_path, curve_path
 from ...views.canvas.painting.purpose_layer import PurposeShape
-from .owned_curves_controller import same_contours
+from .contour_store import ContourStore
 from .proposal_controller import ProposalController
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class FoundAreas:
     """The areas of a job's drawing.
 
     Attributes:
-        job: whose they are. drawn: its contours, which chaining takes time to find. areas: as they are listed.
+        job: whose they are. drawn: its contours. areas: as they are listed.
         refused: what each cannot become, by the commands' names.
     """
 
@@ -74,20 +74,18 @@ class FoundAreas:
     refused: tuple[frozenset[str], ...]
 
 
-def found_areas(job: Job, known: FoundAreas | None, progress: Progress) -> FoundAreas:
+def found_areas(job: Job, contours: ContourStore, progress: Progress) -> FoundAreas:
     """Return what the curves of a job's drawing are to become, and what they cannot.
 
     Args:
-        job: its drawing and operations. known: what was found before, whose contours still hold.
+        job: its drawing and operations. contours: of the drawing.
         progress: to be cancelled by.
     """
-    from ....toolpath.drawn_contours import drawn_contours  # chains contours: never on the window's thread
     from ....usecases.proposal.chosen_curves import refusals
     from ....usecases.proposal.purpose_areas import purpose_areas
 
     progress.step(0.0)
-    job = replace(job, copies=Copies())
-    drawn = known.drawn if known is not None else drawn_contours(job)
+    job, drawn = replace(job, copies=Copies()), contours.of(job)
     progress.step(0.5)
     areas = purpose_areas(job, drawn)
     refused = [frozenset(way.name.lower() for way in refusals(drawn, area.numbers)) for area in areas]
@@ -121,8 +119,16 @@ class PurposeWords(QObject):
         words: the buttons, by the areas' order. menu: the one opened last, or None.
     """
 
-    def __init__(self, panel: SidePanel, canvas: Canvas, workspace: Workspace, proposals: ProposalController) -> None:
+    def __init__(
+        self,
+        panel: SidePanel,
+        canvas: Canvas,
+        workspace: Workspace,
+        proposals: ProposalController,
+        contours: ContourStore,
+    ) -> None:
         super().__init__(canvas)
+        self._contours = contours
         self._panel, self._canvas, self._document, self._proposals = panel, canvas, workspace.document, proposals
         self._found: FoundAreas | None = None
         self._asked: Job | None = None
@@ -154,8 +160,9 @@ class PurposeWords(QObject):
             return
         if self._found is not None and self._found.job.part is not job.part:
             self._show(None)
-        known = self._found if self._found is not None and same_contours(self._found.job, job) else None
-        self.worker.start(lambda progress: found_areas(job, known, progress), self._document.revision, self._show)
+        self.worker.start(
+            lambda progress: found_areas(job, self._contours, progress), self._document.revision, self._show
+        )
 
     def _show(self, found: FoundAreas | None) -> None:
         self._found = found
