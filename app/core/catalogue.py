@@ -163,7 +163,7 @@ class Catalogue:
         if _TYPED.search(before) or (_OFFERED.search(before) and joints and plain):
             return self._joined(names, joints)
         small = _CHANGED.search(before) is not None
-        whole = self.look_up(part) or (self.look_up(part[0].upper() + part[1:]) if small else None)
+        whole = self.look_up(part) or (self.look_up(part[:1].upper() + part[1:]) if small else None)
         if whole is not None:
             return whole
         if not joints or before.endswith(("'", '"')):  # a name that somebody gave
