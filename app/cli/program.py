@@ -48,7 +48,7 @@ SUMMARIES = {
     "study": CommandSummary(
         "study FILE -o OUT --vary O=V,V", "one file many ways: which tool, which tolerance, least time"
     ),
-    "stages": CommandSummary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
+    "stages": CommandSummary("stages [FILE] -o DIR", "each of the five published methods, step by step, as pictures"),
     "desktop": CommandSummary("desktop", "the entry of the desktop's menu, icon and kinds of files, for this user"),
     "manual": CommandSummary("manual -o OUT", "the manual as pages for browsers, with search, in both languages"),
     "licences": CommandSummary("licences", "whose work is inside, and under which licence"),

@@ -8,6 +8,7 @@ from app.ui.framework.catalogue import set_language
 from app.ui.framework.theme import DARK
 from app.ui.shell.help.help_pages import rendered
 from app.ui.shell.help.help_window import HelpWindow
+from app.usecases.manual.pages import GROUPS, TUTORIALS, WORK
 
 
 @pytest.fixture
@@ -22,8 +23,8 @@ def test_every_page_of_the_manual_can_be_read(manual) -> None:
     assert manual.page == "language"
     english = {path.stem for path in resource("docs").glob("*.md") if not path.stem.endswith("_ja")}
     assert {page.name for page in manual.pages} == english and manual.pages[0].name == "first_part"
-    for row, page in enumerate(manual.pages):
-        manual.list.setCurrentRow(row)
+    for page in manual.pages:
+        manual.show_page(page.name)
         assert page.title in manual.browser.toPlainText() and not page.title.startswith("#")
 
 
@@ -34,7 +35,8 @@ def test_the_pages_are_in_the_language_of_the_window(manual) -> None:
     try:
         manual.show_page("first_part")
         assert "最初の部品" in manual.browser.toPlainText() and manual.page == "first_part"
-        assert manual.search.text() == "" and len(manual.pages) == manual.list.count()
+        assert manual.search.text() == "" and len(manual.pages) + len(GROUPS) == manual.list.count()
+        assert manual.list.item(0).text() == "チュートリアル"
         manual.browser.anchorClicked.emit(QUrl("sign.md"))
         assert manual.page == "sign" and "銘板" in manual.browser.toPlainText()
         manual.browser.anchorClicked.emit(QUrl("mould_ja.md"))
@@ -48,6 +50,15 @@ def test_the_pages_are_in_the_language_of_the_window(manual) -> None:
         set_language("en")
     manual.show_page("sign")
     assert "A sign" in manual.browser.toPlainText()
+
+
+def test_the_list_names_groups_that_the_keys_pass_over(qtbot, manual) -> None:
+    manual.show_page(TUTORIALS.bases[-1])
+    assert manual.list.item(0).text() == "Tutorials"
+    qtbot.keyClick(manual.list, Qt.Key.Key_Down)
+    assert manual.page == WORK.bases[0]
+    qtbot.keyClick(manual.list, Qt.Key.Key_Up)
+    assert manual.page == TUTORIALS.bases[-1]
 
 
 def test_search_goes_on_through_all_pages(qtbot, manual) -> None:

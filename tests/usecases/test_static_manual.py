@@ -13,7 +13,7 @@ from urllib.parse import unquote
 import pytest
 
 from app.cli.main import main
-from app.usecases.manual.pages import FIRST, LANGUAGES, LAST
+from app.usecases.manual.pages import GROUPS, LANGUAGES
 from app.usecases.manual.site import linked, static_manual
 from tests.ui.manual_tour import OPERATION_PAGES
 
@@ -73,6 +73,16 @@ def test_every_link_leads_somewhere(site: dict[str, bytes], pages: dict[str, Pag
     assert not [each for name, page in pages.items() for each in broken(page.refers, site, pages, name)]
 
 
+def test_the_index_says_a_sentence_about_every_page(site: dict[str, bytes]) -> None:
+    """Of its text, where a page begins with a picture too; its name is its first heading."""
+    for language in LANGUAGES:
+        index = site[f"index{language.ending}.html"].decode()
+        said = re.findall(r"</a><p>(.*?)</p>", index)
+        assert len(said) > 40 and all(said)
+        assert [index.find(f">{group.titles[language.code]}</h2>") > 0 for group in GROUPS] == [True] * len(GROUPS)
+    assert '">Parameters</a>' in site["index.html"].decode() and '">パラメータ</a>' in site["index_ja.html"].decode()
+
+
 def test_what_the_search_finds_is_there(site: dict[str, bytes], pages: dict[str, Page]) -> None:
     for name in ("search.js", "search_ja.js"):
         rows = sections(site, name)
@@ -106,7 +116,7 @@ def test_every_page_that_a_user_reads_is_written_in_both_languages() -> None:
     pages = {path.stem for path in DOCS.glob("*.md")}
     english = {name for name in pages if not name.endswith("_ja")}
     assert {name for name in english - {"architecture", "changelog"} if f"{name}_ja" not in pages} == set()
-    assert set(FIRST) | set(LAST) >= english
+    assert {base for group in GROUPS for base in group.bases} >= english
 
 
 def pictures_of(page: Path) -> list[str]:

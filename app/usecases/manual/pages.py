@@ -6,50 +6,55 @@ English in its place.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-FIRST = (
-    "first_part",
-    "sign",
-    "mould",
-    "foreign_program",
-    "lesson",
-    "manual",
-    "language",
-    "parameters",
-    "pocket",
-    "contour",
-    "adaptive",
-    "slots",
-    "open_edges",
-    "face",
-    "holes",
-    "drill",
-    "spot",
-    "ream",
-    "tap",
-    "countersink",
-    "bore",
-    "counterbore",
-    "thread",
-    "chamfer",
-    "engrave",
-    "lettering",
-    "vcarve",
-    "inlay",
-    "feeds",
-    "wear",
-    "layers",
-    "project",
-    "posts",
-    "scene",
-    "texts",
-)
-"""Pages in this order: the tutorials, how to work, the operations; the others follow by name."""
 
-LAST = ("python", "architecture", "changelog")
-"""What is for those who change the program, and what changed."""
+@dataclass(frozen=True)
+class PageGroup:
+    """Pages that stand together under a heading of their own.
+
+    Attributes:
+        titles: the heading, by the language's code. bases: names of the pages, in their order.
+    """
+
+    titles: Mapping[str, str]
+    bases: tuple[str, ...]
+
+
+TUTORIALS = PageGroup(
+    {"en": "Tutorials", "ja": "チュートリアル"}, ("first_part", "sign", "mould", "foreign_program", "lesson")
+)
+WORK = PageGroup(
+    {"en": "How to work", "ja": "使い方"}, ("manual", "language", "layers", "feeds", "project", "posts", "scene")
+)
+PATHS = PageGroup(
+    {"en": "Areas and contours", "ja": "領域と輪郭の加工"},
+    (
+        "pocket",
+        "contour",
+        "adaptive",
+        "slots",
+        "open_edges",
+        "face",
+        "chamfer",
+        "engrave",
+        "lettering",
+        "vcarve",
+        "inlay",
+        "wear",
+    ),
+)
+HOLES = PageGroup(
+    {"en": "Holes", "ja": "穴の加工"},
+    ("holes", "drill", "spot", "ream", "tap", "countersink", "bore", "counterbore", "thread"),
+)
+REFERENCE = PageGroup({"en": "Reference", "ja": "リファレンス"}, ("parameters", "texts", "python"))
+INSIDE = PageGroup({"en": "The program itself", "ja": "プログラムの中"}, ("architecture", "changelog"))
+"""What is for those who change the program, and what changed; pages that no group names stand here too, by name."""
+
+GROUPS = (TUTORIALS, WORK, PATHS, HOLES, REFERENCE, INSIDE)
+"""Of the manual, in its order: the tutorials, how to work, the operations, what is looked up."""
 
 
 @dataclass(frozen=True)
@@ -90,11 +95,16 @@ def base_of(name: str) -> str:
     return name.removesuffix(language_of(name).ending)
 
 
-def rank(base: str) -> tuple[int, str]:
+def group_of(base: str) -> PageGroup:
+    """Return the group that a page stands in, by its name without a language."""
+    return next((group for group in GROUPS if base in group.bases), INSIDE)
+
+
+def rank(base: str) -> tuple[int, int, str]:
     """Return what sorts pages into their order, by their names without a language."""
-    if base in FIRST:
-        return FIRST.index(base), base
-    return len(FIRST) + (1 + LAST.index(base) if base in LAST else 0), base
+    group = group_of(base)
+    within = group.bases.index(base) if base in group.bases else len(group.bases)
+    return GROUPS.index(group), within, base
 
 
 def shown_in(language: ManualLanguage, names: Iterable[str]) -> list[str]:

@@ -11,6 +11,7 @@ from ...model.operation import Operation
 from ...model.operation_kinds import parameters
 from ...model.tool import Tool
 
+_PAGE = "Parameters"
 _OPERATIONS = "Parameters of operations"
 _ABOUT_OPERATIONS = (
     "Each stands in a job file under its key, on the command line as its option, in the window under its name, and in "
@@ -36,9 +37,9 @@ def parameter_table(tr: Translation = str) -> str:
     operations = (_cells(placed, kinds, tr) for placed, kinds in parameters().values())
     tools = (_tool_cells(placed, tr) for placed in declared_of(Tool).values())
     return (
-        f"# {tr(_OPERATIONS)}\n\n{tr(_ABOUT_OPERATIONS)}\n\n{_head(_OPERATION_COLUMNS, tr)}"
+        f"# {tr(_PAGE)}\n\n## {tr(_OPERATIONS)}\n\n{tr(_ABOUT_OPERATIONS)}\n\n{_head(_OPERATION_COLUMNS, tr)}"
         + "".join(map(_row, operations))
-        + f"\n# {tr(_TOOLS)}\n\n{tr(_ABOUT_TOOLS)}\n\n{_head(_TOOL_COLUMNS, tr)}"
+        + f"\n## {tr(_TOOLS)}\n\n{tr(_ABOUT_TOOLS)}\n\n{_head(_TOOL_COLUMNS, tr)}"
         + "".join(map(_row, tools))
     )
 

@@ -7,14 +7,14 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
-from itertools import pairwise
+from itertools import groupby, pairwise
 from pathlib import PurePosixPath
 
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from ...core.resources import resource
-from .pages import LANGUAGES, ManualLanguage, base_of, language_of, rank, shown_in
+from .pages import LANGUAGES, ManualLanguage, PageGroup, base_of, group_of, language_of, rank, shown_in
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ def _read(parser: MarkdownIt, name: str, text: str) -> ManualPage:
     for token, inline in pairwise(tokens):
         if token.type == "heading_open":
             words = _plain(inline)
-            if token.tag == "h1":
+            if token.tag == "h1" and title == name:
                 title = words
             anchor = _slug(words)
             number = 1
@@ -143,18 +143,32 @@ def linked(href: str, language: ManualLanguage) -> str:
 
 
 def _index_html(shown: Sequence[ManualPage], language: ManualLanguage) -> bytes:
-    items = "".join(
-        f'<li><a href="{page.base}{language.ending}.html">{escape(page.title)}</a><p>{escape(_first(page))}</p></li>'
-        for page in shown
+    groups = "".join(
+        f'<h2>{escape(group.titles[language.code])}</h2><ul class="index">'
+        + "".join(f"<li>{_link(page, language)}<p>{escape(_first(page))}</p></li>" for page in pages)
+        + "</ul>"
+        for group, pages in _grouped(shown)
     )
-    body = f'<h1>{language.title}</h1><ul class="index">{items}</ul>'
+    body = f"<h1>{language.title}</h1>{groups}"
     return _html(_Body(language.title, body, "index", language.code), shown, language)
 
 
+def _link(page: ManualPage, language: ManualLanguage, current: str = "") -> str:
+    """Return a link to a page, marked where it is the page that it stands on."""
+    mark = " aria-current=page" if page.base == current else ""
+    return f'<a href="{page.base}{language.ending}.html"{mark}>{escape(page.title)}</a>'
+
+
+def _grouped(shown: Sequence[ManualPage]) -> Iterator[tuple[PageGroup, list[ManualPage]]]:
+    """Yield the groups with their pages, from pages in the manual's order."""
+    for group, pages in groupby(shown, key=lambda page: group_of(page.base)):
+        yield group, list(pages)
+
+
 def _first(page: ManualPage) -> str:
-    """Return the first sentence of a page."""
-    inline = next((b for a, b in pairwise(page.tokens) if a.type == "paragraph_open"), None)
-    words = _plain(inline) if inline is not None else ""
+    """Return the first sentence of a page that says something; a picture at its head says nothing."""
+    paragraphs = (_plain(inline) for token, inline in pairwise(page.tokens) if token.type == "paragraph_open")
+    words = next(filter(None, paragraphs), "")
     return re.split(r"(?<=[.。])\s?", words, maxsplit=1)[0]
 
 
@@ -170,9 +184,10 @@ class _Body:
 
 def _html(body: _Body, shown: Sequence[ManualPage], language: ManualLanguage) -> bytes:
     links = "".join(
-        f'<li><a href="{page.base}{language.ending}.html"{" aria-current=page" if page.base == body.base else ""}>'
-        f"{escape(page.title)}</a></li>"
-        for page in shown
+        f"<li><b>{escape(group.titles[language.code])}</b><ul>"
+        + "".join(f"<li>{_link(page, language, body.base)}</li>" for page in pages)
+        + "</ul></li>"
+        for group, pages in _grouped(shown)
     )
     others = " ".join(
         f'<a href="{body.base}{each.ending}.html" lang="{each.code}">{each.name}</a>'

@@ -251,6 +251,15 @@ def _length(value: float | None) -> str:
     return "-" if value is None else f"{value:.4g}"
 
 
+def _out_of_reach(left: Json) -> str:
+    """Return in words what no tool of the job gets at."""
+    places = left["out_of_reach_places"]
+    if not places:
+        return "nothing is out of reach"
+    spots = "1 place" if places == 1 else f"{places} places"
+    return f"{left['unreachable_mm2']:.3f} mm² in {spots} are out of reach of every tool"
+
+
 def _proofs(made: MakeResult, report: Json) -> list[SheetProof]:
     """Return the certificate: each claim with the bound that was found, and how."""
     counting = {finding.kind for finding in made.findings if finding.counts}
@@ -264,8 +273,7 @@ def _proofs(made: MakeResult, report: Json) -> list[SheetProof]:
         ),
         SheetProof(
             "Nothing left within reach",
-            f"{left['reachable_mm2']:.3f} mm² of {left['floor_mm2']:.1f} mm² of floor; "
-            f"{left['unreachable_mm2']:.3f} mm² in {left['out_of_reach_places']} places are out of reach of every tool",
+            f"{left['reachable_mm2']:.3f} mm² of {left['floor_mm2']:.1f} mm² of floor; {_out_of_reach(left)}",
             FindingKind.LEFT_REACHABLE not in counting,
         ),
         SheetProof(

@@ -135,6 +135,21 @@ def test_the_certificate_is_about_these_files(sheet: SetupSheet, made: MakeResul
     assert sheet.good and sheet.verdict.startswith("Proven")
 
 
+@pytest.mark.parametrize(
+    ("places", "told"),
+    [
+        (0, "nothing is out of reach"),
+        (1, "2.655 mm² in 1 place are out of reach of every tool"),
+        (11, "2.655 mm² in 11 places are out of reach of every tool"),
+    ],
+)
+def test_what_no_tool_reaches_is_said_in_words(made: MakeResult, places: int, told: str) -> None:
+    left = {**made.report.data["left"], "out_of_reach_places": places, "unreachable_mm2": 2.655 * bool(places)}
+    report = replace(made.report, data={**made.report.data, "left": left})
+    sheet = made_sheet(replace(made, report=report), Path("plate.ngc"), {})
+    assert next(each.bound for each in sheet.proofs if each.claim == "Nothing left within reach").endswith(f"; {told}")
+
+
 def test_what_does_harm_is_said_in_red(job: Job) -> None:
     wide = replace(job, tools=(replace(job.tools[0], diameter=30.0), job.tools[1]))
     sheet = made_sheet(export(wide), Path("a.ngc"), {})

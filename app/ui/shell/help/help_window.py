@@ -4,21 +4,24 @@ language.
 
 from __future__ import annotations
 
+from itertools import groupby
+
 from PySide6.QtCore import QEvent, QObject, Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QKeyEvent, QTextCursor, QTextDocument
-from PySide6.QtWidgets import QLineEdit, QListWidget, QTextBrowser, QTextEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QTextBrowser, QTextEdit, QWidget
 
-from ....usecases.manual.pages import base_of
+from ....usecases.manual.pages import base_of, group_of
 from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.catalogue import active_language
 from ...framework.labels import muted, restyle
-from ...framework.theme import LIGHT, Theme, mixed
+from ...framework.theme import LIGHT, Theme, mixed, text_font
 from ...views.language.usage import usage_of
 from .help_pages import HelpPage, pages, rendered
 
 _SIZE = (884, 640)
 _LIST_PX = 224
 LANGUAGE = "language"
+_PAGE = Qt.ItemDataRole.UserRole  # of a row in the list: the number of its page
 
 
 class HelpWindow(QWidget):
@@ -57,20 +60,25 @@ class HelpWindow(QWidget):
         self.browser.setStyleSheet(
             f"QTextBrowser {{ background: {theme.raised.name()}; color: {theme.ink.name()}; border: 0; }}"
         )
-        if self.pages:
-            self._show_row(self.list.currentRow())
+        self._show_row(self.list.currentRow())
 
     @property
     def page(self) -> str:
         """Name of the page in front; "" before the first."""
-        row = self.list.currentRow()
-        return self.pages[row].name if row >= 0 else ""
+        shown = self._shown
+        return self.pages[shown].name if shown >= 0 else ""
+
+    @property
+    def _shown(self) -> int:
+        """Number of the page in front, from 0; -1 before the first."""
+        item = self.list.currentItem()
+        return int(item.data(_PAGE)) if item is not None else -1
 
     def show_page(self, name: str = LANGUAGE) -> None:
         """Open the window with a page."""
         if self._code != active_language():
             self._read(active_language())
-        self.list.setCurrentRow(next((row for row, page in enumerate(self.pages) if page.name == name), 0))
+        self._turn_to(next((number for number, page in enumerate(self.pages) if page.name == name), 0))
         self.show()
         self.raise_()
         self.activateWindow()
@@ -80,7 +88,17 @@ class HelpWindow(QWidget):
         self._code, self.pages = code, pages(code)
         self._laid_out.clear()
         self.list.clear()
-        self.list.addItems([page.title for page in self.pages])
+        numbered = enumerate(self.pages)
+        for group, members in groupby(numbered, key=lambda each: group_of(each[1].name)):
+            self.list.addItem(_heading(group.titles[code]))
+            for number, page in members:
+                item = QListWidgetItem(page.title, self.list)
+                item.setData(_PAGE, number)
+
+    def _turn_to(self, number: int) -> None:
+        """Bring a page to the front, by its number from 0."""
+        items = map(self.list.item, range(self.list.count()))
+        self.list.setCurrentItem(next(item for item in items if item.data(_PAGE) == number))
 
     def show_word(self, word: str, function: bool = False) -> None:
         """Open the page of the shape language where a word is explained; what is no word of it is looked for.
@@ -125,12 +143,12 @@ class HelpWindow(QWidget):
         flags = QTextDocument.FindFlag.FindBackward if back else QTextDocument.FindFlag(0)
         if not words or self.browser.find(words, flags):
             return
-        rows = [row for row, page in enumerate(self.pages) if words.lower() in page.text.lower()]
-        if not rows:
+        having = [number for number, page in enumerate(self.pages) if words.lower() in page.text.lower()]
+        if not having:
             return
-        here = self.list.currentRow()
-        later = [row for row in rows if (row < here if back else row > here)]
-        self.list.setCurrentRow((later or rows)[-1 if back else 0])
+        here = self._shown
+        later = [number for number in having if (number < here if back else number > here)]
+        self._turn_to((later or having)[-1 if back else 0])
         self.browser.moveCursor(QTextCursor.MoveOperation.End if back else QTextCursor.MoveOperation.Start)
         self.browser.find(words, flags)
         self._mark(words)
@@ -150,7 +168,7 @@ class HelpWindow(QWidget):
     def _show_row(self, row: int) -> None:
         if row < 0:
             return
-        page = self.pages[row]
+        page = self.pages[self._shown]
         if page.name not in self._laid_out:
             self._laid_out[page.name] = rendered(page, self._theme)
             self._laid_out[page.name].setParent(self)
@@ -202,3 +220,11 @@ class HelpWindow(QWidget):
             self.show_page(name)
         elif link.scheme() in ("http", "https"):
             QDesktopServices.openUrl(link)
+
+
+def _heading(words: str) -> QListWidgetItem:
+    """Return a row of the list that names the pages below it; it cannot be chosen."""
+    made = QListWidgetItem(words)
+    made.setFlags(Qt.ItemFlag.NoItemFlags)
+    made.setFont(text_font(semibold=True))
+    return made
