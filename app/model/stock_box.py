@@ -66,6 +66,23 @@ def stock_box(job: Job, regions: Iterable[Region], lines: Iterable[Contour] = ()
         raise ParameterError(
             "The part has no closed contour, so there is no stock to set the work origin on; close a contour first."
         )
+    return _round(job, box)
+
+
+def drawn_stock(job: Job, drawn: tuple[float, float, float, float]) -> StockBox:
+    """Return the stock round a drawing before anybody has looked what of it bounds anything: copies, and the margin.
+
+    Args:
+        job: whose stock.
+        drawn: x0, y0, x1, y1 of what is drawn, once, mm.
+    """
+    x0, y0, x1, y1 = drawn
+    along, across = ([shift[axis] for shift in job.copies.shifts] for axis in (0, 1))
+    return _round(job, (x0 + min(along), y0 + min(across), x1 + max(along), y1 + max(across)))
+
+
+def _round(job: Job, box: tuple[float, float, float, float]) -> StockBox:
+    """Return the stock of a job round a box in mm."""
     x0, y0, x1, y1 = box
     margin, widest = job.stock.margin, max((tool.radius for tool in job.needed_tools()), default=0.0)
     beside_x = margin if x1 > x0 else max(margin, widest)

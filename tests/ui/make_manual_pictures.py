@@ -1,6 +1,7 @@
 """Takes the manual's pictures from the real window: `python -m tests.ui.make_manual_pictures [PAGE…]`.
 
-They go into resources/docs/pictures, with at most 128 colours, so that all of them together stay small.
+They go into resources/docs/pictures, those of the Japanese manual into pictures/ja, with at most 128 colours, so that
+all of them together stay small.
 """
 
 from __future__ import annotations
@@ -18,13 +19,14 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QWidget
 
-from app.core.settings import ThemeChoice
+from app.core.settings import Language, ThemeChoice
 from app.ui.shell.start import build
 from tests.ui.make_screenshots import wait, wait_until
 from tests.ui.manual_tour import DOCS, OPERATION_PAGES, ManualTour
 
 SIZE = (1180, 740)
 COLOURS = 128
+FOLDERS = {Language.ENGLISH: DOCS / "pictures", Language.JAPANESE: DOCS / "pictures/ja"}
 
 
 def with_few_colours(picture: QImage) -> QImage:
@@ -47,6 +49,14 @@ def save(folder: Path, name: str, widget: QWidget) -> None:
     print(f"{path} {path.stat().st_size // 1000} kB", flush=True)
 
 
+def take(tour: ManualTour, names: list[str]) -> None:
+    """Take the pictures of the pages that are named, of all where none is."""
+    pages = {each: getattr(tour, each) for each in ("first_part", "sign", "mould", "foreign_program", "five_texts")}
+    pages |= {each[0]: partial(tour.operation, *each) for each in OPERATION_PAGES} | {"lettering": tour.lettering}
+    for name in names or pages:
+        pages[name]()
+
+
 def main() -> None:
     """Take all pictures, or those of the pages that are named."""
     os.environ["HITOFUDE_CONFIG"] = tempfile.mkdtemp()
@@ -55,13 +65,10 @@ def main() -> None:
     window.choose_theme(ThemeChoice.LIGHT)
     window.resize(*SIZE)
     window.show()
-    folder = DOCS / "pictures"
-    folder.mkdir(exist_ok=True)
-    tour = ManualTour(wiring, wait_until, wait, partial(save, folder))
-    pages = {each: getattr(tour, each) for each in ("first_part", "sign", "mould", "foreign_program", "five_texts")}
-    pages |= {each[0]: partial(tour.operation, *each) for each in OPERATION_PAGES} | {"lettering": tour.lettering}
-    for page in sys.argv[1:] or pages:
-        pages[page]()
+    for language, folder in FOLDERS.items():
+        wiring.translation_controller.choose(language)
+        folder.mkdir(exist_ok=True)
+        take(ManualTour(wiring, wait_until, wait, partial(save, folder)), sys.argv[1:])
     wiring.document.mark_saved(Path("x"))
     window.close()
     application.quit()

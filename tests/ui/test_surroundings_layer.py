@@ -3,20 +3,22 @@
 from dataclasses import replace
 
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QRectF, Qt
 
 from app.drafting.document import Document
 from app.model.contour_operation import ContourOperation
 from app.model.curves import Line
 from app.model.entry import Tabs
-from app.model.job import Copies, Job
+from app.model.job import Copies, Job, Stock
 from app.model.part import Entity, Part
+from app.model.stock_box import StockBox, drawn_stock, stock_box
 from app.ui.framework.theme import LIGHT
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.operation_groups import BY_HAND
 from app.ui.panels.side_panel import SidePanel
 from app.ui.views.canvas.canvas import Canvas
 from app.ui.views.canvas.marker_mode import MarkerMode
+from app.ui.views.canvas.painting.surroundings_layer import DASH_PERIOD, edges_seen
 
 
 def square(x: float, y: float, side: float, layer: str, first: int) -> tuple[Entity, ...]:
@@ -63,6 +65,58 @@ def test_copies_are_drawn_but_clamps_are_not_copied(canvas, document):
     assert colour(canvas, 70.0, 14.0) == empty[1]  # where the clamp's edge would be
 
 
+def test_the_stock_is_outlined_where_it_is(canvas, document):
+    rows = range(-90, 500, 2)  # tenths of a mm along its left edge and beyond its lower end
+
+    def seen(x: float) -> set[str]:
+        return {colour(canvas, x, row / 10) for row in rows}
+
+    ground = seen(-6.0)
+    canvas.set_stock(StockBox(-6.0, -8.0, -10.0, 46.0, 48.0))
+    assert seen(-6.0) != ground and seen(46.0) != ground
+    assert {colour(canvas, -6.0, -9.5)} <= ground
+    canvas.set_stock(None)
+    assert seen(-6.0) == ground
+
+
+@pytest.mark.parametrize("scale", [0.5, 3.0, 4e4])
+def test_edges_of_the_stock_are_dashed_from_their_corners_and_never_long(scale):
+    """However a picture is cut into areas: what two of them show of one edge is in step."""
+    outline = QRectF(-13.0 * scale, -7.0 * scale, 52.0 * scale, 56.0 * scale)
+    for area in (
+        QRectF(0, 0, 300, 200),
+        QRectF(17.5, 3, 40, 41),
+        QRectF(outline.left() - 5, outline.top() - 5, 90, 80),
+    ):
+        for line in edges_seen(outline, area):
+            from_corner = (line.x1() - outline.left()) + (line.y1() - outline.top())
+            at_far_edge = outline.width() * (line.x1() == outline.right()) + outline.height() * (
+                line.y1() == outline.bottom()
+            )
+            steps = (from_corner - at_far_edge) / DASH_PERIOD
+            assert steps == pytest.approx(round(steps), abs=1e-6)
+            assert line.length() <= max(area.width(), area.height()) + DASH_PERIOD
+    assert not edges_seen(outline, QRectF(outline.right() + 1, 0, 50, 50))
+    assert len(edges_seen(outline, outline)) == 4
+
+
+def test_the_outline_is_the_stock_that_the_program_tells(qtbot, wiring):
+    """Before it is computed round all that is drawn, after it round what is machined; the panel says the same."""
+    document, display, window = wiring.document, wiring.display_controller, wiring.window_
+    part = Part().with_entities((*square(0, 0, 40, "0", 1), Entity(9, Line((60.0, 0.0), (60.0, 70.0)), "0")))
+    document.change_job("Part", replace(document.job, part=part, stock=Stock(margin=2.0)))
+    assert window.canvas.around.stock == StockBox(-2.0, -2.0, -10.0, 62.0, 72.0)
+    assert window.panel.job.stock.text().startswith("64.000 \u00d7 74.000")
+    with qtbot.waitSignal(wiring.computation.finished, timeout=60_000):
+        wiring.computation.start()
+    made = wiring.computation.made
+    assert display.stock() == stock_box(made.job, made.program.regions, made.program.lines)
+    assert window.canvas.around.stock == StockBox(-2.0, -2.0, -10.0, 42.0, 42.0)
+    assert window.panel.job.stock.text().startswith("44.000 \u00d7 44.000")
+    document.run("circle 80,10 5")
+    assert window.canvas.around.stock == StockBox(-2.0, -2.0, -10.0, 87.0, 72.0)
+
+
 def test_a_click_marks_a_place_and_escape_ends(qtbot, canvas):
     places: list[tuple[float, float]] = []
     canvas.mark(MarkerMode("Places", lambda: places, lambda at, reach: places.append(at)))
@@ -102,5 +156,7 @@ def test_tabs_are_put_and_taken_away_by_clicks(qtbot, wiring):
 def test_the_stock_grows_with_copies_and_not_with_clamps(qtbot, document):
     panel = SidePanel(document)
     qtbot.addWidget(panel)
-    panel.show_size((40.0, 40.0), replace(document.job, copies=Copies(3, 2, 50.0, 60.0)))
+    stock = drawn_stock(replace(document.job, copies=Copies(3, 2, 50.0, -60.0)), (0.0, 0.0, 40.0, 40.0))
+    assert (stock.x0, stock.y0, stock.x1, stock.y1) == (0.0, -60.0, 140.0, 40.0)
+    panel.show_size((40.0, 40.0), stock.size[:2])
     assert panel.job.stock.text() == "140.000 \u00d7 100.000 \u00d7 10.000 mm"

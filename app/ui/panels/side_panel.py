@@ -145,24 +145,16 @@ class SidePanel(SideScroll):
         self._times, self._strokes = times, strokes
         self.refresh()
 
-    def show_size(self, size: tuple[float, float] | None, job: Job) -> None:
+    def show_size(self, part: tuple[float, float] | None, stock: tuple[float, float] | None) -> None:
         """Show the stock's size in the plane.
 
         Args:
-            size: of one part, mm; None while nothing is drawn.
-            job: its copies and the margin round them.
+            part: size of one part, mm; None while nothing is drawn.
+            stock: size of the stock round all copies, mm.
         """
-        copies, margin = job.copies, 2 * job.stock.margin
-        self.job_form.show_size(size)
-        self._size = (
-            None
-            if size is None
-            else (
-                size[0] + (copies.columns - 1) * abs(copies.dx) + margin,
-                size[1] + (copies.rows - 1) * abs(copies.dy) + margin,
-            )
-        )
-        self.job.show_job(job, self._size)
+        self.job_form.show_size(part)
+        self._size = stock
+        self.job.show_job(self._document.job, stock)
 
     def change(self, name: str, make: Callable[[Job], Job]) -> None:
         """Change the job, undoably; what it does not allow is said by `refused`."""

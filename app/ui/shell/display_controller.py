@@ -11,9 +11,10 @@ from PySide6.QtCore import QObject, Signal
 
 from ...drafting.document import DocumentChange
 from ...drafting.expressions.words import name_text
-from ...geometry.sample import bounds, union
+from ...geometry.sample import Box, bounds, union
 from ...model.finding import Finding
 from ...model.part import Part
+from ...model.stock_box import StockBox, drawn_stock, stock_box
 from ..framework.catalogue import active_language
 from ..framework.computation import ComputationState
 from ..framework.controller import Controller, OfferedMend, ShownDocument
@@ -24,7 +25,7 @@ from ..framework.view import View, ViewPage
 from ..panels.lists import OperationTimes
 from ..views.canvas.modes import PathColourBy, PathLayers
 from ..views.canvas.painting.program_layer import ProgramLayer
-from .files.open_controller import size_of
+from .files.open_controller import extent_of, size_of
 from .main_window import MainWindow
 from .view_pages import pages_of
 
@@ -89,7 +90,7 @@ class DisplayController(QObject):
         self._tellers: list[_Teller] = []
         self._shown_program: object = None
         self._empty_action = "open"
-        self._sized: tuple[Part, tuple[str, ...], tuple[float, float] | None] | None = None
+        self._extent: tuple[Part, tuple[str, ...], Box | None] | None = None
         self._computation.changed.connect(self._on_computation)
         window.activity.progress.connect(window.status.show_progress)
         window.activity.busy_changed.connect(window.actions_["cancel"].setEnabled)
@@ -139,14 +140,34 @@ class DisplayController(QObject):
 
     def part_size(self) -> tuple[float, float] | None:
         """Return width and height of the drawing without its keep-out layers, mm; None when it is empty."""
-        part, apart = self._document.part, self._document.job.keep_out_layers
-        if self._sized is None or self._sized[0] is not part or self._sized[1] != apart:
-            self._sized = (part, apart, size_of(part, apart))
-        return self._sized[2]
+        drawn = self._drawn()
+        return None if drawn is None else size_of(drawn)
 
-    def know_size(self, part: Part, size: tuple[float, float] | None) -> None:
-        """Take over the size of a part that was measured on another thread."""
-        self._sized = (part, (), size)
+    def _drawn(self) -> Box | None:
+        """Return the extent of the drawing without its keep-out layers, mm; None when it is empty."""
+        part, apart = self._document.part, self._document.job.keep_out_layers
+        if self._extent is None or self._extent[0] is not part or self._extent[1] != apart:
+            self._extent = (part, apart, extent_of(part, apart))
+        return self._extent[2]
+
+    def know_extent(self, part: Part, extent: Box | None) -> None:
+        """Take over the extent of a part that was measured on another thread."""
+        self._extent = (part, (), extent)
+
+    def stock(self) -> StockBox | None:
+        """Return the stock: once computed, that of the program; before, that round all that is drawn; None when nothing
+        is.
+        """
+        job, made, drawn = self._document.job, self._computation.made, self._drawn()
+        if made is not None and self._computation.state is ComputationState.CURRENT and len(made.program.moves):
+            return stock_box(job, made.program.regions, made.program.lines)
+        return None if drawn is None else drawn_stock(job, drawn)
+
+    def _show_stock(self) -> None:
+        """Show where the stock is, and how large."""
+        stock = self.stock()
+        self._window.panel.show_size(self.part_size(), None if stock is None else stock.size[:2])
+        self._window.canvas.set_stock(stock)
 
     def show_view(self, view: View) -> None:
         """Bring a view to the front."""
@@ -177,7 +198,7 @@ class DisplayController(QObject):
     def refresh(self, change: DocumentChange) -> None:
         """Show what changed in the document."""
         if change & (DocumentChange.PART | DocumentChange.JOB):
-            self._window.panel.show_size(self.part_size(), self._document.job)
+            self._show_stock()
             self._window.views.legend.show_job(self._document.job)
             self.show_missing()
         self.show_titles()
@@ -272,6 +293,7 @@ class DisplayController(QObject):
             if picture is not None:
                 self._window.views.legend.show_left(bool(picture.left), bool(picture.unreachable))
             self._window.canvas.set_findings(self._marked())
+        self._show_stock()
         self._window.canvas.set_stale(self._computation.outdated)
         strokes = made.program.strokes if made is not None and state is ComputationState.CURRENT else None
         self._window.panel.show_results(

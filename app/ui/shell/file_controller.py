@@ -117,7 +117,7 @@ class FileController(QObject):
         window.dropped.connect(lambda path: self.open_file(Path(path)))
         window.closing.connect(self._on_closing)
         window.actions_.recent.aboutToShow.connect(self._list_recent)
-        self.open_controller.read.connect(lambda opened: showing.know_size(opened.job.part, opened.size))
+        self.open_controller.read.connect(lambda opened: showing.know_extent(opened.job.part, opened.extent))
         self.open_controller.opened.connect(self._on_opened)
         self.open_controller.opening_changed.connect(showing.show_opening)
         self.open_controller.asked.connect(self._ask_how)
@@ -309,10 +309,10 @@ class FileController(QObject):
             canvas.set_view(CanvasView(look.scale).zoomed(1.0, canvas.area.center()).centred(look.centre, canvas.area))
 
     def _opened_sentence(self, opened: OpenedDrawing) -> str:
-        size = opened.size or (0.0, 0.0)
+        wide, high = opened.size
         findings = len(opened.drawing.findings)
         more = f" {counted(findings, 'remark')} on the drawing: see Compute, Findings." if findings else ""
-        return f"{counted(len(opened.job.part.entities), 'curve')}, {grouped(size[0])} by {grouped(size[1])} mm.{more}"
+        return f"{counted(len(opened.job.part.entities), 'curve')}, {grouped(wide)} by {grouped(high)} mm.{more}"
 
     def _ask_how(self, asked: UndecidedDrawing) -> None:
         """Ask how a drawing is to be read that cannot be opened before; what was to be said of changes has been

@@ -14,7 +14,7 @@ from ....core.errors import InputError
 from ....core.progress import Progress
 from ....core.resources import resource
 from ....drafting.document import Document
-from ....geometry.sample import bounds, union
+from ....geometry.sample import Box, bounds, union
 from ....model.job import Job
 from ....model.part import Part
 from ....model.reading import AS_THE_FILE_SAYS, DrawingSource, ReadingOptions
@@ -33,7 +33,7 @@ class OpenedDrawing:
 
     Attributes:
         path: the file. drawing: what it holds. job: the job to work on, with the tools that were there before.
-        size: width and height, mm.
+        extent: x0, y0, x1, y1, mm; None where nothing is drawn.
         source: the drawing, and how it was read; None of what can be read in one way alone.
         project: what a project file holds beside its job; None for a drawing. stamp: of that file.
     """
@@ -41,10 +41,15 @@ class OpenedDrawing:
     path: Path
     drawing: Drawing
     job: Job
-    size: tuple[float, float] | None = None
+    extent: Box | None = None
     source: DrawingSource | None = None
     project: Project | None = None
     stamp: Stamp | None = None
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm; 0 where nothing is drawn."""
+        return (0.0, 0.0) if self.extent is None else size_of(self.extent)
 
 
 @dataclass(frozen=True)
@@ -55,10 +60,14 @@ class UndecidedDrawing:
     question: ReadingQuestion
 
 
-def size_of(part: Part, without: tuple[str, ...] = ()) -> tuple[float, float] | None:
-    """Return width and height of what is drawn but on some layers, mm; None when nothing is."""
-    box = union([bounds(entity.curve) for entity in part.entities if entity.layer not in without])
-    return None if box is None else (box[2] - box[0], box[3] - box[1])
+def extent_of(part: Part, without: tuple[str, ...] = ()) -> Box | None:
+    """Return x0, y0, x1, y1 of what is drawn but on some layers, mm; None when nothing is."""
+    return union([bounds(entity.curve) for entity in part.entities if entity.layer not in without])
+
+
+def size_of(box: Box) -> tuple[float, float]:
+    """Return width and height of a box."""
+    return (box[2] - box[0], box[3] - box[1])
 
 
 SAMPLE_PROGRAMS = ("facets", "points", "raster", "valley")
@@ -108,7 +117,7 @@ def read_drawing_file(
     drawing = replace(drawing, part=_shown(drawing.part, reading.layers))
     job = job_from_drawing(drawing, MakeOptions(job=before))
     source = DrawingSource(str(path.absolute()), reading) if format_of(path.name).foreign else None
-    return OpenedDrawing(path, drawing, job, size_of(job.part), source)
+    return OpenedDrawing(path, drawing, job, extent_of(job.part), source)
 
 
 def _shown(part: Part, layers: tuple[str, ...]) -> Part:
@@ -137,7 +146,7 @@ def _read_project(path: Path) -> OpenedDrawing:
     project = replace(project, state=project.state.named(path.stem))
     job = project.state.job
     part = job.part
-    return OpenedDrawing(path, Drawing(part), job, size_of(part, job.keep_out_layers), None, project, stamp)
+    return OpenedDrawing(path, Drawing(part), job, extent_of(part, job.keep_out_layers), None, project, stamp)
 
 
 class OpenController(QObject):

@@ -134,7 +134,7 @@ class RereadController(QObject):
         opened = replace(opened, job=replace(opened.job, part=part))
         self._remember(source, opened)
         self._document.read_again(f"Read {opened.path.name}", opened.job, source)
-        size = opened.size or (0.0, 0.0)
+        size = opened.size
         words = f"{counted(len(opened.job.part.entities), 'curve')}, {grouped(size[0])} by {grouped(size[1])} mm."
         self._log.note(f"read {opened.path.name}", words)
         self.taken.emit()

@@ -16,6 +16,7 @@ from ....model.finding import Finding
 from ....model.moves import Program
 from ....model.notes import Note
 from ....model.part import Entity
+from ....model.stock_box import StockBox
 from ....raster.frame import BitmapFrame
 from ...framework.theme import Theme
 from .describe import describe_entity, describe_note
@@ -70,7 +71,7 @@ class Canvas(InteractiveViewport):
 
     Attributes:
         frame: the display of 400 x 400 cells, or another.
-        around: clamps and copies round the part.
+        around: stock, clamps and copies round the part.
         owned: curves of the operation that is chosen, mm; empty where it has none of its own.
     """
 
@@ -161,6 +162,12 @@ class Canvas(InteractiveViewport):
             self._purposes_shown = on
             self.update()
 
+    def set_stock(self, stock: StockBox | None) -> None:
+        """Show where the stock is; None = there is none yet."""
+        if stock != self.around.stock:
+            self.around.stock = stock
+            self.repaint_scene()
+
     def set_findings(self, findings: tuple[Finding, ...]) -> None:
         """Mark the places of these findings."""
         self._findings = findings
@@ -185,8 +192,10 @@ class Canvas(InteractiveViewport):
         self.repaint_scene()
 
     def fit(self) -> None:
-        """Show the whole part, or the frame while nothing is drawn."""
-        self.glide_to_box(self.picture.box or self.frame.extent)
+        """Show the whole part and its stock, or the frame while nothing is drawn."""
+        stock = self.around.stock
+        around = None if stock is None else (stock.x0, stock.y0, stock.x1, stock.y1)
+        self.glide_to_box(union([each for each in (self.picture.box, around) if each is not None]) or self.frame.extent)
 
     def go_to(self, x: float, y: float, closely: bool = False, around: Box | None = None) -> None:
         """Bring a point in mm to the middle; with `closely` zoom in, too, unless it is seen larger already.
@@ -231,6 +240,7 @@ class Canvas(InteractiveViewport):
             fine = program.count(whole, look.layers) > MANY
             shown = replace(look, theme=theme.faint(_STALE) if look.stale else theme, fine=fine)
             yield from program.steps(painter, self.view, box, shown)
+        self.around.paint_stock(painter, self.view, (area, self.area), theme)
         if program is None or PathLayers.CLAMP in look.layers:
             self.around.paint_clamps(painter, self.view, box, theme)
         if program is None or PathLayers.PART in look.layers:

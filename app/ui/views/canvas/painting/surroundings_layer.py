@@ -1,15 +1,20 @@
-"""What a job puts round the drawing: copies of the part, faint, and keep-out areas, hatched."""
+"""What a job puts round the drawing: the stock, dashed, copies of the part, faint, and keep-out areas, hatched."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QPainter, QPainterPath, QTransform
+import math
+
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QPainter, QPainterPath, QTransform
 
 from .....core.errors import HitofudeError
 from .....geometry.sample import Box
 from .....model.job import Copies, Job
 from .....model.part import Part
-from ....framework.theme import Theme
+from .....model.stock_box import StockBox
+from ....framework.catalogue import tr
+from ....framework.figures import TIMES, grouped
+from ....framework.theme import Theme, text_font
 from ..view_transform import ViewTransform
 from .curve_path import chain_path
 from .part_layer import PartLayer
@@ -20,13 +25,22 @@ MOST_DRAWN = 60
 
 _FAINT, _FILL = 0.4, 0.16
 _WIDTH = 1.25
+_STOCK_WIDTH, _STOCK_DASHES = 1.0, (6.0, 4.0)
+DASH_PERIOD = sum(_STOCK_DASHES)
+"""Of the stock's outline, px."""
+_FONT_PX, _GAP_PX = 11, 6.0
 
 
 class SurroundingsLayer:
-    """Copies and clamps of a job, ready to paint."""
+    """Stock, copies and clamps of a job, ready to paint.
+
+    Attributes:
+        stock: None = nothing is drawn that it could lie round.
+    """
 
     def __init__(self) -> None:
-        """Begin with neither."""
+        """Begin with none of them."""
+        self.stock: StockBox | None = None
         self._copies = Copies()
         self._clamps = QPainterPath()
         self._part = Part()
@@ -60,6 +74,30 @@ class SurroundingsLayer:
     def clamps(self) -> QPainterPath:
         """Outlines of the keep-out areas, mm."""
         return self._clamps
+
+    def paint_stock(self, painter: QPainter, view: ViewTransform, areas: tuple[QRectF, QRectF], theme: Theme) -> None:
+        """Paint the stock's outline and its size, this above it, or within where there is no room above.
+
+        Args:
+            view: of the canvas. theme: its colours.
+            areas: the rectangle of the screen that is painted, and all that is seen of the drawing.
+        """
+        if self.stock is None:
+            return
+        stock, (area, seen) = self.stock, areas
+        outline = QRectF(view.to_screen((stock.x0, stock.y1)), view.to_screen((stock.x1, stock.y0)))
+        painter.save()
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(screen_pen(painter, theme.muted, _STOCK_WIDTH, _STOCK_DASHES))
+        painter.drawLines(edges_seen(outline, area))
+        painter.setFont(text_font(_FONT_PX))
+        name = tr(f"stock {f' {TIMES} '.join(grouped(each, 3) for each in stock.size)}")
+        width = QFontMetricsF(painter.font()).horizontalAdvance(name)
+        if width < outline.width():
+            above = outline.top() - seen.top() > _FONT_PX + _GAP_PX
+            line = outline.top() + (-_GAP_PX if above else _GAP_PX + _FONT_PX)
+            painter.drawText(QPointF(outline.right() - width - (0 if above else _GAP_PX), line), name)
+        painter.restore()
 
     def paint_clamps(self, painter: QPainter, view: ViewTransform, box: Box, theme: Theme) -> None:
         """Paint the keep-out areas when they come into a box in mm; the painter works in screen px."""
@@ -106,3 +144,21 @@ class SurroundingsLayer:
                     QRectF(moved.to_screen((around[0], around[3])), moved.to_screen((around[2], around[1])))
                 )
         painter.restore()
+
+
+def edges_seen(outline: QRectF, area: QRectF) -> list[QLineF]:
+    """Return what of the edges of an outline may be seen in an area, px.
+
+    Each begins a whole number of dashes from its corner, so that dashes stand still while a picture is moved and
+    painted anew in parts; no line is much longer than the area, however near one looks.
+    """
+
+    def seen(low: float, high: float, first: float, last: float) -> tuple[float, float]:
+        return low + max(math.floor((first - low) / DASH_PERIOD), 0) * DASH_PERIOD, min(high, last)
+
+    left, right = seen(outline.left(), outline.right(), area.left(), area.right())
+    top, bottom = seen(outline.top(), outline.bottom(), area.top(), area.bottom())
+    lines = [QLineF(left, y, right, y) for y in (outline.top(), outline.bottom()) if area.top() <= y <= area.bottom()]
+    lines += [QLineF(x, top, x, bottom) for x in (outline.left(), outline.right()) if area.left() <= x <= area.right()]
+    near = [each for each in lines if each.x2() >= area.left() and each.y2() >= area.top()]
+    return [each for each in near if each.x1() <= each.x2() and each.y1() <= each.y2()]
