@@ -7,7 +7,7 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import Self
+from typing import Self, TextIO
 
 from ..core.errors import printable
 from ..model.finding import Finding, FindingKind
@@ -22,11 +22,20 @@ _LAYOUT = "\n\t"
 """Signs of our own; what else a terminal would obey can only come from a file."""
 
 
+def _encodable(text: str, stream: TextIO | None) -> str:
+    r"""Return a text as a stream can take it: signs that its encoding lacks as \xb2 or \u51fa, as Python writes them.
+
+    A console need not be UTF-8: it is not where `PYTHONIOENCODING` says otherwise, nor on an older Windows.
+    """
+    encoding = getattr(stream, "encoding", None) or "utf-8"
+    return text.encode(encoding, "backslashreplace").decode(encoding)
+
+
 def say(text: str) -> None:
     """Print a line to stderr; where that is closed, as under cron, or full, nobody hears it and the work goes on."""
     if sys.stderr is not None:
         with suppress(OSError, ValueError):
-            print(printable(text, _LAYOUT), file=sys.stderr, flush=True)
+            print(_encodable(printable(text, _LAYOUT), sys.stderr), file=sys.stderr, flush=True)
 
 
 def on_terminal() -> bool:
@@ -38,7 +47,7 @@ def show(text: str) -> None:
     """Print to the line of a terminal on stderr that goes on."""
     if on_terminal():
         with suppress(OSError, ValueError):
-            print(text, end="", file=sys.stderr, flush=True)
+            print(_encodable(text, sys.stderr), end="", file=sys.stderr, flush=True)
 
 
 def tell(text: str) -> None:
@@ -47,7 +56,7 @@ def tell(text: str) -> None:
     The work is done when this is called, so that a stdout that fails changes no exit status.
     """
     try:
-        print(printable(text, _LAYOUT), flush=True)
+        print(_encodable(printable(text, _LAYOUT), sys.stdout), flush=True)
     except BrokenPipeError:
         _let_go()
     except OSError as error:

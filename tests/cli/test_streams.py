@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import platform
 import signal
@@ -49,6 +50,30 @@ def test_without_stderr_errors_do_not_go_to_stdout(
     assert main(["nothing"]) == 2
     assert main(["check", "nowhere.ngc"]) == 2
     assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "cp932"])
+def test_a_console_that_lacks_a_sign_is_told_it_otherwise(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, encoding: str
+) -> None:
+    """It was "this should not have happened", exit 2, after the file had been written."""
+    (tmp_path / "\u51fa \u00df.ngc").write_text(RING)
+    took = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(took, encoding=encoding))
+    monkeypatch.setattr(sys, "stderr", io.TextIOWrapper(io.BytesIO(), encoding=encoding))
+    assert main(["check", str(tmp_path / "\u51fa \u00df.ngc")]) == 0
+    said = took.getvalue().decode(encoding)
+    assert ("\u51fa" if encoding == "cp932" else r"\u51fa") in said and (
+        "\u00df" if encoding == "cp1252" else r"\xdf"
+    ) in said
+
+
+@pytest.mark.parametrize("command", ["make", "cut", "batch", "stages"])
+def test_help_is_told_on_any_console(monkeypatch: pytest.MonkeyPatch, command: str) -> None:
+    took = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(took, encoding="ascii"))
+    assert main([command, "--help"]) == 0
+    assert f"usage: hitofude {command}".encode() in took.getvalue()
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
