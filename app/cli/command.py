@@ -121,8 +121,9 @@ class OptionParser(argparse.ArgumentParser):
         except argparse.ArgumentError as error:
             raise self._input_error(self._words(error, argv)) from error
         except _MissingError as error:
-            missing = [_name(each) for each in self._actions if each.required and not getattr(given, each.dest, None)]
-            raise self._input_error(f"{', '.join(missing)} is missing; name {command.needs}") from error
+            missing = self._missing(given)
+            verb = "is" if len(missing) == 1 else "are"
+            raise self._input_error(f"{', '.join(missing)} {verb} missing; name {command.needs}") from error
         finally:
             self._nested = False
         if unknown:
@@ -135,6 +136,14 @@ class OptionParser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Raise what argparse would print: it says so only that a required argument is missing."""
         raise _MissingError(message)
+
+    def _missing(self, given: argparse.Namespace) -> list[str]:
+        """Return the names of what has to be given and is not: options, and sets of which one has to be."""
+        alone = [_name(each) for each in self._actions if each.required and not getattr(given, each.dest, None)]
+        sets = (group._group_actions for group in self._mutually_exclusive_groups if group.required)
+        return alone + [
+            " or ".join(map(_name, each)) for each in sets if not any(getattr(given, one.dest, None) for one in each)
+        ]
 
     def _input_error(self, text: str) -> InputError:
         return InputError(f"{text.rstrip('.')}; see {self.prog} --help")

@@ -40,9 +40,9 @@ def test_chips_that_rub_count(capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--tool", "flat:6"], "--material is missing"),
+        (["--tool", "flat:6"], "hitofude: --material is missing"),
         (["--material", "cheese", "--tool", "flat:6"], "'cheese' is no material"),
-        (["--material", "brass"], "is missing"),
+        (["--material", "brass"], "hitofude: --tool or --tools is missing; name"),
         (["--material", "brass", "--tool", "flat:6", "--engaged", "0"], "0 degrees"),
         (["--material", "brass", "--tool", "flat:6", "--flutes", "0"], "no number of flutes"),
         (["--material", "brass", "--tools", "x.toml", "--flutes", "2"], "--flutes has no effect with --tools"),

@@ -294,7 +294,7 @@ def test_diameters_with_and_without_unit(diameter: str, out: Path, tmp_path: Pat
 
 def test_missing_arguments(capsys: pytest.CaptureFixture[str]) -> None:
     assert "-o/--output is missing" in refused(capsys, FIG2)
-    assert "DRAWING, -o/--output is missing" in refused(capsys)
+    assert "DRAWING, -o/--output are missing" in refused(capsys)
 
 
 def test_files_that_cannot_be(out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
