@@ -11,6 +11,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
+from markdown_it import MarkdownIt
 
 from app.cli.main import main
 from app.usecases.manual.pages import GROUPS, LANGUAGES
@@ -147,6 +148,20 @@ def test_every_operation_s_page_and_every_tutorial_has_a_picture_of_the_window()
     taken = {f"pictures/{path.name}" for path in pictures.glob("*.png")}
     assert taken == {each for found in shown.values() for each in found}
     assert {path.name for path in pictures.glob("*.png")} == {path.name for path in (pictures / "ja").glob("*.png")}
+
+
+@pytest.mark.parametrize(
+    "page", [DOCS.parents[1] / "README.md", *sorted(DOCS.rglob("*.md"))], ids=lambda page: page.stem
+)
+def test_what_is_to_be_typed_is_set_apart(page: Path) -> None:
+    """Behind a list four spaces make a paragraph of its last item: the commands of the README ran into one another."""
+    text = page.read_text(encoding="utf-8")
+    blocks = (each.map for each in MarkdownIt("commonmark").parse(text) if each.type in ("code_block", "fence"))
+    code = {number for lines in blocks if lines for number in range(*lines)}
+    typed = {
+        number for number, line in enumerate(text.splitlines()) if line.startswith(("    ./hitofude", "./hitofude"))
+    }
+    assert typed <= code
 
 
 def test_the_pictures_are_small() -> None:
