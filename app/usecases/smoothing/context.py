@@ -22,6 +22,9 @@ from ...model.motion import Floats
 from .result import REACH, SmoothOptions
 from .source import SourceProgram, read_source
 
+_ROUNDING = 1e-6
+"""Of a decimal: what places that are told with it may be off by in a float."""
+
 
 @dataclass(frozen=True, eq=False)
 class SmoothContext:
@@ -62,6 +65,16 @@ class SmoothContext:
         """Return the last decimal of an axis word in a stretch, mm."""
         units = self.state(k).units
         return float(10.0 ** -self.post.digits(units).X * units.value)
+
+    def own_digit(self, k: int) -> float:
+        """Return the last decimal that the points of a stretch are told with, mm: no finer than an axis word's."""
+        units = self.state(k).units
+        for decimals in range(self.post.digits(units).X):
+            step = float(10.0**-decimals * units.value)
+            told = self.points[k] / step
+            if np.all(np.abs(told - np.rint(told)) < _ROUNDING):
+                return step
+        return self.digit(k)
 
     @cached_property
     def coarsest_digit(self) -> float:
