@@ -181,13 +181,13 @@ def choose(points, effective, kept, gap, before, after, at, value, chosen):
     return last - first + 1
 
 
-@kernel("boolean(float64[:, ::1], int64[::1], int64, float64[:, ::1], float64)", counts=False)
-def _follows(points, effective, first, value, stray):
-    """Return whether a curve's places (m, 3) are all near to the effective points from the `first` on."""
+@kernel("float64(float64[:, ::1], int64[::1], int64, float64[:, ::1])", counts=False)
+def _farthest(points, effective, first, value):
+    """Return how far places of a curve (m, 3) are from the effective points from the `first` on, at most."""
+    most = 0.0
     for i in range(len(value)):
-        if _gap(points[effective[first + i]], value[i]) > stray:
-            return False
-    return True
+        most = max(most, _gap(points[effective[first + i]], value[i]))
+    return most
 
 
 @kernel(
@@ -200,7 +200,7 @@ def _curve(points, effective, first, stray, at, value, slope):
     """
     if stray > 0.0:
         least_squares(at, value, slope)
-        if _follows(points, effective, first, value, stray):
+        if _farthest(points, effective, first, value) <= stray:
             return
         for i in range(len(at)):
             for axis in range(3):
