@@ -4,6 +4,7 @@ and its value, and each door says what stands in their place there.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -30,6 +31,11 @@ def option(name: str, value: object = "") -> str:
         value: as it is typed, such as "in", or what stands for it, such as "NAME"; "" = the option alone.
     """
     return _SPELLING.get()(name, str(value))
+
+
+def without_options(sentence: str) -> str:
+    """Return a sentence without what it says of the command line's options: a window has no place to type them."""
+    return re.sub(r"[;,] [^;]*--[a-z].*$", ".", sentence)
 
 
 @contextmanager

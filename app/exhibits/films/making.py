@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from ...core.errors import InputError
@@ -14,6 +14,7 @@ from ...fitting.point_curves.region_profile import RegionProfile
 from ...formats.plot.page_png import page_png
 from ...formats.plot.page_svg import page_svg
 from ...formats.scene.toml import sources_of
+from ...model.tool import Tool
 from .compound import compound_film
 from .dexels import CutFilmInput, dexel_film, sample_input
 from .effective import EffectiveFilmOptions, effective_film
@@ -38,11 +39,14 @@ class FilmSource:
 
     Attributes:
         name, data: of the file. beside: the bytes of a file that it names.
+        tools, stock: B: what else is known of a program, by T number, and the corners of its box, mm.
     """
 
     name: str
     data: bytes
     beside: Callable[[str], bytes]
+    tools: Mapping[int, Tool] = field(default_factory=dict)
+    stock: tuple[float, float, float, float, float, float] | None = None
 
 
 @dataclass(frozen=True)

@@ -5,11 +5,26 @@ from __future__ import annotations
 from ...core.progress import NO_PROGRESS, Progress
 from ...simulation.cutter import cutter_of
 from ...usecases.cutting.ready_setup import SetupRequest, setup_of
+from ...usecases.cutting.setup_stock import box_stock
+from ...usecases.cutting.setup_tools import ToolSource
 from ...usecases.examine import ExamineOptions, examine
 from ...verify.course import course_of
 from .dexels import CutFilmInput
+from .making import FilmSource
 
 AS_THE_HEAD_TELLS = SetupRequest()
+
+
+def input_of(source: FilmSource, progress: Progress = NO_PROGRESS) -> CutFilmInput:
+    """Return what the film of a file cuts, with the tools and the stock that are known of it.
+
+    Raises:
+        HitofudeError: it cannot be read, or nobody tells what its tools are.
+        Cancelled: the job was asked to stop.
+    """
+    tools = (ToolSource("the Cut view", source.tools),) if source.tools else ()
+    stock = box_stock(source.stock) if source.stock is not None else None
+    return program_input(source.name, source.data, None, progress, SetupRequest(tools, stock=stock))
 
 
 def program_input(

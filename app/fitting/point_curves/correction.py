@@ -7,6 +7,7 @@ gap to gap only points are handed on, and an effective one moves by the mean of 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum
@@ -29,7 +30,7 @@ class CorrectionCurve(IntEnum):
     THROUGH = 0
     """The cubic spline through its points: effective points stay where they are."""
     NEAR = 1
-    """The one cubic nearest to its points by least squares: effective points move too."""
+    """The one cubic nearest to its points by least squares, where it follows them: effective points move too."""
 
 
 class CorrectionMove(IntEnum):
@@ -60,6 +61,8 @@ class CorrectionOptions:
         after: effective points after it, 1 to 50; the second of the gap is one of them.
         curve: through its points or near them.
         move: where points move to.
+        stray: how far from its points a curve NEAR them may be, mm, >= 0. One cubic does not follow a bend of few
+            facets; where it would be farther, the curve goes through its points.
     """
 
     limit: float = 1.0
@@ -68,6 +71,7 @@ class CorrectionOptions:
     after: int = 3
     curve: CorrectionCurve = CorrectionCurve.THROUGH
     move: CorrectionMove = CorrectionMove.NEAREST
+    stray: float = math.inf
 
     def __post_init__(self) -> None:
         if not 0 <= self.before <= _MOST:
@@ -127,7 +131,8 @@ def corrected(
     if (state[held] != PointState.EFFECTIVE).any():
         raise ParameterError("The first and the last point of a path and those that are kept must be effective.")
     places = np.empty_like(flat)
-    ways = options.curve == CorrectionCurve.NEAR, options.move == CorrectionMove.PERPENDICULAR
+    stray = options.stray if options.curve == CorrectionCurve.NEAR else 0.0
+    ways = stray, options.move == CorrectionMove.PERPENDICULAR
     correction_kernels.correct(flat, effective, held[effective], options.before, options.after, *ways, places)
     moved = np.linalg.norm(places - flat, axis=1)
     chosen = (

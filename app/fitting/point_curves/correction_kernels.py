@@ -181,18 +181,46 @@ def choose(points, effective, kept, gap, before, after, at, value, chosen):
     return last - first + 1
 
 
-_SIGNATURE = "void(float64[:, ::1], int64[::1], boolean[::1], int64, int64, boolean, boolean, float64[:, ::1])"
+@kernel("float64(float64[:, ::1], int64[::1], int64, float64[:, ::1])", counts=False)
+def _farthest(points, effective, first, value):
+    """Return how far places of a curve (m, 3) are from the effective points from the `first` on, at most."""
+    most = 0.0
+    for i in range(len(value)):
+        most = max(most, _gap(points[effective[first + i]], value[i]))
+    return most
+
+
+@kernel(
+    "void(float64[:, ::1], int64[::1], int64, float64, float64[::1], float64[:, ::1], float64[:, ::1])", counts=False
+)
+def _curve(points, effective, first, stray, at, value, slope):
+    """Write values (m, 3) and slopes of the correction curve by the effective points from the `first` on (S22).
+
+    The cubic by least squares, where it strays from none of them by more than it may; else the spline through them.
+    """
+    if stray > 0.0:
+        least_squares(at, value, slope)
+        if _farthest(points, effective, first, value) <= stray:
+            return
+        for i in range(len(at)):
+            for axis in range(3):
+                value[i, axis] = points[effective[first + i], axis]
+    spline_slopes(at, value, slope)
+
+
+_SIGNATURE = "void(float64[:, ::1], int64[::1], boolean[::1], int64, int64, float64, boolean, float64[:, ::1])"
 
 
 @kernel(_SIGNATURE)
-def correct(points, effective, kept, before, after, near, upright, places):
+def correct(points, effective, kept, before, after, stray, upright, places):
     """Write where every point of a path moves to (n, 3), were all to move; an effective one by the mean of its gaps'
     moves.
 
     Args:
         effective: (m,) numbers of points, rising, the outer ones among them.
         kept: (m,) which of these do not move.
-        near: curves by least squares, else through the effective points.
+        stray: how far curves by least squares may be from effective points, mm; where they were farther, and where
+            this is 0, curves go through them.
         upright: move at right angles to the chord of the gap, else to the nearest place.
     """
     room = before + after + 1
@@ -204,10 +232,7 @@ def correct(points, effective, kept, before, after, near, upright, places):
         if _gap(points[i], points[k]) == 0.0:
             continue
         m = choose(points, effective, kept, gap, before, after, at, value, chosen)
-        if near:
-            least_squares(at[:m], value[:m], slope[:m])
-        else:
-            spline_slopes(at[:m], value[:m], slope[:m])
+        _curve(points, effective, chosen[0], stray, at[:m], value[:m], slope[:m])
         if upright:
             along[:] = points[k] - points[i]
         here = gap - chosen[0]

@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -96,13 +97,28 @@ class EffectiveMethod:
         share = _OF_EPSILON if self.choose.ends is RangeEnds.OUTER else 1.0
         return self.nearness if self.nearness is not None else max(_DIGITS * digit, share * self.choose.epsilon)
 
+    def stray_for(self, digit: float, own: float) -> float:
+        """Return how far a cubic nearest to effective points may be from them to correct any, mm.
+
+        Rounding moves points by 0.71 of a decimal, and a cubic that is farther off does not follow the shape.
+
+        Args:
+            digit: the last decimal of what is written, mm. own: the last one that the points are told with, mm.
+        """
+        return max(own, self.nearness_for(digit) / _DIGITS)
+
     def classes(
-        self, points: Floats, corners: NDArray[np.int64], state: NDArray[np.uint8] | None = None
+        self,
+        points: Floats,
+        corners: NDArray[np.int64],
+        state: NDArray[np.uint8] | None = None,
+        stray: float = math.inf,
     ) -> PointClasses:
         """Return what the points (n, 3) of a path are, its corners by number being effective and unmoved.
 
         Args:
             state: (n,) what each is by the facets of its surface; None: by the ranges of the path.
+            stray: how far a cubic nearest to effective points may be from them to correct any, mm, >= 0.
         """
         # a correction curve is told by the points inside a range, too, and loses those that lie behind a bend: within a
         # facet that holds the joint of a line and an arc it came out 0.0124 mm off, where 0.0038 holds without
@@ -120,7 +136,7 @@ class EffectiveMethod:
         joints = _joints_over_chords(points[at], along, self.choose.epsilon)
         whole = np.concatenate([sides, np.array([k for _, k in joints], np.int64)])
         kept = np.unique(np.concatenate([corners, at[whole], at[whole + 1]]))
-        moved = corrected(points, effective.state, self.correct, kept.tolist())
+        moved = corrected(points, effective.state, replace(self.correct, stray=stray), kept.tolist())
         state = moved.state.copy()
         for k in sides.tolist():  # as it is one chord, it is known for a side where the curve is made, too
             state[at[k] + 1 : at[k + 1]] = PointState.INVALID

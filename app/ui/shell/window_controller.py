@@ -150,7 +150,7 @@ class WindowController(QObject):
             RecordingController(views.cut_page, workspace),
         )
         self.stages_controller = StagesController(views.stages, window.stages_panel, workspace)
-        own = OwnFilmFiles(self.nc, window.scene)
+        own = OwnFilmFiles(self.nc, window.scene, self.cut_controller)
         self.film_controller = TextFilmController(views.stages, window.film_panel, own.of, workspace)
         self.figure_eleven = FigureElevenController(views.stages, window.film_panel, own.of, workspace)
         self.import_controller = ImportController(views.stages, window.import_panel, workspace)

@@ -22,6 +22,9 @@ from ...model.motion import Floats
 from .result import REACH, SmoothOptions
 from .source import SourceProgram, read_source
 
+_ROUNDING = 1e-6
+"""Of a decimal: what places that are told with it may be off by in a float."""
+
 
 @dataclass(frozen=True, eq=False)
 class SmoothContext:
@@ -63,6 +66,16 @@ class SmoothContext:
         units = self.state(k).units
         return float(10.0 ** -self.post.digits(units).X * units.value)
 
+    def own_digit(self, k: int) -> float:
+        """Return the last decimal that the points of a stretch are told with, mm: no finer than an axis word's."""
+        units = self.state(k).units
+        for decimals in range(self.post.digits(units).X):
+            step = float(10.0**-decimals * units.value)
+            told = self.points[k] / step
+            if np.all(np.abs(told - np.rint(told)) < _ROUNDING):
+                return step
+        return self.digit(k)
+
     @cached_property
     def coarsest_digit(self) -> float:
         """The last decimal of an axis word, mm: the coarser one where the program has two units."""
@@ -77,7 +90,18 @@ class SmoothContext:
 
     def corners(self, points: Floats) -> NDArray[np.int64]:
         """Return the numbers of points that are kept exactly, the first and the last one among them."""
-        return corners(points, self.options.corner, REACH * self.options.widest)
+        return corners(points, self.options.corner, REACH * self._crumb)
+
+    @property
+    def _crumb(self) -> float:
+        """How long a leg may be that makes no corner, by REACH, mm: what the curve may round off.
+
+        Of the tolerance method D has that only to leave facets; it stays nearer to its points than that.
+        """
+        method, widest = self.options.effective, self.options.widest
+        if method is None:
+            return widest
+        return min(widest, max(method.choose.epsilon, method.nearness_for(self.coarsest_digit)))
 
     @cached_property
     def states_across(self) -> dict[int, NDArray[np.uint8]]:

@@ -109,7 +109,7 @@ def _goal(context: SmoothContext, k: int, given: ToleranceTube) -> _FitGoal:
         )
     if options.effective is None:
         return _FitGoal(points, given.narrower(slack))
-    classes = options.effective.classes(points, context.corners(points), context.states_across.get(k))
+    classes = _classes(context, k, options.effective)
     points, spent = classes.passed, classes.off
     lines = " to ".join(map(str, context.source.lines(context.found.stretches[k])))
     if len(points) < 2:  # a closed path that one range holds: only its seam is effective
@@ -129,6 +129,12 @@ def _goal(context: SmoothContext, k: int, given: ToleranceTube) -> _FitGoal:
         tube = ToleranceTube(tube.radius - fine)
         points = through_points(points, context.corners(points), fine, between - tube.radius)
     return _FitGoal(points, tube, classes)
+
+
+def _classes(context: SmoothContext, k: int, method: EffectiveMethod) -> PointClasses:
+    """Return what the points of a stretch are by method D."""
+    points, stray = context.points[k], method.stray_for(context.coarsest_digit, context.own_digit(k))
+    return method.classes(points, context.corners(points), context.states_across.get(k), stray)
 
 
 def _near(context: SmoothContext, method: EffectiveMethod, slack: float, between: float) -> ToleranceTube:

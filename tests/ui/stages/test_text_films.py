@@ -7,6 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from app.core.resources import resource
+from app.model.tool_kind import ToolKind
 from app.ui.framework.view import View
 from tests.ui.conftest import WAIT_MS
 from tests.ui.nc.opened import open_file
@@ -85,3 +86,25 @@ def test_text_b_shows_wedges_and_tries_several_sizes_of_facets(qtbot, wiring):
     assert panel.title.text().startswith("S105") and "published: 2 w" in panel.figures["d"].text()
     stages.films.show_step(6)
     assert "16.83 s" in panel.table.text()
+
+
+def test_a_program_that_does_not_tell_its_tool_is_said_where_and_then_shown(qtbot, wiring, tmp_path):
+    """The window has no command line: text B takes the tools that Cut was told."""
+    program = tmp_path / "bare.ngc"
+    program.write_text("G21 G90 G17\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F200\nX20\nX20 Y10 Z-2\nG0 Z5\nM2\n")
+    open_file(qtbot, wiring, program)
+    panel, window = wiring.window_.film_panel, wiring.window_
+    stages = show_text(qtbot, wiring, "B")
+    QTest.mouseClick(panel.source.buttons[True], LEFT)
+    qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
+    said = window.views.empty.sentence.text()
+    assert "T1 cuts from here on" in said and "Ctrl+K" in said and "--" not in said
+    wiring.display_controller.show_view(View.NC)
+    QTest.mouseClick(window.views.nc.path_head.cut, LEFT)
+    qtbot.waitUntil(window.cut_form.isVisible, timeout=LONG_MS)
+    window.cut_form.tools[1].kind.chosen.emit(ToolKind.BALL)
+    QTest.mouseClick(window.cut_form.cut, LEFT)
+    qtbot.waitUntil(lambda: not wiring.cut_controller.foreign_worker.busy, timeout=LONG_MS)
+    wiring.display_controller.show_view(View.STAGES)
+    qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
+    assert stages.films.film is not None and stages.films.film.source == "bare.ngc"

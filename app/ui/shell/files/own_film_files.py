@@ -1,4 +1,5 @@
-"""The user's own file that a film of one of the texts is made of: what NC or Surfaces shows."""
+"""The user's own file that a film of one of the texts is made of: what NC or Surfaces shows, and what
+Cut was told of it."""
 
 from __future__ import annotations
 
@@ -6,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ....core.errors import InputError
+from ...views.cut.controller import CutController
 from ...views.nc.controller import NcController
 from ...views.surfaces.scene_document import SceneDocument
 
@@ -16,8 +18,8 @@ if TYPE_CHECKING:
 class OwnFilmFiles:
     """Finds the file that is open."""
 
-    def __init__(self, nc: NcController, scene: SceneDocument) -> None:
-        self._nc, self._scene = nc, scene
+    def __init__(self, nc: NcController, scene: SceneDocument, cut: CutController) -> None:
+        self._nc, self._scene, self._cut = nc, scene, cut
 
     def of(self, letter: str) -> FilmSource | None:
         """Return the file that is open for a text: the scene for C, else the program; None where there is none."""
@@ -30,7 +32,12 @@ class OwnFilmFiles:
                 FilmSource(scene.name, scene.text.encode(), lambda name: _read(folder / name)) if scene.open else None
             )
         shown = self._nc.shown
-        return FilmSource(shown.source.name, shown.source.bytes(), lambda name: _read(Path(name))) if shown else None
+        if shown is None:
+            return None
+        known = self._cut.known_of(shown.source)
+        return FilmSource(
+            shown.source.name, shown.source.bytes(), lambda name: _read(Path(name)), known.tools, known.stock
+        )
 
 
 def _read(path: Path) -> bytes:

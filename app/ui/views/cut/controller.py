@@ -187,6 +187,14 @@ class CutController(Controller):
         """The program that is cut in place of the job's, or is going to be; None = the job's own is."""
         return self._foreign.source if self._foreign is not None else None
 
+    def known_of(self, source: ProgramSource) -> UserSetup:
+        """Return what tools and stock a program is cut with; nothing of one that is not."""
+        foreign = self._foreign
+        if foreign is None or foreign.source.bytes() != source.bytes():
+            return UserSetup()
+        shown = self.cut if foreign is self._shown_foreign else None
+        return foreign.given if shown is None or shown.given is None else shown.given
+
     @property
     def of_scene(self) -> bool:
         """Whether the program that is cut is a scene's."""

@@ -4,12 +4,12 @@ No Qt.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from ....core.errors import InputError
+from ....core.options import without_options
 from ....core.progress import Progress
 from ....model.finding import Finding, FindingKind
 from ....model.stock_box import StockBox
@@ -99,7 +99,7 @@ def foreign_shown(foreign: ForeignProgram, colour: CutColourBy, progress: Progre
     try:
         ready, reason = _ready(examined, foreign)
     except InputError as error:
-        raise InputError(_without_options(str(error))) from error
+        raise InputError(without_options(str(error))) from error
     if reason:
         return MissingSetup(reason, foreign, user_setup_of(ready, foreign.given))
     setup = replace(
@@ -140,7 +140,7 @@ def _ready(examined: ExaminedProgram, foreign: ForeignProgram) -> tuple[ReadySet
             number: replace(guesses.get(number, _guess(number, foreign)), diameter=note.diameter)
             for number, note in noted.items()
         }
-        return _with(examined, foreign, guesses | rough), f"{_without_options(str(error))} Say what it is."
+        return _with(examined, foreign, guesses | rough), f"{without_options(str(error))} Say what it is."
     unknown = [number for number, known in ready.tools.items() if known.source == GUESSED]
     if not unknown:
         return ready, ""
@@ -182,10 +182,5 @@ def _guess(number: int, foreign: ForeignProgram) -> Tool:
     return foreign.likely.get(number) or Tool(max(number, 1), DIAMETER, ToolKind.FLAT)
 
 
-def _without_options(sentence: str) -> str:
-    """Return a sentence without what it says of the command line's options."""
-    return re.sub(r"[;,] [^;]*--[a-z].*$", ".", sentence)
-
-
 def _plain(finding: Finding) -> Finding:
-    return replace(finding, text=_without_options(finding.text))
+    return replace(finding, text=without_options(finding.text))

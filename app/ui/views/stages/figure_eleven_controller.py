@@ -10,6 +10,7 @@ from ....core.progress import Progress
 from ...framework.controller import Controller
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
+from .own_cut import own_cut
 from .text_film_panel import TextFilmPanel
 from .view import StagesView
 
@@ -73,8 +74,7 @@ def _measured(source: FilmSource | None, cells: int, progress: Progress) -> Figu
         HitofudeError: the program cannot be cut. Cancelled: the job was asked to stop.
     """
     from ....exhibits.figure_eleven import FigureOptions, figure_eleven
-    from ....exhibits.films.program_input import program_input
 
-    own = () if source is None else (program_input(source.name, source.data, None, progress.part(0.0, 0.1)),)
+    own = () if source is None else (own_cut(source, progress.part(0.0, 0.1)),)
     options = FigureOptions(() if own else (_DIE,), cells, 1, own)
     return figure_eleven(options, progress.part(0.1, 1.0))

@@ -18,6 +18,7 @@ from ...framework.figures import counted
 from ...framework.missing import NOTHING, MissingHint
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
+from .own_cut import own_cut
 from .text_film_panel import TextFilmPanel
 from .view import StagesView
 
@@ -161,12 +162,13 @@ class TextFilmRequest:
     source: FilmSource | None
 
     def is_alike(self, other: TextFilmRequest) -> bool:
-        """Tell whether another request comes to the same film: of files, names and bytes count."""
+        """Tell whether another request comes to the same film: files count by what is in them."""
         return (self.letter, *self._file) == (other.letter, *other._file)
 
     @property
-    def _file(self) -> tuple[str, bytes]:
-        return ("", b"") if self.source is None else (self.source.name, self.source.data)
+    def _file(self) -> tuple[object, ...]:
+        source = self.source
+        return () if source is None else (source.name, source.data, dict(source.tools), source.stock)
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,10 +196,9 @@ def _written(film: TextFilm, folder: Path, progress: Progress) -> WrittenFilm:
 def _made(letter: str, source: FilmSource | None, progress: Progress) -> TextFilm:
     """Return a text's film; on the worker's thread."""
     from ....exhibits.films.making import make_film
-    from ....exhibits.films.program_input import program_input
     from ....exhibits.films.step import TEXTS
 
     text, cutting = TEXTS[letter], None
     if letter == "B" and source is not None:
-        cutting = program_input(source.name, source.data, None, progress.part(0.0, 0.1))
+        cutting = own_cut(source, progress.part(0.0, 0.1))
     return make_film(text, source, progress=progress.part(0.1, 1.0), cutting=cutting)
