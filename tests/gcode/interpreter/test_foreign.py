@@ -99,8 +99,25 @@ def test_numbers_and_units_that_settings_decide_are_told() -> None:
     assert any(
         "without a decimal point count in 0.001 mm" in text for text in warnings("G21 G0 X10\nM30\n", Dialect.HAAS)
     )
-    assert not warnings("G21 G0 X10. Y0 Z-.5\nN100 G1 X1. F100 S1000\n(X10)\nM30\n", Dialect.HAAS)
+    assert not warnings("G21 G0 X10. Y0 Z-.5\nN100 G1 X1. F100. S1000\n(X10 F9)\nM30\n", Dialect.HAAS)
     assert any("names no units" in text for text in warnings("G0 X1.\nM30\n", Dialect.FANUC))
+
+
+@pytest.mark.parametrize(
+    ("dialect", "head", "steps"),
+    [
+        (Dialect.HAAS, "G21", "0.001 mm/min"),
+        (Dialect.HAAS, "G20", "0.0001 in/min"),
+        (Dialect.FANUC, "G20", "0.01 in/min"),
+        (Dialect.FANUC, "G21 G95", "0.01 mm"),
+        (Dialect.FANUC, "G21", ""),
+        (Dialect.MACH3, "G20", ""),
+    ],
+)
+def test_a_feed_that_a_setting_decides_is_told(dialect: Dialect, head: str, steps: str) -> None:
+    text = f"{head}\nG0 X0. Y0. Z0. M3 S100\nG1 X1. F12\nM30\n"
+    assert [steps in said for said in warnings(text, dialect)] == ([True] if steps else [])
+    assert not warnings(text.replace("F12", "F12."), dialect)
 
 
 def test_commands_of_grbl_itself_are_passed_over() -> None:
@@ -185,6 +202,21 @@ def test_operators_of_macro_b(expression: str, value: float) -> None:
     for dialect in (Dialect.FANUC, Dialect.HAAS):
         assert ends(read(f"G21\n#1={expression}\nG0 X#1 Y0. Z0.\nM30\n", dialect)) == [(value, 0, 0)]
     assert "must be a whole number" in told("G21\n#1=0.5OR1\n", Dialect.FANUC)
+
+
+@pytest.mark.parametrize(
+    ("units", "place"), [("G21", (1.235, -1.235, 2.47)), ("G20", (25.4 * 1.2346, 25.4 * -1.2346, 25.4 * 2.4692))]
+)
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_round_in_a_word_goes_to_the_step_of_lengths(
+    dialect: Dialect, units: str, place: tuple[float, float, float]
+) -> None:
+    """The manuals' own rule: to a whole number in what a parameter is set to, a condition, or a count."""
+    words = "X[ROUND[#1]] Y-ROUND[#1] Z[ROUND[#1]+ROUND[#1]]"
+    assert ends(read(f"{units}\n#1=1.23456\nG0 {words}\nM30\n", dialect))[0] == pytest.approx(place, abs=1e-9)
+    text = "G21\n#1=1.6\n#2=ROUND[#1]\nIF[ROUND[#1]NE2]GOTO9\nG0 X#2 Y#[ROUND[#1]] Z[ROUND[1.6]]\nN9 M30\n"
+    assert ends(read(text, dialect)) == [(2, 2, 1.6)]
+    assert ends(read("G21\n#1=1.6\nG0 X[ROUND[#1]] Y0. Z0.\nM30\n", Dialect.MACH3)) == [(2, 0, 0)]
 
 
 def test_modes_are_kept_and_brought_back_by_macro_b() -> None:
