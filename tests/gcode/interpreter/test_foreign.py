@@ -7,6 +7,7 @@ from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.dialect_guess import guess_dialect
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.reader import read_program
+from app.model.motion import MotionKind
 from tests.gcode.interpreter.programs import ends, read, told, warnings
 from tests.gcode.interpreter.rs274_motions import rs274
 
@@ -236,6 +237,58 @@ def test_the_length_of_another_tool_is_told(dialect: Dialect) -> None:
     text = "G21 G0 X1. Y0. Z9.\nT1 M6\nG43 H{} G0 Z5.\nM30\n"
     assert any("another tool than T1" in said for said in warnings(text.format(2), dialect))
     assert not warnings(text.format(1), dialect) and not warnings(text.format(0), dialect)
+
+
+def feeds_down(text: str, dialect: Dialect) -> list[float]:
+    """Heights that a program feeds to."""
+    program = read(text, dialect)
+    return program.motions.end[program.motions.kind == MotionKind.LINE, 2].tolist()
+
+
+@pytest.mark.parametrize("cycle", ["G73", "G83"])
+def test_pecks_that_lessen_on_haas(cycle: str) -> None:
+    """I is the first, each one is less by J, and K is the least; they stay, and Q ends them."""
+    head = f"G21 G90 G0 X0. Y0. Z5.\nG99 {cycle} X1. Y1. Z-9. R1. "
+    assert feeds_down(head + "I4. J1. K2. F100.\nG80\nM30\n", Dialect.HAAS) == [-3, -6, -8, -9]
+    text = head + "I5. J0.5 K3. F100.\nX2.\nG83 Q8. X3.\nG80\nM30\n"
+    assert feeds_down(text, Dialect.HAAS) == [-4, -8.5, -9, -4, -8.5, -9, -7, -9]
+    assert not read(head + "I4. J1. K2. F100.\nG80\nM30\n", Dialect.HAAS).problems
+    for words in ("Q2. K4.", "I2. K1.", "Q2. I4. J1. K1."):
+        assert f"{cycle} with some of Q, I, J and K is not followed" in told(f"{head}{words} F9.\n", Dialect.HAAS)
+    for words in ("I0. J1. K2.", "I4. J-1. K2.", "I4. J1. K0."):
+        assert "must be above 0" in told(f"{head}{words} F9.\n", Dialect.HAAS)
+
+
+def test_k_repeats_holes_on_fanuc_alone() -> None:
+    text = "G21 G90 G0 X0. Y0. Z5.\nG91 G81 X1. Z-3. R-4. {} F100.\nG80\nM30\n"
+    assert len(feeds_down(text.format("K3"), Dialect.FANUC)) == 3
+    for dialect in (Dialect.HAAS, Dialect.MACH3):
+        assert len(feeds_down(text.format("L3"), dialect)) == 3
+        assert len(feeds_down(text.format("K3"), dialect)) == 1
+        assert any("K stands in a block where no code takes it" in said for said in warnings(text.format("K3"), dialect))
+
+
+def test_a_cycle_from_below_r_rises_over_the_hole() -> None:
+    """LinuxCNC rises before it goes to the hole; Fanuc and Haas go there first, as low as the tool is."""
+    text = "G21 G90 G0 X0. Y0. Z-5.\nG99 G81 X9. Z-6. R1. F100.\nG80\nM30\n"
+    for dialect in (Dialect.FANUC, Dialect.HAAS):
+        assert ends(read(text, dialect))[1:4] == [(9, 0, -5), (9, 0, 1), (9, 0, -6)]
+    for dialect in (Dialect.LINUXCNC, Dialect.MACH3):
+        assert ends(read(text, dialect))[1:4] == [(0, 0, 1), (9, 0, 1), (9, 0, -6)]
+
+
+@pytest.mark.parametrize("dialect", [*OTHERS, Dialect.GRBL])
+def test_turns_of_an_arc_are_a_word_of_linuxcnc(dialect: Dialect) -> None:
+    text = "G21 G90 G0 X0. Y0. Z5.\n{}G2 I1. Z-5. {}F100.\nM30\n"
+    assert "P, the turns of an arc" in told(text.format("", "P3 "), dialect)
+    assert ends(read(text.format("", "P3 ")))[-1] == (0, 0, -5)
+    if dialect is Dialect.FANUC:
+        assert read(text.format("G54.1 P3 ", ""), dialect).motions.turns[-1] == 1
+
+
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_a_bore_from_behind_is_not_followed(dialect: Dialect) -> None:
+    assert "G87, a bore from behind" in told("G21 G0 Z5. M3 S9\nG87 X1. Z-2. R-5. I1. J1. K1. F9.\n", dialect)
 
 
 def test_heights_of_holes_stay_where_g91_follows() -> None:
