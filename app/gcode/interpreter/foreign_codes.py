@@ -137,9 +137,9 @@ def _warn_of_whole_feed(control: Control, data: bytes) -> None:
     if found is None or not (haas or _FEED_IN_STEPS.search(data, 0, LOOKED_AT)):
         return
     control.line = data.count(b"\n", 0, found.end()) + 1
-    smallest = "0.001 mm/min or 0.0001 in/min (Setting 77)" if haas else "0.01 in/min, 0.01 mm or 0.0001 in a revolution"
+    steps = "0.001 mm/min or 0.0001 in/min (Setting 77)" if haas else "0.01 in/min, 0.01 mm or 0.0001 in a revolution"
     control.warn(
-        f"a feed without a decimal point is taken as it stands; the control may count it in {smallest}. Write the point.",
+        f"a feed without a decimal point is taken as it stands; the control may count it in {steps}. Write the point.",
         "f",
     )
 
@@ -174,6 +174,8 @@ def adapt(control: Control, block: Block) -> None:
         control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
     if control.rules.macro_b:
         _keep_cutter(control, block)
+    if control.options.dialect is Dialect.MACH3:
+        _take_radius(block)
     for code in list(block.unknown):
         if control.options.dialect is Dialect.MACH3 and code in UNITS_OF_MACH3:
             block.unknown.remove(code)
@@ -203,6 +205,14 @@ def _keep_cutter(control: Control, block: Block) -> None:
         control.cutter_register = block.values["d"]
         if ModalGroup.RADIUS not in block.codes and not block.unknown:
             _drop(block, "d")
+
+
+def _take_radius(block: Block) -> None:
+    """Spell G41 and G42 with P, a radius on Mach3, as LinuxCNC does with a diameter."""
+    code = block.codes.get(ModalGroup.RADIUS)
+    if code in ("G41", "G42") and "p" in block.values and "d" not in block.values:
+        block.codes[ModalGroup.RADIUS] = f"{code}.1"
+        block.values["d"] = 2.0 * block.values.pop("p")
 
 
 def _set_units(block: Block, code: str) -> None:

@@ -335,6 +335,8 @@ class InterpreterRun:
         parsed = self._parse(code)
         if self._options.dialect is Dialect.LINUXCNC:
             check_linuxcnc_line(parsed)
+        if self._options.dialect is Dialect.GRBL and ("#" in code or "[" in code):
+            self._control.warn("grbl 1.1 computes no values: it refuses # and brackets, which some of its kin take.")
         return parsed
 
     def _leaves_out(self, code: str) -> bool:

@@ -125,6 +125,29 @@ def test_commands_of_grbl_itself_are_passed_over() -> None:
     assert ends(read("$H\n$32=1\nG0 X1\n", Dialect.GRBL)) == [(1, 0, 0)]
 
 
+@pytest.mark.parametrize("line", ["#1=5\nG0 X#1", "G0 X[2+3]"])
+def test_values_that_grbl_does_not_compute_are_told(line: str) -> None:
+    text = f"G21 G0 X1 Y0 Z0\n{line}\nM2\n"
+    assert ends(read(text, Dialect.GRBL))[-1] == (5, 0, 0)
+    assert any("grbl 1.1 computes no values" in said for said in warnings(text, Dialect.GRBL))
+    assert not warnings("G21 G0 X1 Y0 Z0\n(MSG, #1 [2])\nG0 X5 ;[1]\nM2\n", Dialect.GRBL)
+
+
+def test_p_of_compensation_is_a_radius_on_mach3() -> None:
+    text = "G21 G90 G0 X0 Y0 Z5\nG41 P5 X15 Y5\nG1 Y25 F10\nG40 X30 Y40\nM30\n"
+    found = ends(read(text, Dialect.MACH3))
+    assert found[1:3] == ends(read(text.replace("G41 P5", "G41.1 D10")))[1:3] and found[2] == (10, 25, 5)
+
+
+@pytest.mark.parametrize("dialect", list(Dialect)[:1] + OTHERS)
+def test_compensation_by_a_tool_that_nothing_names_is_told(dialect: Dialect) -> None:
+    text = "G21 G90 G0 X0. Y0. Z5.\n{}G41 {}X15. Y5.\nG1 Y25. F10.\nG40 X30. Y40.\nM30\n"
+    assert any("the tool that is in the spindle" in said for said in warnings(text.format("", ""), dialect))
+    assert not warnings(text.format("", "D0 "), dialect)
+    options = ReadOptions(dialect, tool_table={1: ToolOffset(10.0, 4.0)})
+    assert not read_program(text.format("T1 M6\n", "D1 ").encode(), options).problems
+
+
 def test_plain_lines_that_repeat_cost_little() -> None:
     body = "".join(f"G1 X{k % 50}.{k % 7}\n" for k in range(2600))
     assert len(read(f"F100\nM98 P2 L60\nM2\nO2\n{body}M99\n").motions) == 60 * 2600
@@ -265,7 +288,9 @@ def test_k_repeats_holes_on_fanuc_alone() -> None:
     for dialect in (Dialect.HAAS, Dialect.MACH3):
         assert len(feeds_down(text.format("L3"), dialect)) == 3
         assert len(feeds_down(text.format("K3"), dialect)) == 1
-        assert any("K stands in a block where no code takes it" in said for said in warnings(text.format("K3"), dialect))
+        assert any(
+            "K stands in a block where no code takes it" in said for said in warnings(text.format("K3"), dialect)
+        )
 
 
 def test_a_cycle_from_below_r_rises_over_the_hole() -> None:
