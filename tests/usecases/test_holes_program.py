@@ -322,6 +322,20 @@ def test_taps_are_written_as_cycles(post: str) -> None:
 
 
 @pytest.mark.parametrize("post", ["fanuc", "haas", "linuxcnc"])
+@pytest.mark.parametrize("speed", [33, 61, 333])
+def test_the_feed_of_a_tap_is_the_pitch_by_the_speed(post: str, speed: int) -> None:
+    """F to 0.01 in/min would lead a tap at 33 rpm by 1.0006 mm a turn in place of 1."""
+    tools = TOOLS.replace("spindle_speed = 500", f"spindle_speed = {speed}")
+    job = read_job("job", f'{tools}{TAP}\n[output]\npost = "{post}"\nunits = "in"\n'.encode()).job
+    made = make("part.draw", PLATE.encode(), MakeOptions(job=job))
+    assert made.clean and report_of(made)["operations"][1]["cut_thread"]["lead_off_mm"] <= 0.0001
+    feeds = [float(feed) for block in blocks(made) for feed in re.findall(r" Y.*F([0-9.]+)", block)]
+    assert any(abs(feed * 25.4 - speed) <= 25.4 * 0.00005 + 1e-9 for feed in feeds)
+    coarse = re.sub(r"( Y.*F[0-9]+\.[0-9]{2})[0-9]+", r"\1", made.nc.text)
+    assert coarse != made.nc.text and "the feed is" in tampered(made, made.nc.text, coarse)
+
+
+@pytest.mark.parametrize("post", ["fanuc", "haas", "linuxcnc"])
 def test_taps_to_the_left_turn_counter_clockwise(post: str) -> None:
     made = made_of(TAP + "left_hand = true\n", post=post)
     text = "\n".join(blocks(made))

@@ -21,7 +21,7 @@ from ..interpreter.offsets import OFFSETS, ZERO, Place, taken
 from ..interpreter.options import ReadOptions
 from ..interpreter.program import Event, EventKind, FeedMode, ModalState, NcProgram, ProgramProblem
 from ..posts import Coolant, Post
-from ..writer.write import blend_mm
+from ..writer.write import TAP_DECIMALS, blend_mm
 from .path import MotionOwners
 
 WORK_OFFSET = re.compile(r"G54\.1 P\d+|G5[4-9](?:\.\d)?")
@@ -159,10 +159,13 @@ def _blends(state: ModalState) -> float:
 def _feed_faults(
     read: NcProgram, moves: Moves, owned: MotionOwners, expected: ExpectedState
 ) -> Iterator[ProgramProblem]:
-    """Yield a motion whose feed is not its move's, to half a step of F's last decimal, at least one step."""
+    """Yield a motion whose feed is not its move's, to half a step of F's last decimal, at least one step; of taps the
+    step of the decimals that they have beyond it.
+    """
     feed, reference = read.motions.feed[owned.rows], moves.feed[owned.move]
     cuts = moves.kind[owned.move] != MoveKind.RAPID
-    step = expected.feed_step
+    taps = [k for k, each in enumerate(expected.job.operations) if each.TAPS]
+    step = expected.feed_step * np.where(np.isin(moves.operation[owned.move], taps), 10.0**-TAP_DECIMALS, 1.0)
     wrong: NDArray[np.bool_] = cuts & ~(np.abs(feed - np.maximum(reference, step)) <= step / 2 + 1e-9 * reference)
     if wrong.any():
         k = int(np.argmax(wrong))

@@ -164,7 +164,7 @@ class Control:
         self.events: list[Event] = []
         self.homeward: list[int] = []
         self.warnings: dict[str, WordInLine] = {}
-        self.parameters = Parameters(self.own_parameter, self.set_own_parameter, self.rules)
+        self.parameters = Parameters(self.own_parameter, self.set_own_parameter, self.rules, lambda: self.least)
         self.set_parameters = SetParameters()
         self.requested: dict[Key, int] = {}
         self._states: dict[ModalState, int] = {}

@@ -41,8 +41,12 @@ MOST_PECKS = 100_000
 
 NO_ANGLE = "at the zero the angle (^) must be said."
 
+_NO_SHIFT = (None, None, None)
+
+PECKS = frozenset({"G73", "G83"})
+"""The cycles that go down a peck at a time."""
+
 _NEEDS_DWELL = {"G82", "G86", "G88", "G89"}
-_PECKS = {"G73", "G83"}
 _TAPS = {"G84": 1, "G74": -1}
 _TURNING = {"G86", "G87", "G88"}
 _WAYS = {1: "clockwise (M3)", -1: "counter-clockwise (M4)"}
@@ -70,13 +74,14 @@ class Cycle:
         hole: words of the plane's first and second axis. depth: word of the normal. r: R word. None = not in the block.
         polar: in the place of `hole`, words @ and ^ under G91.
         repeats: L.
-        dwell: P, s. peck: Q. shift: I, J, K of G87.
+        dwell: P, s. peck: Q. shift: I, J, K of G87, and of pecks that lessen.
         absolute: G90 rather than G91. retract_to_r: G99 rather than G98.
         spindle: -1, 0, 1 as it turns before the block.
         unit_mm: mm per unit of the lengths: 1 where they are mm, 25.4 where they are inches. LinuxCNC keeps the numbers
             that stay, and the initial height, as they were written, also over G20 and G21.
         fanuc: words stay from one code to the next; a dwell need not be said; 0 repeats bore nothing, as on Fanuc and
             Haas.
+        lessens: I, J and K of G73 and G83 are the first peck, by how much each one is less, and the least, as on Haas.
         planes_stay: R and depth stay as the heights that they meant, also where G91 follows G90, as on Fanuc and Haas;
             else as the numbers that were written. planes: those heights, of the blocks before; None = not said yet.
     """
@@ -95,6 +100,7 @@ class Cycle:
     spindle: int = 0
     unit_mm: float = 1.0
     fanuc: bool = False
+    lessens: bool = False
     planes_stay: bool = False
     planes: tuple[float, float] | None = None
     polar: PolarStep | None = None
@@ -150,6 +156,8 @@ def with_sticky(cycle: Cycle, before: Cycle | None) -> Cycle:
         return replace(cycle, dwell=kept)
     if cycle.planes_stay:
         cycle, before = replace(cycle, planes=before.planes), replace(before, depth=None, r=None)
+    if cycle.lessens and (cycle.peck is not None or cycle.shift != _NO_SHIFT):  # the other way to say it ends
+        before = replace(before, peck=None, shift=_NO_SHIFT)
     shift = tuple(_said(mine, theirs) for mine, theirs in zip(cycle.shift, before.shift, strict=True))
     return replace(
         cycle,
@@ -201,7 +209,7 @@ def cycle_steps(cycle: Cycle, position: Point, initial: float) -> Iterator[Step]
             "downwards.",
             "R",
         )
-    if cycle.code in _PECKS and r - depth > MOST_PECKS * _known(cycle.peck, "Q"):
+    if cycle.code in PECKS and r - depth > MOST_PECKS * _peck_sizes(cycle).least:
         raise BlockFault(f"more than {MOST_PECKS:,} pecks for one hole; Q is too small.", "Q")
     return _steps(cycle, position, initial, (r, depth))
 
@@ -242,11 +250,38 @@ def _check_words(cycle: Cycle) -> None:
         _known(cycle.dwell, "P")
     if cycle.dwell is not None and cycle.dwell < 0:
         raise BlockFault("a dwell cannot be negative.", "P")
-    if cycle.code in _PECKS and _known(cycle.peck, "Q") <= 0:
-        raise BlockFault("the depth of a peck must be above 0.", "Q")
+    if cycle.code in PECKS:
+        sizes = _peck_sizes(cycle)
+        if min(sizes.first, sizes.least) <= 0 or sizes.less < 0:
+            raise BlockFault("the depth of a peck must be above 0.", "Q")
     if cycle.code == "G87":
         for letter, value in zip("IJK", cycle.shift, strict=True):
             _known(value, letter)
+
+
+class _PeckSizes(NamedTuple):
+    """How deep pecks are: the first one, by how much each one is less, and the least one."""
+
+    first: float
+    less: float
+    least: float
+
+
+def _peck_sizes(cycle: Cycle) -> _PeckSizes:
+    """Return how deep the pecks of a cycle are.
+
+    Raises:
+        Fault: it has no Q, or I, J and K that lessen them are not all there, or stand beside Q.
+    """
+    if not cycle.lessens or cycle.shift == _NO_SHIFT:
+        peck = _known(cycle.peck, "Q")
+        return _PeckSizes(peck, 0.0, peck)
+    if cycle.peck is not None or None in cycle.shift:
+        raise BlockFault(
+            f"{cycle.code} with some of Q, I, J and K is not followed; write Q alone, or I, J and K without Q.", "Q"
+        )
+    first, less, least = (_known(value, letter) for value, letter in zip(cycle.shift, "IJK", strict=True))
+    return _PeckSizes(first, less, least)
 
 
 def _check_spindle(cycle: Cycle) -> None:
@@ -298,15 +333,17 @@ def _point(plane: Plane, first: float, second: float, normal: float) -> Point:
 def _steps(cycle: Cycle, position: Point, initial: float, heights: tuple[float, float]) -> Iterator[Step]:
     """Yield the way to each hole and what is done there.
 
-    An initial height below R counts as R: the tool goes there first, even when it already is there. A tool that is not
-    above R rises on its way to the hole, at a slant, to the height that it will retract to; on Fanuc and Haas it goes
-    level.
+    An initial height below R counts as R: the tool goes there first, even when it already is there; on Fanuc and Haas
+    it rises over the hole only. A tool that is not above R rises on its way to the hole, at a slant, to the height that
+    it will retract to; on Fanuc, Haas and Mach3 it goes level.
     """
     r, bottom = heights
     first, second, height = (position[axis] for axis in cycle.plane.axes)
     if initial < r and cycle.repeats:
-        height = initial = r
-        yield _Hole(cycle, (r, bottom, r), first, second).rapid(r)
+        initial = r
+        if not cycle.planes_stay:
+            height = r
+            yield _Hole(cycle, (r, bottom, r), first, second).rapid(r)
     clear = r if cycle.retract_to_r else initial
     for _ in range(cycle.repeats):
         first, second = _next_place(cycle, first, second)
@@ -346,10 +383,12 @@ def _drill(hole: _Hole) -> Iterator[Step]:
 
 def _pecks(hole: _Hole) -> Iterator[float]:
     """Yield the depths short of the bottom that are fed to; added up as the control adds them up."""
-    depth = hole.r - (hole.cycle.peck or math.inf)
+    step, less, least = _peck_sizes(hole.cycle)
+    depth = hole.r - step
     while depth > hole.bottom:
         yield depth
-        depth -= hole.cycle.peck or math.inf
+        step = max(step - less, least)
+        depth -= step
 
 
 def _above_chips(hole: _Hole, depth: float) -> float:

@@ -35,6 +35,7 @@ class DialectRules:
         calls: how deep subroutines may call one another.
         longest_line: bytes of a line, its end not counted where that is one byte.
         parameters: the largest number of a parameter.
+        repeats_by_k: K of a canned cycle says how often it is done, as L does.
         macro_b: it has Fanuc's macro B: operators of its own, and a parameter that nobody has set is vacant and not 0.
         missing: G words that other dialects have and this one refuses.
     """
@@ -52,6 +53,7 @@ class DialectRules:
     calls: int = MANY
     longest_line: int = MANY
     parameters: int = 99_999
+    repeats_by_k: bool = False
     macro_b: bool = False
     missing: frozenset[str] = frozenset()
 
@@ -152,6 +154,7 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         dwell_unit_s=0.001,
         length_from_tool=False,
         splines="G6.2",
+        repeats_by_k=True,
         macro_b=True,
     ),
     Dialect.HAAS: DialectRules(

@@ -56,10 +56,11 @@ class Parameters:
 
     Attributes:
         plain: (5001,) values by number, NaN = not set; compiled code reads and writes them, too.
+        least: the step of a length, in the units that are in force, to which macro B rounds in a word.
         changes: how often a value became another one; alike at two times = nothing has changed between.
     """
 
-    def __init__(self, system: System, assign: Assign, rules: DialectRules) -> None:
+    def __init__(self, system: System, assign: Assign, rules: DialectRules, least: Callable[[], float]) -> None:
         """Begin with every parameter 0, or vacant: NaN, as #0 is, which no word takes, which equals nothing but another
         one, and counts as 0 elsewhere.
 
@@ -67,6 +68,7 @@ class Parameters:
             system: asked first. assign: told first of a value that is set.
             rules: which numbers there are, and whether those that nobody has set are vacant. #1 to #30, in macro B to
                 #33, belong to the subroutine that is running.
+            least: asked for the step of a length.
         """
         self._unset = math.nan if rules.macro_b else 0.0
         self._largest = rules.parameters
@@ -74,6 +76,7 @@ class Parameters:
         self._system, self._assign = system, assign
         self._local = slice(1, local_numbers + 1)
         self.plain: Floats = np.full(PLAIN + 1, math.nan)
+        self.least = least
         self._everywhere: dict[Key, float] = {}
         self._here: dict[str, float] = {}
         self._callers: list[_CallersParameters] = []
@@ -176,6 +179,9 @@ FUNCTION = re.compile(r"(atan|abs|acos|asin|cos|exp|fix|fup|round|ln|sin|sqrt|ta
 
 _DASHES = "\u2010\u2011\u2012\u2013\u2014\u2212"
 """Signs that programs for writing put in the place of minus."""
+
+_LENGTHS = frozenset("abcefijkqruvwxyz")
+"""Words in which ROUND of macro B goes to the step of a length or an angle; elsewhere it goes to a whole number."""
 
 OPERATOR = re.compile(r"\*\*|[-+*/]|mod|and|xor|or|eq|ne|gt|ge|lt|le")
 
@@ -315,6 +321,7 @@ class ValueReader:
     Attributes:
         code: of the block, as `text.code_of` gives it.
         at: index of the next character.
+        letter: of the word whose value is read; "" = it is no word's.
     """
 
     def __init__(self, code: str, nesting: int, macro_b: bool = False) -> None:
@@ -325,7 +332,8 @@ class ValueReader:
             nesting: how deep brackets may go.
             macro_b: operators and functions are those of Fanuc's and Haas' macro B.
         """
-        self.code, self.at, self._left = code, 0, nesting
+        self.code, self.at, self.letter, self._left = code, 0, "", nesting
+        self._macro_b = macro_b
         self._ranks = _RANK_IN_MACRO_B if macro_b else _RANK
         self._binary = _BINARY_IN_MACRO_B if macro_b else _BINARY
         self._unary = _UNARY_IN_MACRO_B if macro_b else _UNARY
@@ -395,6 +403,8 @@ class ValueReader:
         if found[1] == "exists":
             return self._exists()
         value = self._bracket()
+        if found[1] == "round" and self._macro_b and self.letter in _LENGTHS:
+            return _rounded_to_least(value)
         if found[1] != "atan":
             return _applied(self._unary[found[1]], value)
         if self.code[self.at : self.at + 2] != "/[":
@@ -426,7 +436,9 @@ class ValueReader:
         if named is not None:
             self.at = named.end()
             return named[1]
+        letter, self.letter = self.letter, ""
         value = self.value()
+        self.letter = letter
         if isinstance(value, float):
             return whole(value, "the number of a parameter")
         return lambda parameters: whole(value(parameters), "the number of a parameter")
@@ -460,6 +472,14 @@ def _applied(function: Callable[[float], float], value: Value) -> Value:
     if isinstance(value, float):
         return _computed(function, value)
     return lambda parameters: _computed(function, _number_of(value(parameters)))
+
+
+def _rounded_to_least(value: Value) -> Value:
+    """Return a value rounded to the step of a length, as macro B rounds what a word says."""
+    nearest = _UNARY["round"]
+    return lambda parameters: _computed(
+        lambda a, step: nearest(a / step) * step, _number_of(evaluated(value, parameters)), parameters.least()
+    )
 
 
 def _joined(function: Callable[[float, float], float], left: Value, right: Value) -> Value:

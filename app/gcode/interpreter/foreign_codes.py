@@ -76,6 +76,11 @@ _BLOCK_TEXT = re.compile(
 
 _WHOLE_LENGTH = re.compile(rb"^[^(;\n]*[xyzijr][ \t]*[-+]?[0-9]*[1-9][0-9]*(?![0-9.])", re.IGNORECASE | re.MULTILINE)
 
+_WHOLE_FEED = re.compile(rb"^[^(;\n]*f[ \t]*[0-9]*[1-9][0-9]*(?![0-9.])", re.IGNORECASE | re.MULTILINE)
+
+_FEED_IN_STEPS = re.compile(rb"g[ \t]*(?:20|93|95)(?![0-9.])", re.IGNORECASE)
+"""Inch, inverse time, a revolution: where Fanuc takes a feed without a point in steps, and not in mm/min."""
+
 _BLOCK_BEHIND = re.compile(
     rb"[0-9.][ \t]*;[ \t]*(?:[a-z][ \t]*[-+]?[0-9.]+[ \t]*)+;?[ \t]*$", re.IGNORECASE | re.MULTILINE
 )
@@ -113,6 +118,7 @@ def warn_of_numbers(control: Control, data: bytes) -> None:
             f"lengths without a decimal point count in {control.rules.least_mm:g} mm or {control.rules.least_inch:g} "
             "in here."
         )
+    _warn_of_whole_feed(control, data)
     second = _BLOCK_BEHIND.search(data, 0, LOOKED_AT) if control.rules.macro_b else None
     if second is not None:
         control.line = data.count(b"\n", 0, second.end()) + 1
@@ -122,6 +128,20 @@ def warn_of_numbers(control: Control, data: bytes) -> None:
     if control.rules.fanuc_flow and data and not names_units(data) and control.options.units is None:
         control.line = 1
         control.warn("the program names no units (G20, G21); mm are taken.")
+
+
+def _warn_of_whole_feed(control: Control, data: bytes) -> None:
+    """Tell of a feed without a point, which a setting of the machine may take in steps far below its unit."""
+    haas = control.options.dialect is Dialect.HAAS
+    found = _WHOLE_FEED.search(data, 0, LOOKED_AT) if control.rules.macro_b else None
+    if found is None or not (haas or _FEED_IN_STEPS.search(data, 0, LOOKED_AT)):
+        return
+    control.line = data.count(b"\n", 0, found.end()) + 1
+    steps = "0.001 mm/min or 0.0001 in/min (Setting 77)" if haas else "0.01 in/min, 0.01 mm or 0.0001 in a revolution"
+    control.warn(
+        f"a feed without a decimal point is taken as it stands; the control may count it in {steps}. Write the point.",
+        "f",
+    )
 
 
 def warn_of_uncalled(control: Control, flow: Flow) -> None:
@@ -154,6 +174,8 @@ def adapt(control: Control, block: Block) -> None:
         control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
     if control.rules.macro_b:
         _keep_cutter(control, block)
+    if control.options.dialect is Dialect.MACH3:
+        _take_radius(block)
     for code in list(block.unknown):
         if control.options.dialect is Dialect.MACH3 and code in UNITS_OF_MACH3:
             block.unknown.remove(code)
@@ -183,6 +205,14 @@ def _keep_cutter(control: Control, block: Block) -> None:
         control.cutter_register = block.values["d"]
         if ModalGroup.RADIUS not in block.codes and not block.unknown:
             _drop(block, "d")
+
+
+def _take_radius(block: Block) -> None:
+    """Spell G41 and G42 with P, a radius on Mach3, as LinuxCNC does with a diameter."""
+    code = block.codes.get(ModalGroup.RADIUS)
+    if code in ("G41", "G42") and "p" in block.values and "d" not in block.values:
+        block.codes[ModalGroup.RADIUS] = f"{code}.1"
+        block.values["d"] = 2.0 * block.values.pop("p")
 
 
 def _set_units(block: Block, code: str) -> None:

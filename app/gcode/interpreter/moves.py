@@ -15,7 +15,7 @@ from ...model.motion import MotionKind, Nurbs, Plane
 from ...model.part import Units
 from .arc_kernels import centre_by_radius, radii
 from .block import Block
-from .codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, ModalGroup
+from .codes import AXES, CYCLES, ROTARY, TAKES, WITHOUT_AXES, ModalGroup
 from .control import ArcShape, AxisWord, Control
 from .cycles import Cycle, CycleMove, Dwell, Spindle, Stop, cycle_steps, hole_planes, taps_astray, with_sticky
 from .dialect import Dialect
@@ -279,6 +279,20 @@ def _no_motion(control: Control, block: Block) -> None:
         raise BlockFault("there are axis words, but no G code that uses them is in force.", letter=letter)
 
 
+def _turns(control: Control, block: Block) -> int:
+    """Return P of an arc.
+
+    Raises:
+        Fault: it is no whole number, or the control has no such word.
+    """
+    if control.options.dialect is Dialect.LINUXCNC:
+        return whole(block.values.get("p", 1.0), "P of an arc")
+    others = (TAKES.get(code, "") for group, code in block.codes.items() if group is not ModalGroup.MOTION)
+    if "p" in block.values and not any("p" in letters for letters in others):
+        raise BlockFault("P, the turns of an arc, is a word of LinuxCNC; write each turn as an arc.", letter="p")
+    return 1
+
+
 def _arc(control: Control, block: Block) -> None:
     code = control.motion
     if control.stray is not None:
@@ -294,7 +308,7 @@ def _arc(control: Control, block: Block) -> None:
     _check_arc_words(block, "ijk"[w], code)
     end = _target(control, block)
     centre = _centre_by_r(control, block, end) if block.has("r") else _centre_by_ijk(control, block)
-    turns = whole(block.values.get("p", 1.0), "P of an arc")
+    turns = _turns(control, block)
     if not 1 <= turns <= MOST_TURNS:
         raise BlockFault(f"the arc has P{turns} turns; use 1 to {MOST_TURNS}.", letter="p")
     _check_radii(control, end, centre)
@@ -454,6 +468,12 @@ def _thread(control: Control, block: Block) -> None:
 def _cycle(control: Control, block: Block) -> None:
     if control.modal.feed_mode is FeedMode.INVERSE_TIME:
         raise BlockFault("a canned cycle cannot be fed in inverse time (G93).", letter="g")
+    if control.motion == "G87" and control.rules.macro_b:
+        raise BlockFault(
+            "G87, a bore from behind or one that is left by hand, is not followed; write out the moves that it makes: "
+            "the reader stops here.",
+            letter="g",
+        )
     bore(control, block)
 
 
@@ -529,8 +549,7 @@ def _canned_cycle(control: Control, block: Block) -> Cycle:
     u, v, w = control.modal.plane.axes
     words = [_length(control, block, letter) for letter in "xyz"]
     repeats = block.get("l")
-    fanuc = control.rules.fanuc_flow
-    if repeats is None and fanuc and control.motion != "G87":
+    if repeats is None and control.rules.repeats_by_k:
         repeats = block.get("k")
     dwell = block.get("p")
     if dwell is not None:
@@ -550,7 +569,8 @@ def _canned_cycle(control: Control, block: Block) -> Cycle:
         retract_to_r=control.modal.retract_to_r,
         spindle=control.modal.spindle,
         unit_mm=control.unit,
-        fanuc=fanuc,
+        fanuc=control.rules.fanuc_flow,
+        lessens=control.options.dialect is Dialect.HAAS,
         planes_stay=control.rules.macro_b,
     )
 

@@ -13,6 +13,7 @@ from ...model.part import Units
 from .block import SLASH, Block, BlockStep, Grammar, ParsedLine, Watch, block_of, parse
 from .codes import CYCLES, TAKES, ModalGroup
 from .control import Control
+from .cycles import PECKS
 from .dialect import Dialect
 from .fast_lane import FastLane
 from .flow import MOST_KEPT, Flow
@@ -334,6 +335,8 @@ class InterpreterRun:
         parsed = self._parse(code)
         if self._options.dialect is Dialect.LINUXCNC:
             check_linuxcnc_line(parsed)
+        if self._options.dialect is Dialect.GRBL and ("#" in code or "[" in code):
+            self._control.warn("grbl 1.1 computes no values: it refuses # and brackets, which some of its kin take.")
         return parsed
 
     def _leaves_out(self, code: str) -> bool:
@@ -437,8 +440,9 @@ class InterpreterRun:
     def _unused(self, block: Block) -> str:
         """Return a letter that neither the block's codes nor the motion in force takes, or ""."""
         letter, motion = block.unused(), block.codes.get(ModalGroup.MOTION, self._control.motion)
-        repeats = letter == "k" and self._rules.fanuc_flow and motion in CYCLES
-        return "" if repeats or (letter and letter in TAKES.get(motion, "")) else letter
+        lessens = self._options.dialect is Dialect.HAAS and motion in PECKS and letter in ("i", "j", "k")
+        repeats = letter == "k" and self._rules.repeats_by_k and motion in CYCLES
+        return "" if lessens or repeats or (letter and letter in TAKES.get(motion, "")) else letter
 
     def _located(self, fault: BlockFault, severity: Severity) -> ProgramProblem:
         """Return a fault with its place in the text."""

@@ -138,6 +138,12 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
     kept = float(control.modal.tool) if control.cutter_register is None else control.cutter_register
     number = whole(block.values.get("d", kept), "the D number")
     if number == 0:
+        if not block.has("d") and control.cutter_register is None:
+            control.warn(
+                f"{code} without D offsets by the tool that is in the spindle, and the program names none; the path is "
+                "read without it.",
+                "g",
+            )
         return 0.0
     row = control.tool_table.get(number)
     if row is None or not (row.diameter or row.diameter_known):

@@ -158,13 +158,14 @@ class Blocks:
         heights = {"Z": hole.z, "R": hole.r} | ({"Q": hole.peck} if hole.peck else {})
         words += [letter + self.number(count, self._digits.Z) for letter, count in heights.items()]
         words += [hole.dwell] * (begins and bool(hole.dwell))
-        if hole.feed != self._state[_FEED]:
-            words.append(f"F{self._rate(hole.feed)}")
+        if hole.rate or hole.feed != self._state[_FEED]:
+            words.append(f"F{hole.rate or self._rate(hole.feed)}")
         self.lines.append(self._numbered(" ".join(words)))
         for kind, end in steps:
             if np.any(self._state[_POSITION] != end):
                 self._moved(kind, end)
-        self._cycle, self._state[_MOTION], self._state[_FEED] = hole.cycle, NO_MOTION, hole.feed
+        self._cycle, self._state[_MOTION] = hole.cycle, NO_MOTION
+        self._state[_FEED] = NO_FEED if hole.rate else hole.feed  # a finer rate is none of the others
 
     def _end_cycle(self) -> None:
         """Cancel the canned cycle that is in force."""
@@ -283,6 +284,7 @@ class CycleHole:
         stop: index of the move behind it.
         dwell: P word of the wait at the bottom; "" = there is none.
         start: block before the first hole of a row; "" = none.
+        rate: number of F, finer than `feed` counts, where a tap's pitch needs it; "" = `feed` is exact.
     """
 
     cycle: str
@@ -295,6 +297,7 @@ class CycleHole:
     stop: int
     dwell: str = ""
     start: str = ""
+    rate: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -308,7 +311,7 @@ class CycleRules:
         near: counts by which a rounded height between two pecks may be off.
         dwells: how long the operations wait at the bottom, by index, s; those that do not are left out.
         taps: the blocks before a tapping cycle, by the index of the operations that tap. left: of these, those that
-            tap to the left.
+            tap to the left. rates: numbers of F of those whose feed the decimals of F do not spell exactly.
     """
 
     words: DrillingWords
@@ -319,6 +322,7 @@ class CycleRules:
     dwells: Mapping[int, float] = field(default_factory=dict)
     taps: Mapping[int, str] = field(default_factory=dict)
     left: frozenset[int] = frozenset()
+    rates: Mapping[int, str] = field(default_factory=dict)
 
     def wait(self, operation: int) -> str:
         """Return the block of an operation's wait at the bottom; "" = it does not wait."""
@@ -388,8 +392,8 @@ def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> CycleHo
     for word, steps, q in ways:
         if word and level and _alike(steps, done, rules.near):
             pause = f"P{wait.rpartition('P')[2]}" if wait else ""
-            start = rules.taps.get(operation, "")
-            return CycleHole(f"{level} {word}", x, y, bottom, r, q, moves.feed[feed], stop, pause, start)
+            start, rate = rules.taps.get(operation, ""), rules.rates.get(operation, "")
+            return CycleHole(f"{level} {word}", x, y, bottom, r, q, moves.feed[feed], stop, pause, start, rate)
     return None
 
 

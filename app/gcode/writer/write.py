@@ -31,6 +31,12 @@ LARGEST_DEVIATION = 1e-3
 """No written arc leaves the meant one by more, mm, unless the last decimal itself is coarser."""
 
 
+TAP_DECIMALS = 2
+"""Decimals that F of a tap has beyond those of the post where it needs them. A hole of 100 mm at 50 mm/min is then off
+by 1 um where F is told to 0.1 mm/min, and by 2.6 um where it is told to 0.01 in/min.
+"""
+
+
 @dataclass(frozen=True)
 class NcText:
     """A written program.
@@ -273,7 +279,17 @@ class _ProgramWriter:
         )
         # a count by the cycle's heights and half a one by rounding, where as much may be off
         near = int(1.5 * unit / self.z_scale <= writing_tolerance(job, post))
-        rules = CycleRules(post.drilling, round(self.z_scale), peck, chip, near, _dwells(job), self._taps(), _left(job))
+        rules = CycleRules(
+            post.drilling,
+            round(self.z_scale),
+            peck,
+            chip,
+            near,
+            _dwells(job),
+            self._taps(),
+            _left(job),
+            self._tap_rates(offset.moves),
+        )
         self.holes: dict[int, CycleHole] = holes_of(moves, rules)
         self.waits = waits_of(moves, rules, self.holes)
         self.offsets, self.corners = offset.blocks, np.flatnonzero(offset.corners)
@@ -297,6 +313,19 @@ class _ProgramWriter:
         template = self.post.drilling.tap_start
         tools = ((k, self.job.tool(each.cut.tool)) for k, each in enumerate(self.job.operations) if each.TAPS)
         return {k: template.format(tool=tool.number, speed=round(tool.spindle_speed)) for k, tool in tools}
+
+    def _tap_rates(self, moves: Moves) -> dict[int, str]:
+        """Return F of each operation that taps where its decimals do not spell the feed exactly, by its index.
+
+        The feed has to be the pitch by the speed: what it is off adds up along the hole.
+        """
+        rates: dict[int, str] = {}
+        for k in self._taps():
+            feeds = moves.feed[(moves.operation == k) & (moves.kind == MoveKind.LINE)]
+            finer = f"{feeds[0] / self.job.out_units.value:.{self.digits.F + TAP_DECIMALS}f}" if len(feeds) else ""
+            if finer[-TAP_DECIMALS:].strip("0"):
+                rates[k] = finer.rstrip("0")
+        return rates
 
     def write(self, remarks: Remarks, progress: Progress) -> NDArray[np.int32]:
         """Write everything; return the line of each move."""

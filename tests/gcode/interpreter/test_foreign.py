@@ -7,6 +7,7 @@ from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.dialect_guess import guess_dialect
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.reader import read_program
+from app.model.motion import MotionKind
 from tests.gcode.interpreter.programs import ends, read, told, warnings
 from tests.gcode.interpreter.rs274_motions import rs274
 
@@ -99,12 +100,52 @@ def test_numbers_and_units_that_settings_decide_are_told() -> None:
     assert any(
         "without a decimal point count in 0.001 mm" in text for text in warnings("G21 G0 X10\nM30\n", Dialect.HAAS)
     )
-    assert not warnings("G21 G0 X10. Y0 Z-.5\nN100 G1 X1. F100 S1000\n(X10)\nM30\n", Dialect.HAAS)
+    assert not warnings("G21 G0 X10. Y0 Z-.5\nN100 G1 X1. F100. S1000\n(X10 F9)\nM30\n", Dialect.HAAS)
     assert any("names no units" in text for text in warnings("G0 X1.\nM30\n", Dialect.FANUC))
+
+
+@pytest.mark.parametrize(
+    ("dialect", "head", "steps"),
+    [
+        (Dialect.HAAS, "G21", "0.001 mm/min"),
+        (Dialect.HAAS, "G20", "0.0001 in/min"),
+        (Dialect.FANUC, "G20", "0.01 in/min"),
+        (Dialect.FANUC, "G21 G95", "0.01 mm"),
+        (Dialect.FANUC, "G21", ""),
+        (Dialect.MACH3, "G20", ""),
+    ],
+)
+def test_a_feed_that_a_setting_decides_is_told(dialect: Dialect, head: str, steps: str) -> None:
+    text = f"{head}\nG0 X0. Y0. Z0. M3 S100\nG1 X1. F12\nM30\n"
+    assert [steps in said for said in warnings(text, dialect)] == ([True] if steps else [])
+    assert not warnings(text.replace("F12", "F12."), dialect)
 
 
 def test_commands_of_grbl_itself_are_passed_over() -> None:
     assert ends(read("$H\n$32=1\nG0 X1\n", Dialect.GRBL)) == [(1, 0, 0)]
+
+
+@pytest.mark.parametrize("line", ["#1=5\nG0 X#1", "G0 X[2+3]"])
+def test_values_that_grbl_does_not_compute_are_told(line: str) -> None:
+    text = f"G21 G0 X1 Y0 Z0\n{line}\nM2\n"
+    assert ends(read(text, Dialect.GRBL))[-1] == (5, 0, 0)
+    assert any("grbl 1.1 computes no values" in said for said in warnings(text, Dialect.GRBL))
+    assert not warnings("G21 G0 X1 Y0 Z0\n(MSG, #1 [2])\nG0 X5 ;[1]\nM2\n", Dialect.GRBL)
+
+
+def test_p_of_compensation_is_a_radius_on_mach3() -> None:
+    text = "G21 G90 G0 X0 Y0 Z5\nG41 P5 X15 Y5\nG1 Y25 F10\nG40 X30 Y40\nM30\n"
+    found = ends(read(text, Dialect.MACH3))
+    assert found[1:3] == ends(read(text.replace("G41 P5", "G41.1 D10")))[1:3] and found[2] == (10, 25, 5)
+
+
+@pytest.mark.parametrize("dialect", list(Dialect)[:1] + OTHERS)
+def test_compensation_by_a_tool_that_nothing_names_is_told(dialect: Dialect) -> None:
+    text = "G21 G90 G0 X0. Y0. Z5.\n{}G41 {}X15. Y5.\nG1 Y25. F10.\nG40 X30. Y40.\nM30\n"
+    assert any("the tool that is in the spindle" in said for said in warnings(text.format("", ""), dialect))
+    assert not warnings(text.format("", "D0 "), dialect)
+    options = ReadOptions(dialect, tool_table={1: ToolOffset(10.0, 4.0)})
+    assert not read_program(text.format("T1 M6\n", "D1 ").encode(), options).problems
 
 
 def test_plain_lines_that_repeat_cost_little() -> None:
@@ -187,6 +228,21 @@ def test_operators_of_macro_b(expression: str, value: float) -> None:
     assert "must be a whole number" in told("G21\n#1=0.5OR1\n", Dialect.FANUC)
 
 
+@pytest.mark.parametrize(
+    ("units", "place"), [("G21", (1.235, -1.235, 2.47)), ("G20", (25.4 * 1.2346, 25.4 * -1.2346, 25.4 * 2.4692))]
+)
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_round_in_a_word_goes_to_the_step_of_lengths(
+    dialect: Dialect, units: str, place: tuple[float, float, float]
+) -> None:
+    """The manuals' own rule: to a whole number in what a parameter is set to, a condition, or a count."""
+    words = "X[ROUND[#1]] Y-ROUND[#1] Z[ROUND[#1]+ROUND[#1]]"
+    assert ends(read(f"{units}\n#1=1.23456\nG0 {words}\nM30\n", dialect))[0] == pytest.approx(place, abs=1e-9)
+    text = "G21\n#1=1.6\n#2=ROUND[#1]\nIF[ROUND[#1]NE2]GOTO9\nG0 X#2 Y#[ROUND[#1]] Z[ROUND[1.6]]\nN9 M30\n"
+    assert ends(read(text, dialect)) == [(2, 2, 1.6)]
+    assert ends(read("G21\n#1=1.6\nG0 X[ROUND[#1]] Y0. Z0.\nM30\n", Dialect.MACH3)) == [(2, 0, 0)]
+
+
 def test_modes_are_kept_and_brought_back_by_macro_b() -> None:
     text = "G21 G90 G0 X0. Y0. Z0.\n#1=#4003\n#2=#4001\nG91 G1 X1. F10.\nG#1 G#2\nX5.\nX[#5041+#4120]\nM30\n"
     assert ends(read(text, Dialect.FANUC)) == [(0, 0, 0), (1, 0, 0), (5, 0, 0), (5, 0, 0)]
@@ -204,6 +260,60 @@ def test_the_length_of_another_tool_is_told(dialect: Dialect) -> None:
     text = "G21 G0 X1. Y0. Z9.\nT1 M6\nG43 H{} G0 Z5.\nM30\n"
     assert any("another tool than T1" in said for said in warnings(text.format(2), dialect))
     assert not warnings(text.format(1), dialect) and not warnings(text.format(0), dialect)
+
+
+def feeds_down(text: str, dialect: Dialect) -> list[float]:
+    """Heights that a program feeds to."""
+    program = read(text, dialect)
+    return program.motions.end[program.motions.kind == MotionKind.LINE, 2].tolist()
+
+
+@pytest.mark.parametrize("cycle", ["G73", "G83"])
+def test_pecks_that_lessen_on_haas(cycle: str) -> None:
+    """I is the first, each one is less by J, and K is the least; they stay, and Q ends them."""
+    head = f"G21 G90 G0 X0. Y0. Z5.\nG99 {cycle} X1. Y1. Z-9. R1. "
+    assert feeds_down(head + "I4. J1. K2. F100.\nG80\nM30\n", Dialect.HAAS) == [-3, -6, -8, -9]
+    text = head + "I5. J0.5 K3. F100.\nX2.\nG83 Q8. X3.\nG80\nM30\n"
+    assert feeds_down(text, Dialect.HAAS) == [-4, -8.5, -9, -4, -8.5, -9, -7, -9]
+    assert not read(head + "I4. J1. K2. F100.\nG80\nM30\n", Dialect.HAAS).problems
+    for words in ("Q2. K4.", "I2. K1.", "Q2. I4. J1. K1."):
+        assert f"{cycle} with some of Q, I, J and K is not followed" in told(f"{head}{words} F9.\n", Dialect.HAAS)
+    for words in ("I0. J1. K2.", "I4. J-1. K2.", "I4. J1. K0."):
+        assert "must be above 0" in told(f"{head}{words} F9.\n", Dialect.HAAS)
+
+
+def test_k_repeats_holes_on_fanuc_alone() -> None:
+    text = "G21 G90 G0 X0. Y0. Z5.\nG91 G81 X1. Z-3. R-4. {} F100.\nG80\nM30\n"
+    assert len(feeds_down(text.format("K3"), Dialect.FANUC)) == 3
+    for dialect in (Dialect.HAAS, Dialect.MACH3):
+        assert len(feeds_down(text.format("L3"), dialect)) == 3
+        assert len(feeds_down(text.format("K3"), dialect)) == 1
+        assert any(
+            "K stands in a block where no code takes it" in said for said in warnings(text.format("K3"), dialect)
+        )
+
+
+def test_a_cycle_from_below_r_rises_over_the_hole() -> None:
+    """LinuxCNC rises before it goes to the hole; Fanuc and Haas go there first, as low as the tool is."""
+    text = "G21 G90 G0 X0. Y0. Z-5.\nG99 G81 X9. Z-6. R1. F100.\nG80\nM30\n"
+    for dialect in (Dialect.FANUC, Dialect.HAAS):
+        assert ends(read(text, dialect))[1:4] == [(9, 0, -5), (9, 0, 1), (9, 0, -6)]
+    for dialect in (Dialect.LINUXCNC, Dialect.MACH3):
+        assert ends(read(text, dialect))[1:4] == [(0, 0, 1), (9, 0, 1), (9, 0, -6)]
+
+
+@pytest.mark.parametrize("dialect", [*OTHERS, Dialect.GRBL])
+def test_turns_of_an_arc_are_a_word_of_linuxcnc(dialect: Dialect) -> None:
+    text = "G21 G90 G0 X0. Y0. Z5.\n{}G2 I1. Z-5. {}F100.\nM30\n"
+    assert "P, the turns of an arc" in told(text.format("", "P3 "), dialect)
+    assert ends(read(text.format("", "P3 ")))[-1] == (0, 0, -5)
+    if dialect is Dialect.FANUC:
+        assert read(text.format("G54.1 P3 ", ""), dialect).motions.turns[-1] == 1
+
+
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_a_bore_from_behind_is_not_followed(dialect: Dialect) -> None:
+    assert "G87, a bore from behind" in told("G21 G0 Z5. M3 S9\nG87 X1. Z-2. R-5. I1. J1. K1. F9.\n", dialect)
 
 
 def test_heights_of_holes_stay_where_g91_follows() -> None:
