@@ -10,7 +10,7 @@ import json
 import sys
 from pathlib import Path
 
-from PySide6.QtWidgets import QApplication, QLineEdit
+from PySide6.QtWidgets import QApplication
 
 from app.drafting.language.write import draw_text
 from app.ui.framework.computation import ComputationState
@@ -76,25 +76,11 @@ def whole_job(hand: Hand, folder: Path) -> None:
         hand.click_button(view.value)
     hand.ask(lambda: hand.window.grab().save(str(folder / "paths.png")))
     hand.press("ctrl+e")
-    hand.wait_until(dialog_has_the_keys, "the file dialog")
-    hand.type_seen_line(str(folder / "fig2.ngc"))
+    hand.type_path(folder / "fig2.ngc")
     hand.wait_until(lambda: (folder / "fig2.ngc").exists(), "the NC file")
     lines = hand.ask(lambda: [line.command for line in hand.wiring.document.log if not line.error])
     (folder / "log.draw").write_text("\n".join(lines) + "\n", "utf-8")
     (folder / "part.draw").write_text(hand.ask(lambda: draw_text(hand.wiring.document.part).text), "utf-8")
-
-
-def dialog_has_the_keys() -> bool:
-    """Tell whether what is typed goes to the name in an open dialog: on a busy screen that is a while after it is
-    open.
-    """
-    dialog, focused = QApplication.activeModalWidget(), QApplication.focusWidget()
-    return (
-        isinstance(focused, QLineEdit)
-        and dialog is not None
-        and dialog.isActiveWindow()
-        and dialog.isAncestorOf(focused)
-    )
 
 
 def main(folder: Path) -> int:

@@ -7,10 +7,11 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeVar
 
 from PySide6.QtCore import QObject, QPoint, QPointF, Qt, Signal
-from PySide6.QtWidgets import QApplication, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit, QToolButton, QWidget
 
 from app.model.curves import Point
 from app.ui.shell.window_controller import WindowController
@@ -129,6 +130,22 @@ class Hand(QObject):
         self._type(text)
         self.wait_until(lambda: _shown_in_field() == text, "what was typed")
 
+    def type_path(self, path: Path) -> None:
+        """Type a path into the file dialog that opens, and Enter."""
+        self.wait_until(dialog_has_the_keys, "the file dialog")
+        self.type_seen(str(path))
+        self.confirm(lambda: self.press("Return"))
+
+    def confirm(self, act: Callable[[], None]) -> None:
+        """Act so that the open file dialog ends. On a busy screen the toolkit's list takes the folder of what was typed
+        for chosen: the dialog goes there first, keeps the name, and has to be told once more.
+        """
+        begun = self.ask(_folder_of_dialog)
+        act()
+        self.wait_until(lambda: _folder_of_dialog() != begun, "an answer of the file dialog")
+        if self.ask(_folder_of_dialog) is not None:
+            act()
+
     def _type(self, text: str) -> None:
         self.typed += 1
         self.values += max(1, sum(any(map(str.isdigit, word)) for word in text.split()))
@@ -158,6 +175,25 @@ class Hand(QObject):
         canvas = self.window.canvas
         at: QPointF = canvas.view.to_screen(place)
         return canvas.mapToGlobal(at.toPoint())
+
+
+def dialog_has_the_keys() -> bool:
+    """Tell whether what is typed goes to the name in an open dialog: on a busy screen that is a while after it is
+    open.
+    """
+    dialog, focused = QApplication.activeModalWidget(), QApplication.focusWidget()
+    return (
+        isinstance(focused, QLineEdit)
+        and dialog is not None
+        and dialog.isActiveWindow()
+        and dialog.isAncestorOf(focused)
+    )
+
+
+def _folder_of_dialog() -> str | None:
+    """Return the folder that the open file dialog shows; None = none is open."""
+    dialog = QApplication.activeModalWidget()
+    return dialog.directory().path() if isinstance(dialog, QFileDialog) else None
 
 
 def _shown_in_field() -> str:

@@ -18,11 +18,7 @@ from app.model.operation import Operation
 from app.ui.framework.computation import ComputationState
 from app.ui.shell.start import begin, build, warm_up
 from tests.ui.measure_window import Gaps, live_until
-from tests.ui.real_mouse.fig2_job import dialog_has_the_keys
-from tests.ui.real_mouse.hand import Hand
-
-_MOST_RETURNS = 2
-"""The first one may go to the list of files that the dialog offers below the name."""
+from tests.ui.real_mouse.hand import Hand, dialog_has_the_keys
 
 
 def draw(hand: Hand) -> None:
@@ -62,8 +58,7 @@ def open_gear(hand: Hand, folder: Path) -> None:
     own = folder / "wheel.draw"
     own.write_bytes(resource("samples", "gear.draw").read_bytes())
     hand.press("ctrl+o")
-    hand.wait_until(dialog_has_the_keys, "the file dialog")
-    hand.type_seen_line(str(own))
+    hand.type_path(own)
     hand.wait_until(lambda: hand.wiring.proposal_controller.due, "the drawing")
     hand.focus_window()  # the dialog had it
 
@@ -86,17 +81,20 @@ def whole_job(hand: Hand, gaps: Gaps, name: str, folder: Path) -> None:
     (folder / "job.json").write_text(json.dumps({"operations": operations, "findings": findings}), "utf-8")
     hand.ask(lambda: gaps.now("export"))
     hand.press("ctrl+e")
-    hand.wait_until(dialog_has_the_keys, "the file dialog")
-    hand.type_seen(str(folder / name))
     if name == "gear":
-        hand.click(hand.ask(_kinds_of_file))
-        hand.type_line("grbl")
-        hand.click(hand.ask(_save_button))
+        _choose_grbl(hand, folder / name)
     else:
-        for _ in range(_MOST_RETURNS):
-            if hand.ask(lambda: QApplication.activeModalWidget() is not None):
-                hand.press("Return")
+        hand.type_path(folder / name)
     hand.wait_until(lambda: any(folder.glob(f"{name}*.nc")), "the NC files")
+
+
+def _choose_grbl(hand: Hand, path: Path) -> None:
+    """Type where the program goes and choose its control, by the mouse."""
+    hand.wait_until(dialog_has_the_keys, "the file dialog")
+    hand.type_seen(str(path))
+    hand.click(hand.ask(_kinds_of_file))
+    hand.type_line("grbl")
+    hand.confirm(lambda: hand.click(hand.ask(_save_button)))
 
 
 def _in_words(operation: Operation) -> str:
