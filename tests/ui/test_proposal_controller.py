@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QRect, QSize, Qt
+from PySide6.QtCore import QPoint, QRect, QRectF, QSize, Qt
 
 from app.model.chamfer_operation import ChamferOperation
 from app.model.contour_operation import ContourOperation
@@ -15,8 +16,9 @@ from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.drawing.proposal_controller import NOTHING_DRAWN, NOTHING_SELECTED
-from app.ui.shell.drawing.purpose_words import place_at
 from app.ui.shell.drawing.selection_ribbon import place_beside
+from app.ui.shell.drawing.word_places import WordPlaces, place_at
+from app.ui.views.canvas.view_transform import ViewTransform
 
 WAIT_MS = 20_000
 PLATE = ("rectangle 0,0 80,50", "rectangle 25,15 55,35", "circle 12,25 3", "circle 68,25 3")
@@ -335,6 +337,19 @@ def test_one_hole_of_two_is_left_standing_and_another_becomes_a_pocket(qtbot, pl
 )
 def test_a_word_stands_in_its_area_or_below_one_that_is_small(area, filled, at):
     assert place_at(area, QSize(50, 20), filled).topLeft() == at
+
+
+def test_a_word_covers_no_other_one_and_few_curves() -> None:
+    view, word = ViewTransform(scale=10.0, ox=0.0, oy=600.0), QSize(80, 20)
+    plate, hole, slot = (10.0, 10.0, 60.0, 40.0), (12.0, 20.0, 15.0, 23.0), (14.0, 25.0, 20.0, 27.0)
+    places = WordPlaces(view, QRect(0, 0, 800, 600), np.array([plate, hole, slot]))
+    box = QRectF(hole[0], hole[1], 3.0, 3.0)
+    beside = places.take(box, word, filled=True)
+    assert beside == QRect(QPoint(157, 374), word), "below and above it lies over the plate's edge"
+    assert places.take(box, word, filled=True).topLeft() == QPoint(94, 403), (
+        "next best"
+    )
+    assert WordPlaces(view, QRect(0, 0, 50, 50), places.curves).take(box, word, filled=True) is None
 
 
 @pytest.fixture

@@ -28,7 +28,7 @@ def press(
 
 
 def test_no_two_actions_have_one_key() -> None:
-    used = [spec.key for _, specs in menus() for spec in specs if spec.key]
+    used = [key for _, specs in menus() for spec in specs if spec.key for key in spec.key.split("; ")]
     assert sorted(used) == sorted(set(used))
 
 
@@ -86,6 +86,19 @@ def test_backspace_takes_a_key_away_and_reset_brings_it_back(qtbot, keys: KeysWi
     keys.reset.click()
     assert wiring.window_.actions_.key("compute") == "F5"
     assert wiring.window_.preferences.settings.shortcuts == ()
+
+
+def test_an_action_with_two_keys_loses_the_one_that_is_taken(qtbot, keys: KeysWindow, wiring) -> None:
+    actions = wiring.window_.actions_
+    assert row_of(keys, "redo").text(2) == "Ctrl+Shift+Z; Ctrl+Y"
+    assert actions["redo"].toolTip() == "Redo (Ctrl+Shift+Z)"
+    keys.record("fit")
+    for _ in range(2):
+        press(qtbot, keys, Qt.Key.Key_Y, Qt.KeyboardModifier.ControlModifier)
+    assert (actions.key("fit"), actions.key("redo")) == ("Ctrl+Y", "Ctrl+Shift+Z")
+    assert load_settings().shortcuts == ("redo=Ctrl+Shift+Z", "fit=Ctrl+Y")
+    wiring.shortcuts.reset("redo")
+    assert (actions.key("fit"), actions.key("redo")) == ("", "Ctrl+Shift+Z; Ctrl+Y")
 
 
 def test_all_keys_go_back_at_once(qtbot, keys: KeysWindow, wiring) -> None:

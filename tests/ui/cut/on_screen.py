@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QWidget
 from app.model.tool import Tool
 from app.model.tool_kind import ToolKind
 from app.ui.framework.theme import DARK, LIGHT
-from app.ui.views.cut.surface import GlSurface
+from app.ui.views.cut.surface import GlSurface, ImageSurface, widgets_paint_in_software
 from app.ui.views.cut.view import CutView
 from app.ui.views.cut.zoom_controller import ZoomController, ZoomTarget
 from tests.ui.cut.made_up import made_up
@@ -82,16 +82,39 @@ def play(window, view):
     wait(lambda: view.render_scheduler.fine and np.array_equal(pixels(window), bare))
 
 
+def shown_as_a_picture(window, stack, view):
+    """Show a cut where the processor paints: by a picture, so that the window stays the one it was."""
+    before = window.winId()
+    view.show_cut(made_up(100))
+    stack.setCurrentWidget(view)
+    wait(lambda: view.render_scheduler.fine and 0.3 < metal_share(window, view) < 0.7)
+    assert isinstance(view.render_scheduler.surface, ImageSurface), type(view.render_scheduler.surface)
+    assert window.winId() == before, "the window was made anew"
+    assert not window.findChildren(QOpenGLWidget)
+
+
+def with_hardware(parent, paint, _):
+    """Return the surface of a screen with graphics hardware."""
+    return GlSurface(parent, paint)
+
+
 def main():
     """Show, resize, change the theme, leave the view and come back; print OK."""
     application = QApplication(sys.argv[:1])
     window, stack, view, other = QMainWindow(), QStackedWidget(), CutView(), QWidget()
+    plain = CutView()
+    stack.addWidget(plain)
+    view.surface_host.make = with_hardware
     stack.addWidget(other)
     stack.addWidget(view)
     window.setCentralWidget(stack)
     window.resize(900, 600)
     view.set_theme(LIGHT)
+    plain.set_theme(LIGHT)
+    stack.setCurrentWidget(other)
     window.show()
+    if widgets_paint_in_software():
+        shown_as_a_picture(window, stack, plain)
     view.show_cut(made_up(200))
     assert view.render_scheduler.surface is None, "a surface before the view is shown"
     stack.setCurrentWidget(view)

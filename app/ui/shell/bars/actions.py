@@ -21,7 +21,7 @@ class ActionSpec:
     """One action.
 
     Attributes:
-        name: by which the window connects it. text: in the menu. key: shortcut.
+        name: by which the window connects it. text: in the menu. key: shortcut, or several, "; " between them.
         key_hint: shown like a shortcut, but the canvas itself listens to the key.
         group: of checkable actions of which one is on; "" with `checkable` for a switch of its own.
         under: title of the menu within the menu that holds it, or "".
@@ -79,7 +79,7 @@ MENUS: tuple[tuple[str, tuple[ActionSpec, ...]], ...] = (
         "&Edit",
         (
             ActionSpec("undo", "&Undo", "Ctrl+Z", "undo"),
-            ActionSpec("redo", "&Redo", "Ctrl+Shift+Z", "redo"),
+            ActionSpec("redo", "&Redo", "Ctrl+Shift+Z; Ctrl+Y", "redo"),
             SEPARATOR,
             ActionSpec("delete", "&Delete", icon="delete", key_hint="Del"),
             ActionSpec("select_all", "Select &all", "Ctrl+A"),
@@ -90,7 +90,7 @@ MENUS: tuple[tuple[str, tuple[ActionSpec, ...]], ...] = (
         (
             SEPARATOR,
             ActionSpec("fit", "&Fit", "Ctrl+0", "fit", key_hint="F; Home in Draw"),
-            ActionSpec("zoom_in", "Zoom &in", "Ctrl++", "zoom-in"),
+            ActionSpec("zoom_in", "Zoom &in", "Ctrl++; Ctrl+=", "zoom-in"),
             ActionSpec("zoom_out", "Zoom &out", "Ctrl+-", "zoom-out"),
             ActionSpec("cut_picture", "Save &picture of the cut…"),
             ActionSpec("record", "Record the cut…"),
@@ -385,14 +385,14 @@ class Actions:
         self.set_key(spec.name, spec.key)
 
     def key(self, name: str) -> str:
-        """Return an action's key as text, or ""."""
-        return self.by_name[name].shortcut().toString()
+        """Return an action's keys as text, "; " between them, or ""."""
+        return QKeySequence.listToString(self.by_name[name].shortcuts())
 
     def set_key(self, name: str, key: str) -> None:
-        """Give an action a key, "" = none, and say so in its tip."""
+        """Give an action its keys, "" = none, and say the first one in its tip."""
         spec, action = self.specs[name], self.by_name[name]
-        action.setShortcut(QKeySequence(key))
-        shown = key or spec.key_hint
+        action.setShortcuts(QKeySequence.listFromString(key))
+        shown = action.shortcut().toString() or spec.key_hint
         action.setToolTip(f"{plain(spec.text)} ({shown})" if shown else plain(spec.text))
 
 

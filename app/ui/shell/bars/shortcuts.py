@@ -26,16 +26,18 @@ class Shortcuts:
             (
                 name
                 for name, action in self._actions.by_name.items()
-                if name != but and not wanted.isEmpty() and action.shortcut() == wanted
+                if name != but and wanted in action.shortcuts()
             ),
             None,
         )
 
     def change(self, name: str, key: str) -> None:
-        """Give an action a key, "" = none; whoever had it loses it."""
-        other = self.owner(key, but=name)
-        if other is not None:
-            self._actions.set_key(other, "")
+        """Give an action its keys, "" = none; whoever had one of them loses that one."""
+        for given in QKeySequence.listFromString(key):
+            other = self.owner(given.toString(), but=name)
+            if other is not None:
+                left = [kept for kept in self._actions[other].shortcuts() if kept != given]
+                self._actions.set_key(other, QKeySequence.listToString(left))
         self._actions.set_key(name, key)
         self._keep()
 
@@ -63,7 +65,7 @@ def changed_keys(actions: Actions) -> dict[str, str]:
     return {
         name: actions.key(name)
         for name, spec in actions.specs.items()
-        if QKeySequence(spec.key) != actions[name].shortcut()
+        if QKeySequence.listFromString(spec.key) != actions[name].shortcuts()
     }
 
 

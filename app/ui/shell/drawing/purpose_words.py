@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QRectF, QSize, Qt
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QEvent, QObject, QPoint, QRectF, Qt
 from PySide6.QtGui import QPainterPath
 from PySide6.QtWidgets import QMenu, QToolButton
 
 from ....core.progress import Progress
 from ....drafting.document import DocumentChange
+from ....geometry.sample import bounds_of_all
 from ....model.curves import Curve
 from ....model.job import Copies, Job
+from ....model.part import Contour
 from ...framework.figures import TIMES
 from ...framework.samples import sample_of
 from ...framework.worker import Worker
@@ -26,6 +31,7 @@ from ...views.canvas.painting.curve_path import chain_path, curve_path
 from ...views.canvas.painting.purpose_layer import PurposeShape
 from .contour_store import ContourStore
 from .proposal_controller import ProposalController
+from .word_places import WordPlaces
 
 if TYPE_CHECKING:
     from ....toolpath.drawn_contours import DrawnContours
@@ -46,7 +52,6 @@ _MOST_CURVES = 5000
 """A drawing of more is not looked through for words."""
 
 _MOST_WORDS = 24
-_GAP_PX, _INSIDE_PX, _TRIED = 4, 10, 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,13 +70,14 @@ class FoundAreas:
 
     Attributes:
         job: whose they are. drawn: its contours. areas: as they are listed.
-        refused: what each cannot become, by the commands' names.
+        refused: what each cannot become, by the commands' names. boxes: (n, 4) x0, y0, x1, y1 of all contours, mm.
     """
 
     job: Job
     drawn: DrawnContours
     areas: tuple[PlacedArea, ...]
     refused: tuple[frozenset[str], ...]
+    boxes: NDArray[np.float64]
 
 
 def found_areas(job: Job, contours: ContourStore, progress: Progress) -> FoundAreas:
@@ -90,7 +96,12 @@ def found_areas(job: Job, contours: ContourStore, progress: Progress) -> FoundAr
     areas = purpose_areas(job, drawn)
     refused = [frozenset(way.name.lower() for way in refusals(drawn, area.numbers)) for area in areas]
     curves = {each.id: each.curve for each in job.part.entities}
-    return FoundAreas(job, drawn, tuple(_placed(job, curves, area) for area in areas), tuple(refused))
+    placed = tuple(_placed(job, curves, area) for area in areas)
+    return FoundAreas(job, drawn, placed, tuple(refused), _boxes((*drawn.closed, *drawn.open)))
+
+
+def _boxes(contours: Sequence[Contour]) -> NDArray[np.float64]:
+    return np.array([bounds_of_all(each.primitives) for each in contours], float).reshape(-1, 4)
 
 
 def _placed(job: Job, curves: dict[int, Curve], area: PurposeArea) -> PlacedArea:
@@ -187,28 +198,18 @@ class PurposeWords(QObject):
 
     def place(self, *_: object) -> None:
         """Put each word at its area, where it covers no other one; be gone while a tool is in hand."""
-        canvas, taken = self._canvas, list[QRect]()
-        shown = self._found is not None and canvas.mode is CanvasMode.DRAW and not canvas.working
+        canvas, found = self._canvas, self._found
+        shown = found is not None and canvas.mode is CanvasMode.DRAW and not canvas.working
         canvas.show_purposes(shown)
-        for word, placed in zip(self.words, self._found.areas if self._found is not None else (), strict=False):
+        if found is None:
+            return
+        places = WordPlaces(canvas.view, canvas.area.toRect(), found.boxes)
+        for word, placed in zip(self.words, found.areas, strict=False):
             word.adjustSize()
-            place = self._beside(placed, word.size(), taken) if shown else None
-            seen = place is not None and canvas.area.toRect().contains(place)
-            word.setVisible(seen)
-            if place is not None and seen:
-                taken.append(place)
+            place = places.take(placed.box, word.size(), placed.shape.filled) if shown else None
+            word.setVisible(place is not None)
+            if place is not None:
                 word.move(place.topLeft())
-
-    def _beside(self, placed: PlacedArea, size: QSize, taken: list[QRect]) -> QRect | None:
-        """Return where a word of a size stands, px: lower where another one is; None where there is no place."""
-        box, view = placed.box, self._canvas.view
-        corners = view.to_screen((box.left(), box.bottom())), view.to_screen((box.right(), box.top()))
-        place = place_at(QRectF(*corners).toRect(), size, placed.shape.filled)
-        for _ in range(_TRIED):
-            if not any(place.intersects(each) for each in taken):
-                return place
-            place.translate(0, size.height() + _GAP_PX)
-        return None
 
     def _open(self, at: int) -> None:
         """Choose the operation, and offer what else its area may be."""
@@ -249,13 +250,3 @@ class PurposeWords(QObject):
 
         assert self._found is not None
         return left_standing(self._document.job, self._found.drawn, area)
-
-
-def place_at(area: QRect, size: QSize, filled: bool) -> QRect:
-    """Return where a word of a size stands, px: in the middle of an area that has room for it, or, where a line is
-    followed, above its lower end; else below it.
-    """
-    room = area.width() > size.width() + 2 * _GAP_PX and area.height() > 3 * size.height()
-    below, middle = area.bottom() + _GAP_PX, area.center().y() - size.height() // 2
-    inside = middle if filled else area.bottom() - size.height() - _INSIDE_PX
-    return QRect(QPoint(area.center().x() - size.width() // 2, inside if room else below), size)

@@ -5,15 +5,25 @@ screen.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache, partial
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QImage, QOpenGLContext, QPainter, QPaintEvent, QResizeEvent, QSurfaceFormat
+from PySide6.QtGui import (
+    QImage,
+    QOffscreenSurface,
+    QOpenGLContext,
+    QPainter,
+    QPaintEvent,
+    QResizeEvent,
+    QSurfaceFormat,
+)
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
-from ....simulation.gpu.graphics import standalone_context
+from ....core.errors import HitofudeError
+from ....simulation.gpu.graphics import is_software, standalone_context
 from .rendering.cut_scene import CutScene
 
 if TYPE_CHECKING:
@@ -23,6 +33,7 @@ T = TypeVar("T")
 Paint = Callable[[CutScene], None]
 
 _NEEDED = (3, 3)
+_GL_RENDERER = 0x1F01
 _FATAL = ("GL_OUT_OF_MEMORY", "GL_UNKNOWN_ERROR")
 """The second one is what a lost context is called here."""
 
@@ -41,6 +52,22 @@ def widgets_have_opengl() -> bool:
     context = QOpenGLContext()
     context.setFormat(surface_format())
     return context.create() and context.format().version() >= _NEEDED
+
+
+@cache
+def widgets_paint_in_software() -> bool:
+    """Return whether the OpenGL of widgets is the processor's work, and no graphics hardware's."""
+    context, place = QOpenGLContext(), QOffscreenSurface()
+    context.setFormat(surface_format())
+    if not context.create():
+        return True
+    place.setFormat(context.format())
+    place.create()
+    if not context.makeCurrent(place):
+        return True
+    name = str(context.functions().glGetString(_GL_RENDERER))
+    context.doneCurrent()
+    return is_software(name)
 
 
 class GlSurface(QOpenGLWidget):
@@ -190,6 +217,10 @@ def _words(fault: Exception) -> str:
 def made_surface(parent: QWidget, paint: Paint, own: bool = True) -> GlSurface | ImageSurface:
     """Return the surface that this screen can have.
 
+    A widget with OpenGL has Qt make the window anew, which is seen and takes the keyboard from it, and put all of it
+    together with OpenGL from then on. That is worth it where hardware does so; the processor takes 20 ms longer for
+    each picture of any view, so what it paints is handed over as a picture.
+
     Args:
         parent: of the widget.
         paint: paints what is due; called with the context current.
@@ -198,7 +229,12 @@ def made_surface(parent: QWidget, paint: Paint, own: bool = True) -> GlSurface |
     Raises:
         HitofudeError: there is no OpenGL 3.3.
     """
-    return GlSurface(parent, paint) if own and widgets_have_opengl() else ImageSurface(parent, paint)
+    if not own or not widgets_have_opengl():
+        return ImageSurface(parent, paint)
+    if widgets_paint_in_software():
+        with suppress(HitofudeError):  # no OpenGL but the screen's
+            return ImageSurface(parent, paint)
+    return GlSurface(parent, paint)
 
 
 def pixel_size(widget: QWidget) -> tuple[int, int]:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QWidget
 
 from ....core.errors import HitofudeError
 from ...framework.boxes import put_away
 from .render_scheduler import RenderScheduler
-from .surface import GlSurface, ImageSurface, made_surface
+from .surface import GlSurface, ImageSurface, Paint, made_surface
 
 MOST = 2
 """Surfaces that may fail before the view gives up: the screen's own, and one apart from it."""
@@ -21,6 +23,7 @@ class SurfaceHost(QObject):
         said(sentence): another surface is used from now on; said once. given_up(sentence): there is none.
 
     Attributes:
+        make: makes a surface of its parent, what paints, and whether it may be one with the screen's OpenGL.
         failure: why nothing can be shown here, or "".
     """
 
@@ -30,6 +33,7 @@ class SurfaceHost(QObject):
     def __init__(self, painting: RenderScheduler, widget: QWidget) -> None:
         super().__init__(widget)
         self._painting, self._widget = painting, widget
+        self.make: Callable[[QWidget, Paint, bool], GlSurface | ImageSurface] = made_surface
         self._making, self._broken, self.failure = False, 0, ""
 
     def need(self) -> None:
@@ -41,7 +45,7 @@ class SurfaceHost(QObject):
             return
         self._making = True
         try:
-            surface = made_surface(self._widget, self._painting.paint, own=not self._broken)
+            surface = self.make(self._widget, self._painting.paint, not self._broken)
         except HitofudeError as error:
             self._give_up(str(error))
             return
