@@ -17,6 +17,7 @@ from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 from .errors import InputError, ParameterError
 from .options import option
@@ -32,7 +33,6 @@ _MUCH = 500_000_000
 
 _UNITS = {"": 1, "K": 10**3, "M": 10**6, "G": 10**9, "T": 10**12}
 _SIZE = re.compile(r"\s*(\d{1,15}(?:\.\d{1,9})?)\s*([KMGT]?)(?:I?B)?\s*", re.IGNORECASE)
-_OPTION = re.compile(r" \(--[^)]*\)")
 _ITSELF = 100 * 10**6
 """Bytes of the program's own code and tables that are loaded as they are wanted, most of them after a command has
 begun.
@@ -42,17 +42,34 @@ _UNKNOWN = 4 * 10**9
 """Bytes that are taken to be there where the system does not tell."""
 
 
+class MemoryRemedy(NamedTuple):
+    """What may be changed so that less memory is taken, or a part of that sentence.
+
+    Attributes:
+        words: such as "use fewer cells". option, value: what says so on the command line; "" = nothing does.
+    """
+
+    words: str
+    option: str = ""
+    value: object = ""
+
+    def with_option(self) -> str:
+        """Return the words, and the option in brackets behind them."""
+        return f"{self.words} ({option(self.option, self.value)})" if self.option else self.words
+
+
 class MemoryShortError(ParameterError):
     """A piece of work would take more memory than it may; nothing of it was taken.
 
     Attributes:
-        what: would take it, as the subject of a sentence. remedy: what to change, with the option in brackets.
+        what: would take it, as the subject of a sentence. remedies: what to change, one behind the other.
         needed, room: bytes.
     """
 
-    def __init__(self, what: str, remedy: str, needed: float, room: float) -> None:
-        self.what, self.remedy, self.needed, self.room = what, remedy, needed, room
-        super().__init__(self._sentence(f" with {option('memory', _asked(self.limit))}"))
+    def __init__(self, what: str, remedies: tuple[MemoryRemedy, ...], needed: float, room: float) -> None:
+        self.what, self.remedies, self.needed, self.room = what, remedies, needed, room
+        advice = "".join(remedy.with_option() for remedy in remedies)
+        super().__init__(self._sentence(advice, f" with {option('memory', _asked(self.limit))}"))
 
     @property
     def limit(self) -> int:
@@ -62,13 +79,14 @@ class MemoryShortError(ParameterError):
 
     def in_window(self) -> str:
         """Return the sentence for somebody who has menus instead of options."""
-        return _OPTION.sub("", self._sentence(" in the menu Compute, Memory of a job"))
+        advice = "".join(remedy.words for remedy in self.remedies)
+        return self._sentence(advice, " in the menu Compute, Memory of a job")
 
-    def _sentence(self, how: str) -> str:
+    def _sentence(self, advice: str, how: str) -> str:
         more = f", or allow more{how}" if self.limit else ""
         return (
             f"{self.what} would take {in_words(self.needed)} of memory, and {in_words(self.room)} may be taken; "
-            f"{self.remedy}{more}."
+            f"{advice}{more}."
         )
 
 
@@ -102,20 +120,20 @@ def room() -> int:
     return max(0, min(budget.limit - budget.taken(), budget.limit if free is None else free))
 
 
-def ask(needed: float, what: str, remedy: str) -> None:
+def ask(needed: float, what: str, *remedies: MemoryRemedy) -> None:
     """Ask for memory before it is taken.
 
     Args:
         needed: bytes, of all that is there at a time.
         what: takes it, as the subject of a sentence, such as "A grid of 20000 x 10000 cells".
-        remedy: what to change, with the command line's option in brackets: "use fewer cells (--grid 9000)".
+        remedies: what to change, one or several that are read as one: "use a larger tool", " or stepover".
 
     Raises:
         MemoryShortError: there is not as much.
     """
     there = room()
     if needed > max(there, _SMALL):
-        raise MemoryShortError(what, remedy, needed, there)
+        raise MemoryShortError(what, remedies, needed, there)
 
 
 def portion(each: float, least: int = 4096) -> int:

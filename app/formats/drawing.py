@@ -2,12 +2,51 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import Enum
 from typing import NamedTuple
 
 from ..model.finding import Finding
 from ..model.part import Part
 from .reading_question import NO_CHOICE, FileContents, ReadingQuestion
+
+MOST_LETTERS = 10_000
+"""Of one text; more is no text."""
+
+
+class LeftOutReason(Enum):
+    """Why something is left out of a drawing, in the words that stand in brackets behind its type."""
+
+    DAMAGED = "damaged"
+    INVISIBLE = "invisible"
+    UNPAINTED = "without stroke and fill"
+    CLIPPED = "clipped away"
+    GROUND = "white ground of the page"
+    AS_ASKED = "as asked"
+    TOO_LONG = f"of more than {MOST_LETTERS} letters"
+    FILLS_LENGTH = "vertical, to fill a length"
+
+
+class LeftOutSort(NamedTuple):
+    """What is left out of a drawing alike.
+
+    Attributes:
+        kind: its type, such as TEXT. reason: why one of this type is left out that others are read; None = nobody reads
+            this type, or its outlines are elsewhere.
+    """
+
+    kind: str
+    reason: LeftOutReason | None = None
+
+    @property
+    def said(self) -> str:
+        """What it is called in sentences."""
+        return self.kind if self.reason is None else f"{self.kind} ({self.reason.value})"
+
+
+LeftOutCounts = Mapping[LeftOutSort, int]
+"""How many of each sort are left out."""
 
 
 class LeftOutKind(NamedTuple):
@@ -15,6 +54,11 @@ class LeftOutKind(NamedTuple):
 
     kind: str
     number: int
+
+
+def left_out_kinds(counts: LeftOutCounts) -> tuple[LeftOutKind, ...]:
+    """Return what is left out as sentences have it, in the order of the alphabet."""
+    return tuple(sorted(LeftOutKind(sort.said, count) for sort, count in counts.items()))
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import numpy as np
 from ..core import tolerances
 from ..core.errors import InputError
 from ..core.options import option
-from ..core.wording import place_mm, together
+from ..core.wording import place_mm
 from ..geometry.affine import Affine, transformed
 from ..geometry.chaining.pieces import FARTHEST, straightened, within_reach
 from ..geometry.sample import bounds, bounds_of_all
@@ -22,20 +22,21 @@ from ..model.finding import Finding, FindingKind
 from ..model.notes import Mark
 from ..model.part import Entity, Part, Units
 from ..model.reading import ReadingOptions
+from .drawing import LeftOutCounts, LeftOutReason, LeftOutSort, left_out_kinds
 from .reading_question import ReadingQuestion, Size, strays_question
 
 MOST_CURVES = 500_000
 """A drawing that unfolds to more curves than this is refused before it fills the memory."""
 
-BEYOND = "curve beyond 1 km or without a place"
+BEYOND = LeftOutSort("curve beyond 1 km or without a place")
 _GONE = {True: "is missing from the part", False: "are missing from the part"}
-PAPER = "paper space entity"
+PAPER = LeftOutSort("paper space entity")
 _SAYING = """
     ATTDEF ATTRIB ACAD_TABLE ARC_DIMENSION DIMENSION LARGE_RADIAL_DIMENSION LEADER MLEADER MULTILEADER TOLERANCE RTEXT
     POINT RAY XLINE IMAGE WIPEOUT OLEFRAME OLE2FRAME PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY VIEWPORT LIGHT SUN CAMERA
     SECTIONOBJECT GEOPOSITIONMARKER POSITIONMARKER image foreignObject video audio iframe canvas
 """
-_NO_SHAPES = frozenset([*_SAYING.split(), PAPER])
+_NO_SHAPES = frozenset([*_SAYING.split(), PAPER.kind])
 """What says or shows something of the drawing, and is no part of it. All else has outlines for whoever sees it, also
 what nobody here has heard of.
 """
@@ -97,8 +98,8 @@ class UsableCurves:
     sources: tuple[int, ...] = ()
 
     @property
-    def missing(self) -> Counter[str]:
-        """Curves that are lost, by what they are called in an account."""
+    def missing(self) -> Counter[LeftOutSort]:
+        """Curves that are lost."""
         return +Counter({BEYOND: len(self.far) + self.placeless})
 
 
@@ -309,9 +310,9 @@ def switched_off(part: Part, requested: tuple[str, ...]) -> Iterator[Finding]:
     yield remark(f"{who} switched off or frozen; {what} not machined. {advice}", float(count))
 
 
-def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
+def all_left_out(left_out: Counter[LeftOutSort]) -> Iterator[Finding]:
     """Count what is no curve, by type, and what cannot be drawn or is elsewhere, which is missing from the part."""
-    absent = Counter({kind: count for kind, count in left_out.items() if _is_shape(kind)})
+    absent = Counter({sort: count for sort, count in left_out.items() if _is_shape(sort)})
     if absent:
         text = (
             f"{listed(absent, 'Missing from the part: ')}, whose outlines are not in the file or cannot be read; bind "
@@ -319,7 +320,7 @@ def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
         )
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(absent.total()))
     left_out = left_out - absent
-    damaged = Counter({kind: count for kind, count in left_out.items() if kind.endswith("(damaged)")})
+    damaged = Counter({sort: count for sort, count in left_out.items() if sort.reason is LeftOutReason.DAMAGED})
     if damaged:
         text = f"{listed(damaged, 'Missing from the part: ')}, which cannot be read; repair or draw what this is again."
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(damaged.total()))
@@ -329,20 +330,18 @@ def all_left_out(left_out: Counter[str]) -> Iterator[Finding]:
         )
 
 
-def _is_shape(kind: str) -> bool:
-    """Tell whether what is left out is a part of the drawing; kinds that end with a bracket say why they are not, or
-    that they are damaged.
-    """
-    return kind not in _NO_SHAPES and not kind.endswith(")")
+def _is_shape(sort: LeftOutSort) -> bool:
+    """Tell whether what is left out is a part of the drawing: not what is left out for a reason of its own."""
+    return sort.reason is None and sort.kind not in _NO_SHAPES
 
 
-def _remedy(left_out: Counter[str]) -> str:
+def _remedy(left_out: LeftOutCounts) -> str:
     """Return what to do about texts that are not read as they stand, or nothing."""
-    ways = [("to fill a length)", "let letters run to the right")]
-    named = [way for kind, way in ways if any(each.endswith(kind) for each in left_out)]
-    return f" To machine them, {together(named)}, or turn them into curves, where they were drawn." if named else ""
+    if not any(sort.reason is LeftOutReason.FILLS_LENGTH for sort in left_out):
+        return ""
+    return " To machine them, let letters run to the right, or turn them into curves, where they were drawn."
 
 
-def listed(left_out: Counter[str], before: str) -> str:
+def listed(left_out: LeftOutCounts, before: str) -> str:
     """Return "before 2 TEXT, 1 IMAGE", or nothing."""
-    return before + ", ".join(f"{count} {kind}" for kind, count in sorted(left_out.items())) if left_out else ""
+    return before + ", ".join(f"{count} {kind}" for kind, count in left_out_kinds(left_out)) if left_out else ""

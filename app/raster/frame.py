@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.errors import ParameterError
-from ..core.memory import ask, fewer
-from ..core.options import option
+from ..core.memory import MemoryRemedy, ask, fewer
 
 Floats = NDArray[np.float64]
 
@@ -75,13 +74,15 @@ class BitmapFrame:
         needed, longer = self.rows * self.cols * each, max(self.rows, self.cols)
         fits = fewer(longer, needed, 2)
         pitch = f"{self.pitch * longer / fits:.2g}"
-        remedy = (
-            f"make the picture smaller, at most {fits} px along its longer side"
+        remedies = (
+            [MemoryRemedy(f"make the picture smaller, at most {fits} px along its longer side")]
             if picture
-            else f"use at most {fits} px along a side ({option('bitmap', fits)}), or pixels of {pitch} mm or more "
-            f"({option('pitch', pitch)})"
+            else [
+                MemoryRemedy(f"use at most {fits} px along a side", "bitmap", fits),
+                MemoryRemedy(f", or pixels of {pitch} mm or more", "pitch", pitch),
+            ]
         )
-        ask(needed, f"A bitmap of {self.cols} x {self.rows} px", remedy)
+        ask(needed, f"A bitmap of {self.cols} x {self.rows} px", *remedies)
 
     def to_px(self, points: Floats) -> Floats:
         """Return (n, 2) image coordinates (column, row from the top) of points (n, 2) in mm; px (r, c) spans [c, c+1) x

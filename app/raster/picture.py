@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core.errors import InputError, ParameterError
-from ..core.memory import ask, fewer
+from ..core.memory import MemoryRemedy, ask, fewer
 from ..core.options import option
 from .frame import PATH_BYTES
 from .picture_file import MM_PER_INCH, Gray, PictureDensity, decoded, density_of, picture_size
@@ -86,7 +86,9 @@ def _ask_memory(name: str, size: tuple[int, int]) -> None:
     needed = cols * rows * PATH_BYTES
     fits = fewer(max(size), needed, 2)
     ask(
-        needed, f"{name}, a picture of {cols} x {rows} px,", f"make it smaller, at most {fits} px along its longer side"
+        needed,
+        f"{name}, a picture of {cols} x {rows} px,",
+        MemoryRemedy(f"make it smaller, at most {fits} px along its longer side"),
     )
 
 

@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import tolerances
-from ..core.memory import ask, fitting, portion
-from ..core.options import option
+from ..core.memory import MemoryRemedy, ask, fitting, portion
 from ..core.pool import in_bands
 from ..core.progress import Progress
 from ..geometry.distance import DistanceField
@@ -143,8 +142,8 @@ class CentreReach:
         ask(
             needed,
             f"Clearing what is left with a tool of {2 * self.radius:g} mm",
-            f"use one of {larger} mm or more ({option('contour-tool', larger)}), or a smaller one before it "
-            f"({option('pocket-tool')})",
+            MemoryRemedy(f"use one of {larger} mm or more", "contour-tool", larger),
+            MemoryRemedy(", or a smaller one before it", "pocket-tool"),
         )
 
 

@@ -16,8 +16,10 @@ import numpy as np
 import pytest
 
 from app.cli.main import main, memory_given
+from app.core.catalogue import catalogue
 from app.core.errors import InputError
 from app.core.memory import (
+    MemoryRemedy,
     MemoryShortError,
     ask,
     budget_limit,
@@ -99,7 +101,7 @@ def test_what_is_taken_is_no_longer_there() -> None:
 
 def test_what_is_too_much_is_refused_in_one_line() -> None:
     with within(50_000_000), pytest.raises(MemoryShortError) as told:
-        ask(2e9, "A grid of 9 x 9 cells", f"use fewer cells (--grid {fewer(9, 2e9, 2)})")
+        ask(2e9, "A grid of 9 x 9 cells", MemoryRemedy("use fewer cells", "grid", fewer(9, 2e9, 2)))
     said = str(told.value)
     assert re.fullmatch(
         r"A grid of 9 x 9 cells would take 2 GB of memory, and [45]\d(\.\d)? MB may be taken; "
@@ -113,14 +115,14 @@ def test_what_is_too_much_is_refused_in_one_line() -> None:
 
 def test_nobody_is_told_to_allow_what_the_machine_has_not() -> None:
     with within(50_000_000), pytest.raises(MemoryShortError, match=r"use less\.$"):
-        ask(2.0 * machine_memory(), "This", "use less")
+        ask(2.0 * machine_memory(), "This", MemoryRemedy("use less"))
 
 
 def test_parts_fit() -> None:
     with within(100_000_000):
         count = portion(1000.0)
         assert 30_000 <= count <= 50_000
-        ask(count * 1000.0, "These", "use less")
+        ask(count * 1000.0, "These", MemoryRemedy("use less"))
         assert portion(1e12) == 4096 and portion(1e12, 7) == 7
         assert fewer(20_000, 400_000_000, 2) in (9_900, 10_000)  # what others take changes meanwhile
         assert fewer(20_000, 100.0) == 20_000
@@ -216,3 +218,24 @@ print(held - memory.resident())
 """
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert int(told.stdout) > 100_000_000
+
+
+@pytest.mark.parametrize(
+    ("what", "remedy"),
+    [
+        ("A program of 9,000 lines", "cut it in parts of at most 70 lines"),
+        ("A bitmap of 90 x 80 px", "use at most 7 px along a side, or pixels of 0.5 mm or more"),
+        ("A bitmap of 90 x 80 px", "make the picture smaller, at most 7 px along its longer side"),
+        ("9.png, a picture of 90 x 80 px,", "make it smaller, at most 7 px along its longer side"),
+        ("Passes on 9,000 planes", "set them 0.5 mm apart or more (pitch = 0.5 in the scene)"),
+        ("A pocket of 9,000 rings, 0.1 mm from one to the next,", "use a larger tool or stepover"),
+        ("Clearing what is left with a tool of 0.1 mm", "use one of 0.5 mm or more, or a smaller one before it"),
+        ("A grid of 90 x 80 cells", "use at most 7 cells along its longer side"),
+    ],
+)
+def test_a_window_in_japanese_says_it_in_japanese(what: str, remedy: str) -> None:
+    with within(50_000_000), pytest.raises(MemoryShortError) as told:
+        ask(2e9, what, MemoryRemedy(remedy, "grid", 7))
+    shown = catalogue("ja").look_up(told.value.in_window())
+    assert shown is not None and "計算、ジョブのメモリ" in shown
+    assert not re.search("[A-Za-z]{4,}", shown.replace("pitch", ""))

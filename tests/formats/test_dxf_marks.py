@@ -152,3 +152,9 @@ def test_what_cannot_be_read_is_missing_and_the_rest_is_read(kind: str, marks: s
     drawing = read(stream.getvalue().replace("  0\nLINE\n", f"{broken}  0\nLINE\n"))
     assert [curve for _, curve in seen(drawing)] == [Line((0, 0), (9, 0))]
     assert any(each.counts and f"1 {kind} (damaged)" in each.text for each in drawing.findings)
+
+
+def test_what_nobody_has_heard_of_is_missing_also_where_its_name_ends_with_a_bracket() -> None:
+    thing = "0\nTHING(2)\n5\nFFF\n100\nAcDbEntity\n8\n0\n10\n1\n20\n2\n"
+    drawing = read(LINE.replace("0\nLINE", f"{thing}0\nLINE"))
+    assert any(each.counts and "1 THING(2)" in each.text for each in drawing.findings)

@@ -44,7 +44,7 @@ class _Said:
 
 CALLS = {
     "Finding": _Said((1,), ("text",)),
-    "ask": _Said((0,), ("sentence",)),
+    "ask": _Said((0, 1), ("sentence",)),
     "note": _Said((1,), ("reply",)),
     "step": _Said((1,), ("text",)),
     "remark": _Said((0,)),

@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject
 from shiboken6 import delete
 
 from app.core.errors import InputError
-from app.core.memory import ask, within
+from app.core.memory import MemoryRemedy, ask, within
 from app.core.progress import Progress
 from app.ui.framework.worker import Worker
 
@@ -174,7 +174,7 @@ def test_what_only_a_job_holds_dies_on_the_windows_thread(qtbot, worker):
 
 def test_what_is_too_much_memory_is_a_sentence_without_options(qtbot, worker):
     with within(50_000_000), qtbot.waitSignal(worker.failed) as caught:
-        worker.start(lambda progress: ask(2e9, "A grid of 9 x 9 cells", "use fewer cells (--grid 4)"), 1)
+        worker.start(lambda progress: ask(2e9, "A grid of 9 x 9 cells", MemoryRemedy("use fewer cells", "grid", 4)), 1)
     error = caught.args[0].error
     assert error.startswith("A grid of 9 x 9 cells would take 2 GB of memory, and 50 MB may be taken; use fewer cells")
     assert "--" not in error and "\n" not in error

@@ -15,6 +15,7 @@ from ...core.errors import HitofudeError, InputError
 from ...core.options import option
 from ...geometry.affine import Affine, transformed
 from ...model.curves import Curve, Point
+from ..drawing import LeftOutReason, LeftOutSort
 from ..drawing_account import LEVEL_ZERO, MOST_CURVES, LayeredCurve
 from .curves import (
     DamagedCurveError,
@@ -30,6 +31,7 @@ from .curves import (
 from .fonts import Fonts
 from .hatch import Hatch, bounding_alone, hatch_of, solid_of
 from .letters import LeftOutError, TextCurves
+from .subclass_marks import DAMAGED
 
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 _FILLED = {"HATCH": hatch_of, "SOLID": solid_of, "TRACE": solid_of}
@@ -100,8 +102,14 @@ class UnreadText:
     """A text of a sort that is not read, or a curve that cannot be drawn; its place in drawing units."""
 
     at: Point
-    sort: str
+    sort: LeftOutSort
     layer: str
+
+
+def _sort_of(kind: str) -> LeftOutSort:
+    """Return what an entity of a kind that is not read is left out as."""
+    name = kind.removesuffix(DAMAGED)
+    return LeftOutSort(name, None if name == kind else LeftOutReason.DAMAGED)
 
 
 def _place_of(entity: Any) -> Point:
@@ -124,7 +132,7 @@ class DxfContent:
     Attributes:
         curves: in the sheet's own coordinates, drawing units.
         points: its points, each on its layer. letterings: what its texts draw. hatches: boundaries of its hatches.
-        left_out: entities that are no curves, by type.
+        left_out: entities that are no curves.
         without_length: places of entities that draw nothing, None where there is no place.
         hidden: blocks inserted on frozen layers.
         negative: circles and arcs that nobody knows how to draw.
@@ -137,7 +145,7 @@ class DxfContent:
     points: list[LayeredPoint] = field(default_factory=list)
     letterings: list[TextCurves] = field(default_factory=list)
     hatches: list[Hatch] = field(default_factory=list)
-    left_out: Counter[str] = field(default_factory=Counter)
+    left_out: Counter[LeftOutSort] = field(default_factory=Counter)
     without_length: list[Point | None] = field(default_factory=list)
     hidden: list[HiddenInsert] = field(default_factory=list)
     negative: list[NegativeRadius] = field(default_factory=list)
@@ -233,15 +241,15 @@ class DxfWalker:
             except HitofudeError:
                 raise
             except Exception:  # whatever an entity of a damaged file lacks: it is one that draws nothing
-                content.left_out[f"{kind} (damaged)"] += 1
+                content.left_out[LeftOutSort(kind, LeftOutReason.DAMAGED)] += 1
             self._bounded(content.size)
         return content
 
     def _one(self, entity: Any, kind: str, content: DxfContent) -> None:
         if entity.dxf.hasattr("invisible") and entity.dxf.invisible:
-            content.left_out[f"{kind} (invisible)"] += 1
+            content.left_out[LeftOutSort(kind, LeftOutReason.INVISIBLE)] += 1
         elif kind in self._without:
-            content.left_out[f"{kind} (as asked)"] += 1
+            content.left_out[LeftOutSort(kind, LeftOutReason.AS_ASKED)] += 1
         elif kind == "INSERT":
             self._insert(entity, content)
         elif kind == "POINT":
@@ -258,21 +266,21 @@ class DxfWalker:
             content.without_length.append(nothing.args[0])
             return
         except DamagedCurveError as damaged:
-            content.left_out[f"{kind} (damaged)"] += 1
-            at = damaged.args[0]
+            sort, at = LeftOutSort(kind, LeftOutReason.DAMAGED), damaged.args[0]
+            content.left_out[sort] += 1
             if at is not None and all(map(isfinite, at)):
-                content.unread.append(UnreadText(at, f"{kind} (damaged)", entity.dxf.layer))
+                content.unread.append(UnreadText(at, sort, entity.dxf.layer))
             return
         except LeftOutError as left:
-            content.left_out[left.args[0]] += 1
-            content.unread.append(UnreadText(_place_of(entity), left.args[0], entity.dxf.layer))
+            content.left_out[left.sort] += 1
+            content.unread.append(UnreadText(_place_of(entity), left.sort, entity.dxf.layer))
             return
         except NegativeRadiusError as negative:
             at, radius = negative.args
             content.negative.append(NegativeRadius(at, radius, entity.dxf.layer))
             return
         if curves is None:
-            content.left_out[kind] += 1
+            content.left_out[_sort_of(kind)] += 1
             return
         content.see(heights_of(entity))
         lies = drawn_heights(entity) if curves else LEVEL_ZERO
@@ -310,8 +318,8 @@ class DxfWalker:
         block = insert.block()
         outside = block is not None and block.block.is_xref and not len(block)
         if block is None or outside:
-            content.left_out[f"INSERT of {'an external drawing' if outside else 'a missing block'}"] += 1
-            content.left_out["ATTRIB"] += len(insert.attribs)
+            content.left_out[LeftOutSort(f"INSERT of {'an external drawing' if outside else 'a missing block'}")] += 1
+            content.left_out[LeftOutSort("ATTRIB")] += len(insert.attribs)
             return
         inner = self._block(insert.dxf.name, insert)
         places = max(insert.dxf.row_count, 1) * max(insert.dxf.column_count, 1)
@@ -323,8 +331,8 @@ class DxfWalker:
                 HiddenInsert(insert.dxf.layer, insert.dxf.name, next(iter(_origins(insert)), None), layers * places)
             )
             return
-        for kind, count in inner.left_out.items():
-            content.left_out[kind] += count * places
+        for sort, count in inner.left_out.items():
+            content.left_out[sort] += count * places
         if inner.any_height:
             content.see(z + insert.dxf.insert.z for z in inner.heights)
         points = self._points(inner, places, content)
@@ -344,17 +352,19 @@ class DxfWalker:
         """Return the points of a block that are put in so many places; too many are counted as left out."""
         if len(content.points) + len(inner.points) * places <= MOST_POINTS:
             return inner.points
-        content.left_out["POINT"] += len(inner.points) * places
+        content.left_out[LeftOutSort("POINT")] += len(inner.points) * places
         return []
 
     def _attributes(self, insert: Any, copies: list[Affine], content: DxfContent) -> None:
         """Add the attributes of a block, which lie where the block is inserted first, with every copy of it."""
         own = self.content(attribute for attribute in insert.attribs if not attribute.is_invisible)
-        own.left_out["ATTRIB (invisible)"] += sum(bool(attribute.is_invisible) for attribute in insert.attribs)
+        own.left_out[LeftOutSort("ATTRIB", LeftOutReason.INVISIBLE)] += sum(
+            bool(attribute.is_invisible) for attribute in insert.attribs
+        )
         self._bounded(content.size + own.size * len(copies), insert)
         for place in copies:
             self._copy(own, Affine(x0=place.x0 - copies[0].x0, y0=place.y0 - copies[0].y0), insert.dxf.layer, content)
-        content.left_out += Counter({kind: count * len(copies) for kind, count in own.left_out.items()})
+        content.left_out += Counter({sort: count * len(copies) for sort, count in own.left_out.items()})
         if own.any_height:
             content.see(own.heights)
 

@@ -6,7 +6,6 @@ import math
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import starmap
 from pathlib import PurePath
 from typing import Any
 
@@ -20,7 +19,7 @@ from ...model.notes import Mark, Note
 from ...model.part import Entity, Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
-from ..drawing import Drawing, LeftOutKind
+from ..drawing import Drawing, LeftOutSort, left_out_kinds
 from ..drawing_account import (
     PAPER,
     CurveHeights,
@@ -140,7 +139,9 @@ def read_dxf(
     part = replace(part, notes=marks, used_id=len(found.entities) + len(marks), depths=depths)
     names = tuple(layer.name for layer in part.layers)
     part = on_layers(part, layers, name)
-    left_out = content.left_out + Counter({PAPER: others.total(), "POINT": len(content.points) - len(marks)})
+    left_out = content.left_out + Counter(
+        {PAPER: others.total(), LeftOutSort("POINT"): len(content.points) - len(marks)}
+    )
     nothing = [None if p is None else to_mm.point(p) for p in content.without_length] + found.nothing
     findings = [
         *_unit_findings(units, unit),
@@ -167,7 +168,7 @@ def read_dxf(
     return Drawing(
         part,
         tuple(findings),
-        tuple(starmap(LeftOutKind, sorted((+left_out + found.missing).items()))),
+        left_out_kinds(+left_out + found.missing),
         unit.named,
         contents,
         question,
@@ -231,7 +232,9 @@ def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) 
 
 def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> str:
     """Return why a drawing has nothing to machine, and what to do."""
-    left_out = content.left_out + found.missing + Counter({PAPER: others.total(), "POINT": len(content.points)})
+    left_out = (
+        content.left_out + found.missing + Counter({PAPER: others.total(), LeftOutSort("POINT"): len(content.points)})
+    )
     said = listed(+left_out, "; left out: ")
     if found.far and found.moved is None:
         return (

@@ -55,7 +55,11 @@ def about_unread(content: DxfContent, size: float) -> Iterator[Finding]:
         alike = [each for each in content.unread if each.sort == sort]
         x, y = alike[0].at[0] * size, alike[0].at[1] * size
         count, where = len(alike), f"at ({place_mm(x)}, {place_mm(y)}) on layer {alike[0].layer}"
-        text = f"1 {sort} {where} is not read." if count == 1 else f"{count} {sort} are not read, the first {where}."
+        text = (
+            f"1 {sort.said} {where} is not read."
+            if count == 1
+            else f"{count} {sort.said} are not read, the first {where}."
+        )
         yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(count), layer=alike[0].layer)
 
 

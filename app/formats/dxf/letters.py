@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from ...geometry.affine import IDENTITY, Affine, transformed
 from ...geometry.stroke_font import placed
 from ...model.curves import Curve, Line, Point
+from ..drawing import LeftOutReason, LeftOutSort
 from .codes import TextBar
 from .fonts import FontName, Fonts, LetterSet
 
@@ -19,7 +20,15 @@ _THICK = 1 / 14
 
 
 class LeftOutError(Exception):
-    """A text is of a sort that is not read; the argument is what it is called in the account of what is left out."""
+    """A text is of a sort that is not read.
+
+    Attributes:
+        sort: which one.
+    """
+
+    def __init__(self, kind: str, reason: LeftOutReason) -> None:
+        self.sort = LeftOutSort(kind, reason)
+        super().__init__(self.sort.said)
 
 
 @dataclass(frozen=True, slots=True)

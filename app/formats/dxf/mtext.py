@@ -9,13 +9,13 @@ from typing import Any
 
 from ...geometry.affine import Affine
 from ...model.curves import Curve
+from ..drawing import MOST_LETTERS, LeftOutReason
 from .codes import TextBar, legible, numbered_signs
 from .columns import ONE_COLUMN, LetterColumns
 from .curves import NoLengthError
 from .fonts import FontName, Fonts, style_font
 from .letter_boxes import LetterBox, LetterLine
 from .letters import LeftOutError, LetterStyle, TextCurves, lettered, run_of
-from .text import MOST_LETTERS
 from .vertical import DownColumn, PlacedBox, is_vertical, stacked
 
 _APART = 5 / 3
@@ -61,7 +61,7 @@ def mtext_lettering(entity: Any, fonts: Fonts) -> TextCurves:
     flow = dxf.get("flow_direction", 1)
     down = flow == _DOWNWARD or (flow == _AS_STYLED and is_vertical(style))
     if len(entity.text) > MOST_LETTERS:
-        raise LeftOutError(f"MTEXT (of more than {MOST_LETTERS} letters)")
+        raise LeftOutError("MTEXT", LeftOutReason.TOO_LONG)
     if not dxf.char_height > 0:
         raise NoLengthError(at)
     first = LetterStyle(

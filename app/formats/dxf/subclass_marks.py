@@ -19,6 +19,8 @@ _OWN = {
 _MARKED = frozenset({*_OWN, "HELIX", "WIPEOUT", "MESH", "MULTILEADER"})
 """Kinds that R12 does not know, and that are read as one of R12 in a file that says nothing of its version."""
 _ALL_KINDS = "AcDbEntity"
+DAMAGED = " (damaged)"
+"""What is put behind the kind of an entity that cannot be read, so that it is one that nobody knows."""
 
 _COMMON = frozenset({6, 8, 48, 60, 62, 67, 370, 410, 420, 430, 440})
 """Codes of what all kinds have: line type, layer, its scale, whether it is seen, colour, paper, weight, layout."""
@@ -81,7 +83,7 @@ def _call_damaged(tags: Any) -> None:
 
     head = {tag.code: tag for tag in reversed(tags) if tag.code in (_HANDLE, _OWNER)}  # the first of each
     common = [tag for tag in tags if tag.code in _COMMON]
-    tags[:] = [DXFTag(0, f"{tags[0].value} (damaged)"), *head.values(), DXFTag(_MARK, _ALL_KINDS), *common]
+    tags[:] = [DXFTag(0, f"{tags[0].value}{DAMAGED}"), *head.values(), DXFTag(_MARK, _ALL_KINDS), *common]
 
 
 def _drawn(sections: Sections) -> Iterator[list[Any]]:

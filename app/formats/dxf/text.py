@@ -10,15 +10,13 @@ from typing import Any
 
 from ...geometry.affine import Affine
 from ...model.curves import Point
+from ..drawing import MOST_LETTERS, LeftOutReason
 from .codes import stretches
 from .curves import NoLengthError, plane_of
 from .fonts import Fonts, style_font
 from .letter_boxes import LetterBox
 from .letters import LeftOutError, LetterRun, LetterStyle, TextCurves, lettered, run_of
 from .vertical import is_vertical, stacked
-
-MOST_LETTERS = 10_000
-"""Of one text; more is no text."""
 
 _BACKWARD, _UPSIDE_DOWN = 2, 4
 _LEFT, _CENTRE, _RIGHT, _ALIGNED, _MIDDLE, _FIT = range(6)
@@ -35,7 +33,7 @@ def text_lettering(entity: Any, fonts: Fonts) -> TextCurves:
     dxf, kind = entity.dxf, entity.dxftype()
     style = fonts.style(entity.dxf.style)
     if len(dxf.text) > MOST_LETTERS:
-        raise LeftOutError(f"{kind} (of more than {MOST_LETTERS} letters)")
+        raise LeftOutError(kind, LeftOutReason.TOO_LONG)
     place = _Baseline.of(dxf)
     if not (dxf.height > 0 and dxf.width > 0):
         raise NoLengthError(place.at)
@@ -44,7 +42,7 @@ def text_lettering(entity: Any, fonts: Fonts) -> TextCurves:
     flags, plane = int(dxf.text_generation_flag), plane_of(entity, dxf.insert.z)
     if is_vertical(style):
         if place.length:
-            raise LeftOutError(f"{kind} (vertical, to fill a length)")
+            raise LeftOutError(kind, LeftOutReason.FILLS_LENGTH)
         cells = stacked([LetterBox.of(run) for run in runs], fonts)
         drawn = [pair for cell in cells for pair in cell.box.curves(cell.x, cell.y)]
         frame = _frame_down(place, min((cell.y for cell in cells), default=0.0), flags)

@@ -6,7 +6,6 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from itertools import starmap
 from pathlib import PurePath
 
 from ...core.errors import InputError
@@ -16,7 +15,7 @@ from ...model.finding import Finding, FindingKind
 from ...model.part import Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
-from ..drawing import Drawing, LeftOutKind
+from ..drawing import Drawing, LeftOutSort, left_out_kinds
 from ..drawing_account import (
     UsableCurves,
     all_left_out,
@@ -51,6 +50,8 @@ from .xml import Node, read_xml
 
 HITOFUDE = "urn:hitofude:svg"
 """Namespace of what only this program writes: the attribute `zero`, the part's zero in user units of the page."""
+_TEXTS = frozenset(map(LeftOutSort, TEXTS))
+"""Texts that are seen, which have a sentence of their own."""
 _SHOWN = {"in": Units.INCH, "cm": Units.CM}
 
 
@@ -105,7 +106,9 @@ def read_svg(
         return usable_curves(content.curves, None, _anchors(content, layers, how.without_layers) if to_zero else None)
 
     found = placed(how.to_zero)
-    left_out = +(content.left_out + found.missing + Counter({"shape of unreadable length": len(content.unread)}))
+    left_out = +(
+        content.left_out + found.missing + Counter({LeftOutSort("shape of unreadable length"): len(content.unread)})
+    )
     if not found.entities:
         why = (
             "all of the drawing lies beyond 1 km"
@@ -130,7 +133,7 @@ def read_svg(
         *without_length(content.nothing + found.nothing),
         *paint_findings(content),
         *switched_off(part, layers),
-        *all_left_out(Counter({kind: count for kind, count in content.left_out.items() if kind not in TEXTS})),
+        *all_left_out(Counter({sort: count for sort, count in content.left_out.items() if sort not in _TEXTS})),
     ]
     own = density_of(root)
     contents = FileContents(
@@ -142,9 +145,7 @@ def read_svg(
     question = strays_or_none(found, reading, placed)
     if question is None and not (page.named or units or how.pixels_per_inch):
         question = _about_pixels(root, density, size_of(part), page.to, reading)
-    return Drawing(
-        part, tuple(findings), tuple(starmap(LeftOutKind, sorted(left_out.items()))), page.named, contents, question
-    )
+    return Drawing(part, tuple(findings), left_out_kinds(left_out), page.named, contents, question)
 
 
 @dataclass(frozen=True)

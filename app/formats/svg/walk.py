@@ -17,6 +17,7 @@ from ...geometry.affine import IDENTITY, Affine, transformed
 from ...geometry.sample import Box, bounds_of_all
 from ...model.curves import Circle, Curve, Ellipse, Line, Point, Spline
 from ...model.part import Layer
+from ..drawing import LeftOutReason, LeftOutSort
 from ..drawing_account import MOST_CURVES, LayeredCurve
 from ..dxf.splines import MOST_POINTS
 from .clips import Clip, ClipReader, Seen, covers, seen_of, viewport_clip
@@ -79,7 +80,7 @@ class SvgContent:
 
     Attributes:
         curves: mm, y upwards.
-        left_out: elements that are no curves or draw none, by type.
+        left_out: elements that are no curves or draw none.
         nothing: places of shapes without length.
         faults: shapes whose data cannot be read to the end.
         unread: shapes that are missing, for a length of theirs cannot be read: it, and its line.
@@ -96,7 +97,7 @@ class SvgContent:
     """
 
     curves: list[LayeredCurve] = field(default_factory=list)
-    left_out: Counter[str] = field(default_factory=Counter)
+    left_out: Counter[LeftOutSort] = field(default_factory=Counter)
     nothing: list[Point | None] = field(default_factory=list)
     faults: list[SvgFault] = field(default_factory=list)
     unread: list[SvgFault] = field(default_factory=list)
@@ -178,7 +179,7 @@ class SvgWalker:
     def _without_ground(self, content: SvgContent) -> None:
         """Leave out the ground that editors and plotting programs lay under a page, unless it is all that there is."""
         if content.ground and content.curves:
-            content.left_out["shape (white ground of the page)"] += 1
+            content.left_out[LeftOutSort("shape", LeftOutReason.GROUND)] += 1
         elif content.ground:
             content.curves += content.ground
             content.layers.setdefault(content.ground[0].layer, LayerNote())
@@ -212,7 +213,7 @@ class SvgWalker:
 
     def _one(self, node: Node, outer: InheritedState) -> None:
         if node.tag in _NOT_CURVES:
-            self._sheet.left_out[node.tag] += 1
+            self._sheet.left_out[LeftOutSort(node.tag)] += 1
         elif node.tag in TEXTS:
             self._text(node, self._inside(node, outer))
         elif node.tag in SHAPES or node.tag in _CONTAINERS:
@@ -233,9 +234,9 @@ class SvgWalker:
         """Note a text, which is not read; one without letters, or that nobody sees, is nothing."""
         words, style = node.words, state.style
         if not (style.shown and style.visible and style.draws):
-            self._sheet.left_out[f"{node.tag} (invisible)"] += 1
+            self._sheet.left_out[LeftOutSort(node.tag, LeftOutReason.INVISIBLE)] += 1
         elif words:
-            self._sheet.left_out[node.tag] += 1
+            self._sheet.left_out[LeftOutSort(node.tag)] += 1
             self._sheet.texts.append(UnreadWords(words, node.line))
 
     def _inside(self, node: Node, outer: InheritedState) -> InheritedState:
@@ -287,7 +288,7 @@ class SvgWalker:
     def _use(self, node: Node, state: InheritedState) -> None:
         target = self._target(node)
         if target is None:
-            self._sheet.left_out["use of what is not in the file"] += 1
+            self._sheet.left_out[LeftOutSort("use of what is not in the file")] += 1
             return
         if id(target) in self._open:
             self._refuse(node, f"#{target.attributes['id'][:60]} is used in itself; break the loop and save again")
@@ -332,9 +333,8 @@ class SvgWalker:
     def _draw(self, node: Node, state: InheritedState) -> None:
         content, style = self._sheet, state.style
         if not (style.shown and style.visible and style.draws):
-            content.left_out[
-                f"{node.tag} ({'without stroke and fill' if style.shown and style.visible else 'invisible'})"
-            ] += 1
+            reason = LeftOutReason.UNPAINTED if style.shown and style.visible else LeftOutReason.INVISIBLE
+            content.left_out[LeftOutSort(node.tag, reason)] += 1
             return
         try:
             drawn = shape(node, state.basis, MOST_CURVES)
@@ -347,7 +347,7 @@ class SvgWalker:
             content.unread.append(SvgFault(node.line, str(error.args[0])))
             return
         except (ValueError, ArithmeticError):  # numbers that are none, or beyond all measure
-            content.left_out[f"{node.tag} (damaged)"] += 1
+            content.left_out[LeftOutSort(node.tag, LeftOutReason.DAMAGED)] += 1
             return
         if drawn is not None and drawn.fault is not None:
             content.faults.append(SvgFault(node.line, drawn.why))
@@ -360,7 +360,7 @@ class SvgWalker:
             return
         seen = seen_of(curves, style.filled, state.clips) if state.clips else Seen.WHOLE
         if seen is Seen.NOTHING:
-            content.left_out[f"{node.tag} (clipped away)"] += 1
+            content.left_out[LeftOutSort(node.tag, LeftOutReason.CLIPPED)] += 1
             return
         layer = state.layer or "0"
         box = _box_of(curves)

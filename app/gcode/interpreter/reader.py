@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ...core.memory import ask, fewer
+from ...core.memory import MemoryRemedy, ask, fewer
 from ...core.progress import NO_PROGRESS, Progress
 from .block import BlockStep
 from .options import ReadOptions
@@ -57,6 +57,6 @@ def read_program(data: bytes, options: ReadOptions = DEFAULT, progress: Progress
     ask(
         LINE_BYTES * lines,
         f"A program of {lines:,} lines",
-        f"cut it in parts of at most {fewer(lines, LINE_BYTES * lines)} lines",
+        MemoryRemedy(f"cut it in parts of at most {fewer(lines, LINE_BYTES * lines)} lines"),
     )
     return InterpreterRun(data, options, progress).read()

@@ -27,9 +27,6 @@ from .translated_text import TranslatedText
 LARGEST_RADIUS = 10_000.0
 """mm; flatter arcs of a spline are lines."""
 
-_ARC_STEPS = 2.0
-"""A written arc may be so many steps of the last decimal from the meant one."""
-
 _SAME = 1e-9
 """mm; heights that differ by less are the same."""
 
@@ -186,7 +183,8 @@ class MotionWriter:
             float(arcs.sweep[k]),
         )
         at = start
-        for piece in written_pieces(meant, (start[u], start[v]), (end[u], end[v]), self._rules()):
+        rules = ArcRules.of(self._output.post, self._output.modal.units)
+        for piece in written_pieces(meant, (start[u], start[v]), (end[u], end[v]), rules):
             place = list(start)
             place[u], place[v] = piece.end
             place[w] = end[w] if piece.fraction == 1.0 else round(start[w] + (end[w] - start[w]) * piece.fraction)
@@ -220,19 +218,6 @@ class MotionWriter:
                 offset += ends[0][axis] * 10 ** (digits.I - self._digits("XYZ"[axis]))
             words["IJK"[axis]] = self._numeral(offset, digits.I)
         self._block(step, kind, words)
-
-    def _rules(self) -> ArcRules:
-        post, digits = self._output.post, self._output.post.digits(self._output.modal.units)
-        arcs = post.arcs
-        return ArcRules(
-            digits.X,
-            digits.I,
-            _ARC_STEPS * 10.0**-digits.X,
-            math.radians(arcs.largest_sweep_deg),
-            arcs.smallest_radius_mm / self._unit,
-            arcs.largest_radius_mm / self._unit,
-            arcs.radius_mismatch_mm / self._unit,
-        )
 
     def _cycle(self, step: BlockStep) -> None:
         """Write a drilling cycle: as the control's own where that is surely the same, else move by move."""

@@ -4,7 +4,6 @@ program.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,8 +18,6 @@ from .work_moves import ArcRules, ReferenceArc, written_pieces
 
 _PLANE_WORDS = {Plane.XY: "G17", Plane.ZX: "G18", Plane.YZ: "G19"}
 _CENTRE = "IJK"
-_STEPS = 2.0
-"""A written arc may be so many steps of the last decimal from the meant one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +125,8 @@ class _CurveWriter:
         row = int(arcs.rows[k])
         end, start = self._rounded(self._path.end[row]), self._at
         kind = MotionKind(self._path.kind[row])
-        for piece in written_pieces(exact, (start[u], start[v]), (end[u], end[v]), self._rules()):
+        rules = ArcRules.of(self._post, self._state.units)
+        for piece in written_pieces(exact, (start[u], start[v]), (end[u], end[v]), rules):
             height = arcs.height[k] + arcs.rise[k] * piece.fraction
             to = [0, 0, 0]
             to[u], to[v] = piece.end
@@ -152,18 +150,6 @@ class _CurveWriter:
                 offset += self._at[axis] * 10 ** (self._digits.I - self._decimals(axis))
             words[_CENTRE[axis]] = numeral(offset, self._digits.I, zeros)
         self._block(kind, end, words)
-
-    def _rules(self) -> ArcRules:
-        arcs, digits = self._post.arcs, self._digits
-        return ArcRules(
-            digits.X,
-            digits.I,
-            _STEPS * 10.0**-digits.X,
-            math.radians(arcs.largest_sweep_deg),
-            arcs.smallest_radius_mm / self._unit,
-            arcs.largest_radius_mm / self._unit,
-            arcs.radius_mismatch_mm / self._unit,
-        )
 
     def _spline(self, row: int) -> None:
         from dataclasses import replace

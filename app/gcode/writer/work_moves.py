@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from ...core.errors import GeometryError
 from ...model.moves import MoveKind, Moves
 from ...model.part import Units
-from ..posts import WordDecimals
+from ..posts import Post, WordDecimals
 from .block_kernels import NO_FEED
 from .template_fields import Position, whole
 
@@ -206,6 +207,10 @@ class ReferenceArc:
         return self.centre + cmath.rect(radius, self.start_angle + self.sweep * fraction)
 
 
+_STEPS = 2.0
+"""Steps of the last decimal that an arc of rounded ends may be from the meant one, where nothing closer is asked."""
+
+
 @dataclass(frozen=True, slots=True)
 class ArcRules:
     """What a written arc must keep to.
@@ -226,6 +231,20 @@ class ArcRules:
     smallest_radius: float
     largest_radius: float
     radius_mismatch: float
+
+    @classmethod
+    def of(cls, post: Post, units: Units, tolerance: float | None = None) -> ArcRules:
+        """Return those of a post for a program in units; `tolerance`: as above, None = `_STEPS`."""
+        digits, arcs, unit = post.digits(units), post.arcs, units.value
+        return cls(
+            digits.X,
+            digits.I,
+            _STEPS * 10.0**-digits.X if tolerance is None else tolerance,
+            math.radians(arcs.largest_sweep_deg),
+            arcs.smallest_radius_mm / unit,
+            arcs.largest_radius_mm / unit,
+            arcs.radius_mismatch_mm / unit,
+        )
 
     def row(self) -> Floats:
         """Return (8,) what the compiled core is given."""

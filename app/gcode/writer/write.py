@@ -298,15 +298,8 @@ class _ProgramWriter:
                 f"{post.title} has no cycle that taps: the spindle would not turn back; mill the thread, or take the "
                 "tap operation out."
             )
-        self.arc_rules = ArcRules(
-            digits.X,
-            digits.I,
-            math.sqrt((writing_tolerance(job, post) / unit) ** 2 - (0.5 / self.z_scale) ** 2),  # Z is rounded too
-            math.radians(post.arcs.largest_sweep_deg),
-            post.arcs.smallest_radius_mm / unit,
-            post.arcs.largest_radius_mm / unit,
-            post.arcs.radius_mismatch_mm / unit,
-        )
+        level = math.sqrt((writing_tolerance(job, post) / unit) ** 2 - (0.5 / self.z_scale) ** 2)  # Z is rounded too
+        self.arc_rules = ArcRules.of(post, job.out_units, level)
 
     def _taps(self) -> dict[int, str]:
         """Return the block before the cycle of each operation that taps, by its index."""

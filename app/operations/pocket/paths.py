@@ -9,8 +9,7 @@ from itertools import pairwise
 
 from ...core import tolerances
 from ...core.errors import ParameterError
-from ...core.memory import ask
-from ...core.options import option
+from ...core.memory import MemoryRemedy, ask
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, offset_levels
@@ -270,7 +269,8 @@ def pocket_distances(outermost: float, stepover: float, field: DistanceField) ->
     ask(
         count * _RING_BYTES,
         f"A pocket of {count:,} rings, {stepover:g} mm from one to the next,",
-        f"use a larger tool ({option('pocket-tool')}) or stepover ({option('stepover')})",
+        MemoryRemedy("use a larger tool", "pocket-tool"),
+        MemoryRemedy(" or stepover", "stepover"),
     )
     return tuple(outermost + k * stepover for k in range(count))
 

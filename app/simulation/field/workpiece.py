@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
-from ...core.memory import ask, fewer
-from ...core.options import option
+from ...core.memory import MemoryRemedy, ask, fewer
 from ...model.motion import Floats
 from ...model.stock_box import StockBox
 
@@ -191,7 +190,7 @@ def ensure_memory(grid: Grid, bytes_a_cell: int) -> None:
     ask(
         needed,
         f"A grid of {grid.cols} x {grid.rows} cells",
-        f"use at most {fits} cells along its longer side ({option('grid', fits)})",
+        MemoryRemedy(f"use at most {fits} cells along its longer side", "grid", fits),
     )
 
 

@@ -11,7 +11,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.memory import ask, fitting
+from ...core.memory import MemoryRemedy, ask, fitting
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -67,7 +67,9 @@ class CuttingPlanes:
         apart = (self.offsets[-1] - self.offsets[0]) / max(count - 1, 1)
         larger = f"{apart / fitting(needed) * 1.05:.2g}"
         ask(
-            needed, f"Passes on {count:,} planes", f"set them {larger} mm apart or more (pitch = {larger} in the scene)"
+            needed,
+            f"Passes on {count:,} planes",
+            MemoryRemedy(f"set them {larger} mm apart or more (pitch = {larger} in the scene)"),
         )
 
 
