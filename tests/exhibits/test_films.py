@@ -20,7 +20,7 @@ from app.exhibits.films.compound import evaluated
 from app.exhibits.films.depth_raster import drawn
 from app.exhibits.films.dexels import SAMPLE, CutFilmInput, dexel_film, sample_input
 from app.exhibits.films.effective import EffectiveFilmOptions, effective_film, range_trials, ranges_of
-from app.exhibits.films.making import film_files, make_film
+from app.exhibits.films.making import FilmSource, film_files, make_film
 from app.exhibits.films.measures import distances_to_polyline
 from app.exhibits.films.programs import points_of
 from app.exhibits.films.proven import ChordAxis, intervals_in_cylinder, proven_film, surface_witness
@@ -344,3 +344,30 @@ def test_a_program_without_a_ball_has_no_wedges_to_show() -> None:
     given = CutFilmInput("flat", SAMPLE.course(), {1: Cutter(5.0, 5.0, 0.0)}, sample_input().stock)
     with pytest.raises(InputError, match="ball"):
         dexel_film(given)
+
+
+def test_passes_over_a_surface_are_seen_from_the_side_and_not_carried_round_their_steps() -> None:
+    """They bend along Z, which a plan does not show; a step to the next pass is a corner however wide the tolerance."""
+    made = make_film(PublishedText.D, FilmSource("raster.ngc", resource("samples", "raster.ngc").read_bytes(), no_file))
+    steps = {step.number: step for step in made.steps}
+    for number in ("S116", "S22", "S113"):
+        path = steps[number].page.frame.traces[0].points
+        assert np.ptp(path, axis=0).min() > 0.03 * np.ptp(path, axis=0).max(), f"{number} is one straight line"
+    assert value(steps["S23"], "largest move of all") < 0.05
+    assert "stayed as it was" not in steps["S12"].settled
+
+
+def test_a_stretch_that_stays_as_it_was_is_no_curve_that_was_proven() -> None:
+    """Where every point is effective, curves as near as the digits take no fewer blocks."""
+    random = np.random.default_rng(4)
+    turn = np.cumsum(random.uniform(-0.2, 0.2, 60))
+    x, y = np.cumsum(0.7 * np.cos(turn)), np.cumsum(0.7 * np.sin(turn))
+    text = "G21 G90 G17 G94\nG0 X0 Y0 Z0\n" + "".join(f"G1 X{a:.4f} Y{b:.4f} F600\n" for a, b in zip(x, y, strict=True))
+    made = make_film(PublishedText.D, FilmSource("wild.ngc", text.encode() + b"M2\n", no_file))
+    last = made.steps[-1]
+    assert "stayed as it was: it would not take fewer blocks" in last.settled
+    assert "tolerance to the facets, proven" not in {figure.name for figure in last.figures}
+
+
+def no_file(name: str) -> bytes:
+    raise AssertionError(name)

@@ -15,11 +15,11 @@ from ...fitting.point_curves.effective_method import EffectiveMethod
 from ...fitting.point_curves.effective_points import EffectiveOptions, PointState, effective_points
 from ...model.motion import Floats
 from ...usecases.scene_program.smooth import chord_parameters
-from ...usecases.smoothing.result import SmoothedProgram, SmoothOptions
+from ...usecases.smoothing.result import REACH, SmoothedProgram, SmoothOptions
 from ...usecases.smoothing.smooth import smooth
 from .measures import distances_to_polyline, feet_on_polyline
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
-from .step_drawing import AMBER, BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, GREEN, LINE, PURPLE, RED, StepDrawing
+from .step_drawing import AMBER, BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, GREEN, LINE, PURPLE, RED, StepDrawing, broadest
 
 _BEFORE, _AFTER = 2, 3
 """Effective points beside a range that the text's example takes."""
@@ -122,7 +122,7 @@ class _EffectiveSteps:
 
     def __init__(self, points: Floats, options: EffectiveFilmOptions) -> None:
         self.points, self.options = points, options
-        self.kept = corners(points, _CORNER, 4 * options.tolerance)
+        self.kept = corners(points, _CORNER, REACH * min(options.tolerance, options.epsilon))
         choose, kept = EffectiveOptions(options.epsilon), self.kept.tolist()
         self.found = effective_points(points, choose, kept)
         self.passed = effective_points(points, choose, kept, at_bends=True).passed  # what the program goes by
@@ -131,7 +131,8 @@ class _EffectiveSteps:
         self.effective = self.found.passed
 
     def _path(self, first: int = 0, last: int | None = None) -> StepDrawing:
-        sketch, part = StepDrawing(), self.points[first : None if last is None else last + 1]
+        part = self.points[first : None if last is None else last + 1]
+        sketch = StepDrawing(broadest(part))
         sketch.line(part, FAINT, FINE)
         sketch.dots(part, FAINT, 0.5)
         return sketch
@@ -273,7 +274,7 @@ class _EffectiveSteps:
         with_curve = self._path(int(chosen[0]), int(chosen[-1]))
         with_curve.line(curve(at), PURPLE, BOLD)
         with_curve.dots(self.points[chosen], GREEN, 1.0)
-        close = StepDrawing()
+        close = StepDrawing(broadest(self.points[first : last + 1]))
         close.line(self.points[first : last + 1], FAINT, FINE)
         close.line(curve(at[(at >= self._along(chosen, first)) & (at <= self._along(chosen, last))]), PURPLE, LINE)
         close.dots(self.points[inner], AMBER, 0.8, hollow=True)
@@ -343,17 +344,25 @@ class _EffectiveSteps:
             figures.append(FilmFigure(f"by {label}: farthest effective point", float(off.max()), "mm"))
         if by_effective.nearness is not None:
             figures.append(FilmFigure("nearness that was proven", by_effective.nearness, "mm"))
-        figures.append(FilmFigure("tolerance to the facets, proven", by_effective.bound, "mm"))
+        stayed = _why_it_stayed(by_effective, self.points)
+        if not stayed:
+            figures.append(FilmFigure("tolerance to the facets, proven", by_effective.bound, "mm"))
         return FilmStep(
             "S12",
             "The final curve",
             "The final curve goes through the effective points, or near them, and by no others.",
             "Two limits: the tolerance bounds how far the curve leaves the facets, the nearness how far it leaves the "
             "effective points. One for both would lose the method: by all points the curve strays as the red one does. "
-            f"What curves are off the facets is drawn {times:.0f} times too large.",
+            f"What curves are off the facets is drawn {times:.0f} times too large."
+            + (f" By effective points this stretch stayed as it was: {stayed}." if stayed else ""),
             sketch.page(),
             tuple(figures),
         )
+
+
+def _why_it_stayed(done: SmoothedProgram, points: Floats) -> str:
+    """Return why the stretch that begins with some points was not written anew; "" where it was."""
+    return next((piece.kept for piece in done.pieces if np.all(piece.points[0] == points[0])), "")
 
 
 def _exaggeration(curves: list[Floats], points: Floats) -> float:

@@ -19,7 +19,7 @@ from ...fitting.point_curves.spheroid import portion_of
 from ...fitting.point_curves.tube import TubeAnswer, TubeJudgement
 from ...model.motion import Floats
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
-from .step_drawing import AMBER, AREA, BLUE, BOLD, DASHED, FAINT, FINE, GREEN, LINE, RED, StepDrawing
+from .step_drawing import AMBER, AREA, BLUE, BOLD, DASHED, FAINT, FINE, GREEN, LINE, RED, StepDrawing, broadest
 
 USUAL = "0.02 + 0.03*sin(pi*z)"
 """The region's outline that a film is made with unless another is asked for."""
@@ -119,7 +119,7 @@ class _ProvenSteps:
         self.points, self.profile, self.seen, self.final, self.judged = points, profile, rounds, final, judged
 
     def _drawn(self, curve: SpaceCurve | None, colour: str = GREEN) -> StepDrawing:
-        sketch = StepDrawing()
+        sketch = StepDrawing(broadest(self.points))
         sketch.line(self.points, FAINT, FINE)
         sketch.dots(self.points, FAINT, 0.6)
         if curve is not None:

@@ -33,10 +33,18 @@ _CORNERS = 48
 
 
 class StepDrawing:
-    """What is drawn, in the order in which it is asked for; filled areas lie below lines, words above."""
+    """What is drawn, in the order in which it is asked for; filled areas lie below lines, words above.
 
-    def __init__(self) -> None:
-        """Begin an empty picture."""
+    Of places in space two axes are seen, of those in the plane both.
+    """
+
+    def __init__(self, axes: tuple[int, int] = (0, 1)) -> None:
+        """Begin an empty picture.
+
+        Args:
+            axes: of places in space, the one across the sheet and the one up it.
+        """
+        self._axes = list(axes)
         self._traces: list[TracedPolyline] = []
         self._patches: list[FilledPolygon] = []
         self._words: list[tuple[str, float, float, str, tuple[float, float]]] = []
@@ -46,31 +54,37 @@ class StepDrawing:
     def line(self, points: Floats, colour: str = INK, width: float = LINE, dash: tuple[float, ...] = ()) -> None:
         """Draw a polyline (n, 2), n >= 2, mm; fewer points are nothing."""
         if len(points) >= 2:
-            flat = np.asarray(points, np.float64)[:, :2]
+            flat = self._flat(points)
             self._traces.append(TracedPolyline(Pen(colour=colour, width=width, dash=dash), flat))
             self._reach.append(flat)
 
     def ring(self, centre: Sequence[float], radius: float, colour: str = INK, width: float = LINE) -> None:
         """Draw a circle, mm."""
         angle = np.linspace(0.0, 2 * math.pi, _CORNERS + 1)
-        self.line(np.asarray(centre)[:2] + radius * np.column_stack([np.cos(angle), np.sin(angle)]), colour, width)
+        self.line(self._flat(centre) + radius * np.column_stack([np.cos(angle), np.sin(angle)]), colour, width)
 
     def area(self, corners: Floats, colour: str = AREA) -> None:
         """Fill a polygon (n, 2), mm."""
-        flat = np.asarray(corners, np.float64)[:, :2]
+        flat = self._flat(corners)
         self._patches.append(FilledPolygon(Pen(colour=colour), tuple((float(x), float(y)) for x, y in flat)))
         self._reach.append(flat)
 
     def dots(self, places: Floats, colour: str = INK, size: float = 0.7, hollow: bool = False) -> None:
         """Mark places (n, 2), mm; their size is mm on paper."""
-        for x, y in np.atleast_2d(places)[:, :2].tolist():
+        for x, y in self._flat(places).tolist():
             self._dots.append((x, y, size, colour, hollow))
         if len(places):
-            self._reach.append(np.atleast_2d(np.asarray(places, np.float64))[:, :2])
+            self._reach.append(self._flat(places))
 
     def word(self, text: str, at: Sequence[float], colour: str = INK, shift: tuple[float, float] = (1.2, 1.2)) -> None:
         """Write beside a place, mm; shifted by mm on paper."""
-        self._words.append((text, float(at[0]), float(at[1]), colour, shift))
+        (place,) = self._flat(at)
+        self._words.append((text, float(place[0]), float(place[1]), colour, shift))
+
+    def _flat(self, places: Sequence[float] | Floats) -> Floats:
+        """Return places (n, 2) or (n, 3), or one of them, as the sheet has them, (n, 2)."""
+        rows = np.atleast_2d(np.asarray(places, np.float64))
+        return rows[:, self._axes] if rows.shape[1] > 2 else rows
 
     def page(self, box: tuple[float, float, float, float] | None = None) -> PlotPage:
         """Return the sheet.
@@ -109,6 +123,13 @@ class StepDrawing:
 def _round(x: float, y: float, radius: float, corners: int = 16) -> Floats:
     angle = np.linspace(0.0, 2 * math.pi, corners + 1)
     return np.column_stack([x + radius * np.cos(angle), y + radius * np.sin(angle)])
+
+
+def broadest(points: Floats) -> tuple[int, int]:
+    """Return the two axes along which places (n, 3) reach farthest: a pass over a surface bends along Z."""
+    least = int(np.argmin(np.ptp(points, axis=0)[::-1]))  # of equal ones Z is not seen
+    across, up = (axis for axis in range(3) if axis != 2 - least)
+    return across, up
 
 
 def seen(points: Floats, turn_deg: float = -35.0, tilt_deg: float = 35.0) -> Floats:
