@@ -125,7 +125,8 @@ def _radius(control: Control, block: Block) -> None:
     control.side = code
     if radius:
         sign = 1 if code.startswith("G41") else -1
-        control.compensation = Compensation(sign * radius, control.modal.plane, control.stray or control.at)
+        place = control.stray or control.at
+        control.compensation = Compensation(sign * radius, control.modal.plane, place, control.rules.macro_b)
 
 
 def _cutter_diameter(control: Control, block: Block, code: str) -> float:
