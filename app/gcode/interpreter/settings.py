@@ -234,6 +234,8 @@ def _replaced_by_words(control: Control, block: Block, place: Place) -> Place:
 
 def _work_offset(control: Control, block: Block) -> None:
     code = block.codes[ModalGroup.OFFSET]
+    if code == control.offsets.name and control.options.dialect is Dialect.LINUXCNC:
+        return  # it goes on with the same one, whatever was set of it
     control.offsets.name = code
     if code == "G54.1":
         number = block.values.pop("p", None)
