@@ -2,7 +2,8 @@
 
 As LinuxCNC has it: each line and arc is offset to its side; at an outer corner an arc rolls round the programmed point,
 at an inner one both are cut off where they meet; the first move leads to beside its own end, and after G40 the next one
-starts there.
+starts there. On Fanuc and Haas the first move leads to beside the start of the next one: their
+type A. Their type B is the same at an inner corner, and at an outer one a way farther from the contour.
 """
 
 from __future__ import annotations
@@ -65,15 +66,16 @@ class Compensation:
         waiting: moves whose end the next one decides; they belong behind those in the columns.
     """
 
-    def __init__(self, radius: float, plane: Plane, place: Place) -> None:
+    def __init__(self, radius: float, plane: Plane, place: Place, beside_next: bool = False) -> None:
         """Begin with the tool where it stands.
 
         Args:
             radius: mm; positive = the tool runs at the left of the contour.
             plane: of the contour.
             place: where the tool is.
+            beside_next: the first move leads to beside the start of the next one, whatever their corner.
         """
-        self._radius, self._plane, self._place = radius, plane, place
+        self._radius, self._plane, self._place, self._beside_next = radius, plane, place, beside_next
         self._before: OffsetMove | None = None
         self.waiting: list[Motion] = []
 
@@ -161,6 +163,10 @@ class Compensation:
     def _enter(self, side: OffsetMove, start: complex) -> None:
         """Make a side the way in: from where the tool is to beside the move's end."""
         side.leads_in = True
+        if self._beside_next:
+            if side.centre is not None:
+                raise BlockFault("cutter compensation begins on a straight move, not on an arc.", letter="g")
+            return
         u, v, _ = self._plane.axes
         here = complex(self.place[u], self.place[v])
         if side.centre is None:
@@ -185,16 +191,21 @@ class Compensation:
         back = abs(bend) > math.pi - SMOOTH
         if abs(bend) <= SMOOTH:
             side.start = before.end
+        elif before.leads_in and self._beside_next:
+            self._end_at(side.start)
         elif (back and not self._between(before, side)) or (bend * self._radius < 0 and not back):
             self.flush(columns)
             self._roll(side, before.corner, columns)
         else:
-            meeting = self._meeting(before, side)
-            for motion in self.waiting:
-                if motion is not self.waiting[0]:
-                    motion.start = self._placed(meeting, motion.start)
-                motion.end = self._placed(meeting, motion.end)
-            side.start = meeting
+            side.start = self._meeting(before, side)
+            self._end_at(side.start)
+
+    def _end_at(self, place: complex) -> None:
+        """Let the move that waits, and what follows it straight up or down, end at a place of the plane."""
+        for motion in self.waiting:
+            if motion is not self.waiting[0]:
+                motion.start = self._placed(place, motion.start)
+            motion.end = self._placed(place, motion.end)
 
     def _between(self, before: OffsetMove, side: OffsetMove) -> bool:
         """Tell whether a turn straight back is an inner corner: between a line and the outside of an arc, where the

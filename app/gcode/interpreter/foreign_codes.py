@@ -8,7 +8,7 @@ import math
 import re
 
 from .block import Block, ParsedLine
-from .codes import ROTARY, ModalGroup
+from .codes import AXES, ROTARY, ModalGroup
 from .control import Control
 from .dialect import Dialect
 from .expression import Key, ValueReader, evaluated, whole
@@ -81,6 +81,14 @@ _WHOLE_FEED = re.compile(rb"^[^(;\n]*f[ \t]*[0-9]*[1-9][0-9]*(?![0-9.])", re.IGN
 _FEED_IN_STEPS = re.compile(rb"g[ \t]*(?:20|93|95)(?![0-9.])", re.IGNORECASE)
 """Inch, inverse time, a revolution: where Fanuc takes a feed without a point in steps, and not in mm/min."""
 
+_LATHE = "this is a program for a lathe, whose X is a diameter, which is not read"
+
+_LATHE_TOOL = re.compile(rb"^[^(;\n]*t[ \t]*[0-9]{4}(?![0-9.])", re.IGNORECASE | re.MULTILINE)
+"""A tool with its offset, as T0101."""
+
+_MILLS = re.compile(rb"^[^(;\n]*(?:y[ \t]*[-+.#\[0-9]|m[ \t]*0*6(?![0-9.]))", re.IGNORECASE | re.MULTILINE)
+"""What no lathe has: a Y word, a tool change by M6."""
+
 _BLOCK_BEHIND = re.compile(
     rb"[0-9.][ \t]*;[ \t]*(?:[a-z][ \t]*[-+]?[0-9.]+[ \t]*)+;?[ \t]*$", re.IGNORECASE | re.MULTILINE
 )
@@ -119,6 +127,7 @@ def warn_of_numbers(control: Control, data: bytes) -> None:
             "in here."
         )
     _warn_of_whole_feed(control, data)
+    _warn_of_lathe(control, data)
     second = _BLOCK_BEHIND.search(data, 0, LOOKED_AT) if control.rules.macro_b else None
     if second is not None:
         control.line = data.count(b"\n", 0, second.end()) + 1
@@ -142,6 +151,14 @@ def _warn_of_whole_feed(control: Control, data: bytes) -> None:
         f"a feed without a decimal point is taken as it stands; the control may count it in {steps}. Write the point.",
         "f",
     )
+
+
+def _warn_of_lathe(control: Control, data: bytes) -> None:
+    """Tell of a program that changes tools as lathes do, and knows no Y."""
+    found = _LATHE_TOOL.search(data, 0, LOOKED_AT) if control.rules.macro_b else None
+    if found is not None and _MILLS.search(data) is None:
+        control.line = data.count(b"\n", 0, found.end()) + 1
+        control.warn(f"{_LATHE}: it has tools with offsets (T0101), and no Y.", "t")
 
 
 def warn_of_uncalled(control: Control, flow: Flow) -> None:
@@ -173,6 +190,7 @@ def adapt(control: Control, block: Block) -> None:
         _drop(block, "pqr")
         control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
     if control.rules.macro_b:
+        _refuse_lathe(block)
         _keep_cutter(control, block)
     if control.options.dialect is Dialect.MACH3:
         _take_radius(block)
@@ -205,6 +223,17 @@ def _keep_cutter(control: Control, block: Block) -> None:
         control.cutter_register = block.values["d"]
         if ModalGroup.RADIUS not in block.codes and not block.unknown:
             _drop(block, "d")
+
+
+def _refuse_lathe(block: Block) -> None:
+    """Refuse the largest speed of a lathe's spindle, G50 S or G92 S.
+
+    Raises:
+        Fault: the block is one.
+    """
+    code = next((code for code in block.codes.values() if code in ("G50", "G92")), "")
+    if code and "s" in block.values and not block.has(AXES):
+        raise BlockFault(f"{_LATHE}: {code} with S is the largest speed of its spindle.", letter="g")
 
 
 def _take_radius(block: Block) -> None:

@@ -69,7 +69,8 @@ def _check_motion_words(control: Control, block: Block) -> None:
     motion = block.codes.get(ModalGroup.MOTION)
     if block.codes.get(ModalGroup.ONCE) == "G53" and motion is None and not block.has(AXES + ROTARY):
         raise BlockFault("G53 goes with G0 and G1 only.", letter="g")
-    if motion is None and control.motion == "G5" and block.has("pq") and block.has(AXES):
+    moves = block.codes.get(ModalGroup.ONCE) in (None, "G53")
+    if motion is None and moves and control.motion == "G5" and block.has("pq") and block.has(AXES):
         raise BlockFault("LinuxCNC wants G5 again in each block of its curve with P and Q.", letter="pq")
     if motion is None and control.motion in CYCLES and not block.has(AXES + ROTARY + "@^"):
         letter = next((letter for letter in "rlqk" if letter in block.values), "")

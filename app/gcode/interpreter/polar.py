@@ -70,6 +70,8 @@ def _place(control: Control, block: Block) -> tuple[float, float]:
     said, turned = block.get(RADIUS), block.get(ANGLE)
     if turned is None and radius < AT_ORIGIN_MM:
         raise BlockFault(NO_ANGLE, letter=RADIUS)
+    if radius < AT_ORIGIN_MM and not control.modal.absolute:
+        raise BlockFault("at the zero there is no angle that G91 could go on from; write it under G90.", letter=ANGLE)
     rest = 0.0 if control.modal.absolute else 1.0
     radius = radius if said is None else rest * radius + said * control.unit
     angle = angle if turned is None else rest * angle + math.radians(turned)

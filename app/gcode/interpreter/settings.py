@@ -125,7 +125,8 @@ def _radius(control: Control, block: Block) -> None:
     control.side = code
     if radius:
         sign = 1 if code.startswith("G41") else -1
-        control.compensation = Compensation(sign * radius, control.modal.plane, control.stray or control.at)
+        place = control.stray or control.at
+        control.compensation = Compensation(sign * radius, control.modal.plane, place, control.rules.macro_b)
 
 
 def _cutter_diameter(control: Control, block: Block, code: str) -> float:
@@ -233,6 +234,8 @@ def _replaced_by_words(control: Control, block: Block, place: Place) -> Place:
 
 def _work_offset(control: Control, block: Block) -> None:
     code = block.codes[ModalGroup.OFFSET]
+    if code == control.offsets.name and control.options.dialect is Dialect.LINUXCNC:
+        return  # it goes on with the same one, whatever was set of it
     control.offsets.name = code
     if code == "G54.1":
         number = block.values.pop("p", None)

@@ -109,6 +109,8 @@ REFUSED = {
     "a value of a pin": ("G1 X5 F#<_hal[plasmac.cut-feed-rate]>\nM2\n", "known to the machine alone"),
     "a value of the machine's file": ("#<a>=#<_ini[AXIS_X]MAX>\nM2\n", "known to the machine alone"),
     "polar without an angle at the zero": ("F100\nG1 @10\nM2\n", "the angle"),
+    "polar under G91 at the zero": ("G0 X0 Y0\nG91 G0 @5 ^30\nM2\n", "no angle that G91"),
+    "an angle under G91 at the zero": ("G0 X0 Y0\nG91 G0 ^30\nM2\n", "no angle that G91"),
     "polar in another plane": ("G18 F100\nG0 X5\nG1 ^30\nM2\n", "with G17 only"),
     "polar holes that meet the zero": ("F100\nG0 X10 Z5\nG91 G81 @-5 R1 Z-1 L4\nM2\n", "the angle"),
     "polar beside Y": ("F100\nG1 X1\nG1 ^30 Y2\nM2\n", "contradict one another"),

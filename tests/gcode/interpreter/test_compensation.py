@@ -2,6 +2,7 @@
 
 import pytest
 
+from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind
@@ -114,3 +115,37 @@ def test_arcs_that_meet_arcs_are_cut_off_and_rolled_round_as_linuxcnc_does(
 def test_the_first_move_is_measured_from_where_the_tool_is() -> None:
     assert "must be longer than the tool's radius" in told("G0 X30 Y-10\nG41 G1 X30.5\nX40")
     assert told("G0 X30 Y-10\nG41 G1 X31.5\nX40") == ""
+
+
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+@pytest.mark.parametrize(
+    ("side", "first"),
+    [("G41", (10, 5, 0)), ("G42", (20, 5, 0))],
+)
+def test_fanuc_and_haas_begin_beside_the_start_of_the_next_move(
+    dialect: Dialect, side: str, first: tuple[float, ...]
+) -> None:
+    """LinuxCNC cuts an inner corner off and rolls round an outer one; these go straight there, however short the way
+    is.
+    """
+    text = "G21 G90 G17 F100.\nG0 X0. Y0. Z0.\n{} D2 G1 X15. Y5.\n{}Y25.\nG40 X0.\nM30\n"
+    assert ends(read(text.format(side, ""), dialect, tool_table=TABLE))[1:3] == [first, (first[0], 25, 0)]
+    assert ends(read(text.format(side, "Z-1.\n"), dialect, tool_table=TABLE))[1:3] == [first, (*first[:2], -1)]
+    short = text.format(side, "").replace("G0 X0.", "G0 X13.").replace("Y0.", "Y4.")
+    assert ends(read(short, dialect, tool_table=TABLE))[1] == first
+    assert ends(read(text.format(side, ""), tool_table=TABLE))[1] != first
+
+
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_an_arc_way_in_of_a_haas_training_manual(dialect: Dialect) -> None:
+    """A way in at a right angle to the arc that leads to the wall, radius 0.5 in, with a mill of 0.375 in."""
+    text = "G20 G90 G17 F50.\nG0 X0. Y1.25 Z1.\nG1 Z-0.3\nG41 D3 X-0.5\nG3 X0. Y0.75 R0.5\nG1 X1.94\nG40 Y2.\nM30\n"
+    table = {3: ToolOffset(diameter=0.375 * 25.4)}
+    inch = [tuple(round(value / 25.4, 6) for value in end) for end in ends(read(text, dialect, tool_table=table))]
+    assert inch[2:5] == [(-0.3125, 1.25, -0.3), (0.0, 0.9375, -0.3), (1.94, 0.9375, -0.3)]
+
+
+def test_no_arc_leads_in_on_fanuc() -> None:
+    text = "G21 F100.\nG0 X0. Y0. Z0.\nG41 D1 G3 X10. Y10. R10.\nM30\n"
+    error = read_program(text.encode(), ReadOptions(Dialect.FANUC, tool_table=TABLE)).error
+    assert error is not None and "begins on a straight move" in error.text

@@ -148,6 +148,21 @@ def test_compensation_by_a_tool_that_nothing_names_is_told(dialect: Dialect) -> 
     assert not read_program(text.format("T1 M6\n", "D1 ").encode(), options).problems
 
 
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_programs_of_lathes_are_told(dialect: Dialect) -> None:
+    """What a mill would move in silence: X as a radius, and F a minute in place of F a revolution."""
+    turned = "G21 G97 S500 M3\nT0101\nG0 X50. Z1.\nG1 Z-20. F0.2\nM30\n"
+    assert any("a program for a lathe" in said for said in warnings(turned, dialect))
+    for code in ("G50", "G92"):
+        assert f"{code} with S is the largest speed" in told(f"G21\n{code} S2000\nG0 X5.\nM30\n", dialect)
+    for milled in (
+        turned.replace("Z1.", "Y1. Z1."),
+        turned.replace("T0101", "T0101 M06"),
+        "G21 G50\nG0 X1. Z1.\nM30\n",
+    ):
+        assert not warnings(milled, dialect)
+
+
 def test_plain_lines_that_repeat_cost_little() -> None:
     body = "".join(f"G1 X{k % 50}.{k % 7}\n" for k in range(2600))
     assert len(read(f"F100\nM98 P2 L60\nM2\nO2\n{body}M99\n").motions) == 60 * 2600

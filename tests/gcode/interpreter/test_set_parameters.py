@@ -35,6 +35,8 @@ def compared(text: str) -> None:
         "#5161=mm(10)\n#5163=mm(5)\nG0 X1 Y2 Z3\nG28\nG0 X1\nG28 Z4\nG28.1\nG0 X9\nG28\nM2\n",
         "#5181=mm(10)\nG0 X1 Y2 Z3\nG30 X7\nG30.1\nG0 X0\nG30\nM2\n",
         "#5221=mm(10)\nG0 X1\nG54\nG0 X1\nG55\nG0 X1\nG54 G0 X2\nM2\n",
+        "G10 L2 P1 R30\nG0 X1 Y2\n#5221=mm(10)\nG54\nG0 Y3\nG55\nG0 Y4\nG54\nG0 Y5\nM2\n",
+        "G5 X5 Y5 I1 J2 P-1 Q-2 F100\nG10 L20 P6 Y3\nG10 L2 P1 Y3\nG0 X1\nM2\n",
         "#5241=mm(3)\n#5250=90\nG55 G0 X1 Y0\nG54\nG0 X1\nM2\n",
         "#5222=mm(3)\nG10 L2 P1 X4\nG0 X1 Y1\nG10 L2 P2 X1\nG55\nG0 X1 Y1\nM2\n",
         "#5222=mm(3)\nG10 L20 P1 X4\nG0 X1 Y1\nM2\n",
