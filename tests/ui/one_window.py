@@ -405,7 +405,8 @@ def _settle() -> None:
 
 
 def _forget_habits(wiring: WindowController) -> None:
-    """Let nobody remember what was typed and drawn last, and where the mouse was."""
+    """Let nobody remember what was typed and drawn last, its contours, and where the mouse was."""
+    wiring._contours._kept = None
     legend = wiring.window_.views.legend
     legend.fold.setChecked(False)
     legend._folded_for_room, legend._fits = False, True
