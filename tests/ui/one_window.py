@@ -345,6 +345,7 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
         *(wiring.stages_controller, views.stages.pixels, views.stages.pixels._hand),
         *(*views.start.new.lengths, views.start.new.corners),
         *(wiring.cleanup_controller, wiring.cleanup_controller._section.tolerance, wiring.tab_controller),
+        wiring.purpose_words,
         window.canvas.turns,
         *(window.stages_panel, window.stages_panel.points, window.stages_panel.pitch),
         *(form.peck_picture, form.side_picture, *window.cut_form.stock),
