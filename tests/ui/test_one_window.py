@@ -47,6 +47,7 @@ def test_after_drawing_and_typing_the_window_is_as_new(qtbot, own: OneWindow) ->
 def test_contours_that_somebody_asked_for_are_forgotten(qtbot, own: OneWindow) -> None:
     first = own.lend(qtbot)
     first.run("rect 0,0 40,20")
+    qtbot.waitUntil(lambda: bool(first.document.part.entities), timeout=WAIT_MS)
     assert first._contours.of(first.document.job).closed
     own.take_back()
     assert "\n".join(own.left) == ""
