@@ -14,6 +14,8 @@ import pytest
 ON_A_SCREEN = ("tests/ui/real_mouse/", "tests/ui/cut/test_on_screen.py")
 """Tests with a real mouse and focus: two at once would slow one another until somebody's patience ends."""
 
+OF_SENTENCES = ("tests/api/test_words.py", "tests/ui/test_sentences_in_japanese.py")
+"""Tests of all that the program says, read out of its whole source: once for them all."""
 
 SECONDS: dict[str, float] = tomllib.loads((Path(__file__).parent / "costs.toml").read_text("utf-8"))["seconds"]
 """Of the processor for a test, about, by what its name begins with."""
@@ -46,8 +48,12 @@ def seconds_of(nodeid: str) -> float:
 
 
 def group_of(nodeid: str) -> str:
-    """Return what a test has to stay together with: its file, whose window and results it shares, or the screen."""
+    """Return what a test has to stay together with: its file, whose window and results it shares, the screen, or what
+    the program says.
+    """
     file = nodeid.split("::")[0]
+    if file in OF_SENTENCES:
+        return "sentences"
     return "screen" if file.startswith(ON_A_SCREEN) else file
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from tests.conftest import ROOT
 from tests.exhaustive import COLLECTED, FAMILIES, parameters_of
-from tests.parallel import DEFAULT_S, ON_A_SCREEN, SECONDS, DearestFirst, group_of, seconds_of
+from tests.parallel import DEFAULT_S, OF_SENTENCES, ON_A_SCREEN, SECONDS, DearestFirst, group_of, seconds_of
 
 FEWEST = 5
 
@@ -64,7 +64,8 @@ def test_every_family_that_is_named_is_there_and_keeps_members(collected: dict[s
 def test_files_and_screens_stay_together() -> None:
     assert group_of("tests/a/test_b.py::test_c[x/y]") == "tests/a/test_b.py"
     assert {group_of(f"{place}::test") for place in ON_A_SCREEN} == {"screen"}
-    assert all((ROOT / place).exists() for place in ON_A_SCREEN)
+    assert {group_of(f"{file}::test") for file in OF_SENTENCES} == {"sentences"}
+    assert all((ROOT / place).exists() for place in (*ON_A_SCREEN, *OF_SENTENCES))
 
 
 def test_what_is_said_to_be_dear_is_there(collected: dict[str, bool]) -> None:

@@ -233,9 +233,10 @@ def test_a_spline_a_metre_wide_is_written_in_hundred_thousandths_of_an_inch(cont
     meant = bezier([(0, 0), (i, 0), (x - p, y + q), (x, y)], np.linspace(0, 1, 20_001))
     turns = made.program.motions.kind >= MotionKind.ARC_CW
     assert np.any(turns) and b"spline" in made.data.lower()
-    driven = shapely.LineString(driven_along(made.program.motions))
-    assert max(shapely.distance(shapely.points(meant), driven)) < 2 * 25.4e-5
-    assert max(shapely.distance(shapely.points(driven.coords), shapely.LineString(meant))) < 2 * 25.4e-5
+    driven, curve = shapely.LineString(driven_along(made.program.motions)), shapely.LineString(meant)
+    shapely.prepare([driven, curve])
+    assert shapely.dwithin(driven, shapely.points(meant), 2 * 25.4e-5).all()
+    assert shapely.dwithin(curve, shapely.points(driven.coords), 2 * 25.4e-5).all()
 
 
 @pytest.mark.parametrize("milliseconds", [119, 351, 407, 348, 18, 773, 103])

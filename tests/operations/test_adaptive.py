@@ -197,7 +197,7 @@ def test_other_limits_hold_as_well(degrees: float) -> None:
 def test_a_smaller_limit_is_a_longer_path() -> None:
     long = []
     for degrees in (40.0, 60.0, 80.0):
-        (part,) = planned([rectangle(30, 14)], EngagementLimit(R, math.radians(degrees)))
+        (part,) = planned([rectangle(20, 11)], EngagementLimit(R, math.radians(degrees)))
         rows, clear = path_of(part)
         long.append(float(lengths(rows)[~clear].sum()))
     assert long[0] > 1.3 * long[1] > 1.5 * long[2]

@@ -11,6 +11,7 @@ import ast
 import builtins
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
 
 from tests.ui.sentences import HOLE, ROOT, Sentence, _assigned, texts_of
 
@@ -89,6 +90,7 @@ def errors_of(texts: Mapping[str, str]) -> tuple[Sentence, ...]:
     return tuple(sorted(found.values()))
 
 
+@cache
 def errors_of_the_program() -> tuple[Sentence, ...]:
     """Return what can go wrong in the whole program, but for the command line."""
     paths = sorted(path for path in (ROOT / "app").rglob("*.py") if not set(ELSEWHERE) & set(path.parts))

@@ -345,6 +345,7 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
         *(wiring.stages_controller, views.stages.pixels, views.stages.pixels._hand),
         *(*views.start.new.lengths, views.start.new.corners),
         *(wiring.cleanup_controller, wiring.cleanup_controller._section.tolerance, wiring.tab_controller),
+        wiring.purpose_words,
         window.canvas.turns,
         *(window.stages_panel, window.stages_panel.points, window.stages_panel.pitch),
         *(form.peck_picture, form.side_picture, *window.cut_form.stock),
@@ -405,7 +406,8 @@ def _settle() -> None:
 
 
 def _forget_habits(wiring: WindowController) -> None:
-    """Let nobody remember what was typed and drawn last, and where the mouse was."""
+    """Let nobody remember what was typed and drawn last, its contours, and where the mouse was."""
+    wiring._contours._kept = None
     legend = wiring.window_.views.legend
     legend.fold.setChecked(False)
     legend._folded_for_room, legend._fits = False, True

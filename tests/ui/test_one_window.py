@@ -44,6 +44,16 @@ def test_after_drawing_and_typing_the_window_is_as_new(qtbot, own: OneWindow) ->
     assert again.log.lines == []
 
 
+def test_contours_that_somebody_asked_for_are_forgotten(qtbot, own: OneWindow) -> None:
+    first = own.lend(qtbot)
+    first.run("rect 0,0 40,20")
+    qtbot.waitUntil(lambda: bool(first.document.part.entities), timeout=WAIT_MS)
+    assert first._contours.of(first.document.job).closed
+    own.take_back()
+    assert "\n".join(own.left) == ""
+    assert own.lend(qtbot) is first
+
+
 def open_a_program(qtbot, wiring: WindowController, folder: Path) -> None:
     """A foreign one, which does not tell its tool: it is asked for beside the cut."""
     first, second = folder / "one.ngc", folder / "other.ngc"

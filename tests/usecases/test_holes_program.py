@@ -17,10 +17,12 @@ from app.core.resources import resource
 from app.formats.job.toml import read_job
 from app.gcode.posts import post_names
 from app.model.finding import FindingKind
+from app.model.job import Job
 from app.model.moves import MoveKind, Purpose
 from app.operations.compute import compute
 from app.usecases.job.options import MakeOptions
-from app.usecases.making.make import MakeResult, finish, make
+from app.usecases.job.plausible import read_for
+from app.usecases.making.make import MakeResult, finish, job_from_drawing, make
 from tests.gcode.rs274_oracle import exact_motions
 
 TOOLS = """
@@ -65,8 +67,18 @@ TAP = DRILL + '[[operation]]\nkind = "tap"\ntool = 3\ndepth = 10\nthread = "M6"\
 
 
 def made_of(operations: str, drawing: str = PLATE, post: str = "linuxcnc", tools: str = TOOLS) -> MakeResult:
+    return make("part.draw", drawing.encode(), asked_for(operations, post, tools))
+
+
+def asked_for(operations: str, post: str = "linuxcnc", tools: str = TOOLS) -> MakeOptions:
     text = f'{tools}{operations}\n[output]\npost = "{post}"\n'
-    return make("part.draw", drawing.encode(), MakeOptions(job=read_job("job", text.encode()).job))
+    return MakeOptions(job=read_job("job", text.encode()).job)
+
+
+def job_of(operations: str, drawing: str) -> Job:
+    """The job alone, of which nothing is computed yet."""
+    options = asked_for(operations)
+    return job_from_drawing(read_for("part.draw", drawing.encode(), options), options).prepared()
 
 
 def report_of(made: MakeResult) -> dict:
@@ -150,9 +162,9 @@ def test_a_chamfered_boss_has_the_volume_of_a_cone() -> None:
 # Each is proven: a path that is broken on purpose is found
 
 
-def broken(made: MakeResult, operation: int, **off: float) -> MakeResult:
-    """The program again, computed anew, with what an operation cuts off by so much along an axis or in its feed."""
-    program = compute(made.job)
+def broken(job: Job, operation: int, **off: float) -> MakeResult:
+    """A job's program with what an operation cuts off by so much along an axis or in its feed."""
+    program = compute(job)
     moves = program.moves
     mine = (moves.operation == operation) & (moves.purpose != Purpose.RAPID)
     end, feed = moves.end.copy(), moves.feed.copy()
@@ -161,7 +173,7 @@ def broken(made: MakeResult, operation: int, **off: float) -> MakeResult:
             feed[mine] *= by
         else:
             end[mine & (end[:, 2] < 0), "xyz".index(axis)] += by
-    return finish(replace(program, moves=replace(moves, end=end, feed=feed)), made.job)
+    return finish(replace(program, moves=replace(moves, end=end, feed=feed)), job)
 
 
 @pytest.mark.parametrize(
@@ -179,14 +191,14 @@ def broken(made: MakeResult, operation: int, **off: float) -> MakeResult:
 )
 def test_a_path_that_is_off_is_found(kind: str, axis: str, by: float, found: FindingKind) -> None:
     operations, drawing, _ = KINDS[kind]
-    made = broken(made_of(operations, drawing), 0, **{axis: by})
+    made = broken(job_of(operations, drawing), 0, **{axis: by})
     assert [each for each in made.findings if each.counts and each.kind is found]
 
 
 def test_a_tap_with_another_feed_is_found() -> None:
     made = made_of(TAP)
     assert made.clean
-    wrong = broken(made, 1, feed=1.1)
+    wrong = broken(made.job, 1, feed=1.1)
     assert [each for each in wrong.findings if each.counts and "lead of M6 is off by 0.1000 mm a turn" in each.text]
 
 

@@ -18,6 +18,8 @@ from tests.usecases.test_holes_program import assert_same_cuts, made_of, report_
 STOCK = "[stock]\nthickness = 10.0\n"
 TOOLS = STOCK + "[[tool]]\nnumber = 1\ndiameter = 6.0\n[[tool]]\nnumber = 2\ndiameter = 3.0\n"
 PLATE = "layer part\nrectangle 0,0 100,60\nlayer p\n"
+WHOLE = "rectangle 0,0 60,36\n"
+"""A plate that is an open area, all of it."""
 KINDS = pytest.mark.parametrize("kind", ["pocket", "adaptive"])
 CORNER = (1 - math.pi / 4) * 9
 """What a tool of 3 mm radius leaves in a right corner, mm2."""
@@ -25,7 +27,7 @@ CORNER = (1 - math.pi / 4) * 9
 
 def opened(kind: str, shape: str, more: str = "", tools: str = TOOLS) -> MakeResult:
     operation = f'[[operation]]\nkind = "{kind}"\ntool = 1\ndepth = 4\nstepdown = 4\ncurves = ["layer:p"]\n'
-    plate = "layer p\n" if "0,0 100,60" in shape else PLATE
+    plate = "layer p\n" if WHOLE in shape else PLATE
     return made_of(operation + "open_edges = true\n" + more, plate + shape, tools=tools)
 
 
@@ -33,8 +35,8 @@ SHAPES = {
     "one edge": ("rectangle 20,0 50,30\n", 30 * 30 - 2 * CORNER),
     "a corner": ("rectangle 60,30 100,60\n", 40 * 30 - CORNER),
     "across": ("rectangle 0,20 100,40\n", 100 * 20),
-    "all": ("rectangle 0,0 100,60\n", 100 * 60),
-    "all but a boss": ("rectangle 0,0 100,60\ncircle 50,30 10\n", 6000 - math.pi * 100),
+    "all": (WHOLE, 60 * 36),
+    "all but a boss": (WHOLE + "circle 30,18 8\n", 60 * 36 - math.pi * 64),
     "narrow inwards": ("polyline 20,0 30,30 60,30 70,0 close\n", None),
     "wide inwards": ("polyline 40,0 30,30 70,30 60,0 close\n", None),
 }

@@ -4,6 +4,7 @@ the cells are.
 
 import json
 import time
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -72,12 +73,18 @@ def reversed_at(rows: slice) -> np.ndarray:
     return found
 
 
+@pytest.fixture(scope="module")
+def right_side_out(tmp_path_factory: pytest.TempPathFactory) -> tuple[int, dict[str, Any]]:
+    return report(tmp_path_factory.mktemp("block"), BLOCK, pocketing(0.3, 1.0))
+
+
 @pytest.mark.parametrize(
     ("rows", "words"), [(slice(None), "inside out"), (WALL, "2 of 28 triangles"), (FLOOR, "2 of 28 triangles")]
 )
-def test_the_verdict_is_that_of_the_solid_right_side_out(tmp_path: Path, rows: slice, words: str) -> None:
-    text = pocketing(0.3, 1.0)
-    expected, found = report(tmp_path, BLOCK, text), report(tmp_path, reversed_at(rows), text)
+def test_the_verdict_is_that_of_the_solid_right_side_out(
+    tmp_path: Path, right_side_out: tuple[int, dict[str, Any]], rows: slice, words: str
+) -> None:
+    expected, found = right_side_out, report(tmp_path, reversed_at(rows), pocketing(0.3, 1.0))
     assert expected[0] == found[0] == 1
     for key in ("gouge", "left", "worst", "worst_count", "bands", "certificate"):
         assert found[1][key] == expected[1][key]
@@ -231,34 +238,33 @@ def test_a_rib_that_is_cut_through_is_half_its_width_deep() -> None:
         assert judgement is not None and judgement.gouge.max_mm == pytest.approx(0.4, abs=2e-3)
 
 
-@pytest.mark.parametrize("cells", [40, 160])
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (1, 2, 3))])
-@pytest.mark.parametrize("kind", [ToolKind.BALL, ToolKind.FLAT])
-def test_the_depth_is_that_of_dense_columns_through_a_solid_with_undercut_faces(
-    kind: ToolKind, seed: int, cells: int
-) -> None:
-    """A ball of 80 triangles, cut at random, also below its middle; inside it the surface is as far away as the nearest
-    of all planes.
-    """
+def ball_of_triangles() -> np.ndarray:
+    """80 triangles (80, 3, 3), convex."""
     from trimesh.creation import icosphere
 
-    ball = np.array(icosphere(subdivisions=1, radius=8.0).triangles) + [10.0, 10.0, -8.0]
+    return np.array(icosphere(subdivisions=1, radius=8.0).triangles) + [10.0, 10.0, -8.0]
+
+
+def random_places(seed: int) -> np.ndarray:
+    """Tips (8, 3), also below the ball's middle."""
     rng = np.random.default_rng(seed)
     angles = rng.uniform(0, 2 * np.pi, 8)
     away, down = rng.uniform(4.0, 10.0, 8), rng.uniform(-14.0, -2.0, 8)
-    places = np.round(np.column_stack([10 + away * np.cos(angles), 10 + away * np.sin(angles), down]), 4)
-    moves = [f"G1 X{x:.4f} Y{y:.4f} Z{z:.4f} F300" for x, y, z in places.tolist()]
-    x, y, _ = places[0].tolist()
-    text = "\n".join(["G21 G90 G94 G17", "T1 M6", "G0 Z5", f"X{x:.4f} Y{y:.4f}", *moves, "G0 Z5", "M2", ""])
-    tool = Tool(1, 3.0, kind)
-    setup = CutSetup((program(text),), {1: tool}, BoxStock(StockBox(0, 0, -16, 20, 20, 0)), SolidPart(SolidStock(ball)))
-    judgement = cut(setup, CutOptions(cells)).judgement
-    assert judgement is not None and judgement.certificate is not None
+    return np.round(np.column_stack([10 + away * np.cos(angles), 10 + away * np.sin(angles), down]), 4)
 
-    side = np.linspace(1.5, 18.5, 70)
-    dense, shape = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2), cutter_of(tool)
+
+SIDE = np.linspace(1.5, 18.5, 70)
+
+
+@cache
+def deepest_of_dense_columns(kind: ToolKind, seed: int) -> float:
+    """How deep the cut from one random place to the next is in the ball; inside it the surface is as far away as the
+    nearest of all planes.
+    """
+    ball, places, shape = ball_of_triangles(), random_places(seed), cutter_of(Tool(1, 3.0, kind))
+    dense = np.stack(np.meshgrid(SIDE, SIDE), axis=-1).reshape(-1, 2)
     low = np.full(len(dense), np.inf)
-    for a, b in zip(np.vstack([[x, y, 5.0], places[:-1]]), places, strict=True):
+    for a, b in zip(np.vstack([[*places[0, :2], 5.0], places[:-1]]), places, strict=True):
         for tip in a + np.linspace(0, 1, 150)[:, None] * (b - a):
             low = np.minimum(low, tip[2] + shape.heights(np.hypot(*(dense - tip[:2]).T)))
     dense, low = dense[low < 0], low[low < 0]
@@ -266,8 +272,24 @@ def test_the_depth_is_that_of_dense_columns_through_a_solid_with_undercut_faces(
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     heights = low[:, None] + np.linspace(0, 1, 80) * -low[:, None]
     columns = np.concatenate([np.repeat(dense[:, None], 80, axis=1), heights[..., None]], axis=2).reshape(-1, 3)
-    deepest = float(np.max(np.min(np.einsum("ij,ij->i", ball[:, 0], normal) - columns @ normal.T, axis=1)))
-    apart = float(side[1] - side[0])
+    return float(np.max(np.min(np.einsum("ij,ij->i", ball[:, 0], normal) - columns @ normal.T, axis=1)))
+
+
+@pytest.mark.parametrize("cells", [40, 160])
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (1, 2, 3))])
+@pytest.mark.parametrize("kind", [ToolKind.BALL, ToolKind.FLAT])
+def test_the_depth_is_that_of_dense_columns_through_a_solid_with_undercut_faces(
+    kind: ToolKind, seed: int, cells: int
+) -> None:
+    """A ball of 80 triangles, cut at random, also below its middle."""
+    places = random_places(seed)
+    moves = [f"G1 X{x:.4f} Y{y:.4f} Z{z:.4f} F300" for x, y, z in places.tolist()]
+    x, y, _ = places[0].tolist()
+    text = "\n".join(["G21 G90 G94 G17", "T1 M6", "G0 Z5", f"X{x:.4f} Y{y:.4f}", *moves, "G0 Z5", "M2", ""])
+    stock, part = BoxStock(StockBox(0, 0, -16, 20, 20, 0)), SolidPart(SolidStock(ball_of_triangles()))
+    judgement = cut(CutSetup((program(text),), {1: Tool(1, 3.0, kind)}, stock, part), CutOptions(cells)).judgement
+    assert judgement is not None and judgement.certificate is not None
+    deepest, apart = deepest_of_dense_columns(kind, seed), float(SIDE[1] - SIDE[0])
     assert deepest - 1e-3 <= judgement.gouge.max_mm <= max(deepest, 0.0) + apart
     assert judgement.gouge.max_mm <= judgement.certificate.gouge_mm
 
