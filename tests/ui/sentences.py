@@ -48,6 +48,7 @@ CALLS = {
     "note": _Said((1,), ("reply",)),
     "step": _Said((1,), ("text",)),
     "remark": _Said((0,)),
+    "Reckoning": _Said((1, 2)),
     "said.emit": _Said((0,)),
     "failed.emit": _Said((0,)),
     "hovered.emit": _Said((0,)),
