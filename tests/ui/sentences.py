@@ -48,6 +48,7 @@ CALLS = {
     "note": _Said((1,), ("reply",)),
     "step": _Said((1,), ("text",)),
     "remark": _Said((0,)),
+    "Reckoning": _Said((1, 2)),
     "said.emit": _Said((0,)),
     "failed.emit": _Said((0,)),
     "hovered.emit": _Said((0,)),
@@ -80,9 +81,10 @@ def said_in(source: str, name: str, calls: dict[str, _Said] = CALLS) -> Iterator
         calls: what is called, and which of its arguments are seen.
     """
     tree = _parsed(source)
+    answers = _answers(tree)
     for function in (tree, *(node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))):
         heard = [(call, calls[called]) for call in _own(function) if (called := _last_name(call.func)) in calls]
-        names = _assigned(function) if heard else {}
+        names = {**_assigned(function), **answers} if heard else {}
         for call, said in heard:
             given = [call.args[at] for at in said.places if at < len(call.args)]
             given += [word.value for word in call.keywords if word.arg in said.names]
@@ -94,6 +96,19 @@ def said_in(source: str, name: str, calls: dict[str, _Said] = CALLS) -> Iterator
 @lru_cache(1)
 def _parsed(source: str) -> ast.Module:
     return ast.parse(source)
+
+
+def _answers(tree: ast.Module) -> dict[str, list[ast.expr]]:
+    """Return what the file's own functions answer where that is words, by their names with "()"."""
+    found = dict[str, list[ast.expr]]()
+    for function in tree.body:
+        if isinstance(function, ast.FunctionDef) and getattr(function.returns, "id", "") == "str":
+            names = _assigned(function)
+            given = (node.value for node in ast.walk(function) if isinstance(node, ast.Return) and node.value)
+            texts = {text for each in given for text in texts_of(each, names)}
+            if all(len(_WORD.findall(text)) > 1 and "<" not in text for text in texts - {""}):
+                found[f"{function.name}()"] = [ast.Constant(text) for text in sorted(texts)]
+    return found
 
 
 def _own(function: ast.AST) -> Iterator[ast.Call]:
@@ -156,6 +171,9 @@ def texts_of(node: ast.expr, names: dict[str, list[ast.expr]], depth: int = 0) -
             return [*texts_of(body, names, depth + 1), *texts_of(other, names, depth + 1)]
         case ast.BoolOp(values=values):
             return [text for each in values for text in texts_of(each, names, depth + 1)]
+        case ast.Call(func=ast.Name(id=name)) if f"{name}()" in names:
+            found = (text for each in names[f"{name}()"] for text in texts_of(each, names, depth + 1))
+            return list(islice(found, _MOST_CHOICES))
         case ast.Name(id="TIMES"):
             return [TIMES]
         case ast.Name(id=name) if name in names:

@@ -1,7 +1,8 @@
 """The bar over the view: what speaks of one view is seen there alone."""
 
 import pytest
-from PySide6.QtWidgets import QStackedWidget, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QStackedWidget, QWidget
 
 from app.ui.framework.notice import Notice
 
@@ -53,3 +54,21 @@ def test_buttons_go_at_once_also_where_a_dialog_opens_meanwhile(qtbot, notice):
     (old,) = notice.buttons
     notice.ask("No gouge.")
     assert not old.isVisible() and notice.isVisible()
+
+
+@pytest.mark.parametrize(("width", "below"), [(900, False), (420, True)])
+def test_where_it_is_narrow_the_buttons_stand_below_the_sentence(qtbot, notice, width, below):
+    words = ("Propose operations", "Keep the operations there are")
+    notice.resize(width, 40)
+    notice.show()
+    sentence = "apu-mount.dxf says nothing about machining. F5 proposes operations for it and computes them."
+    notice.ask(sentence, [(each, lambda: None) for each in words])
+    QApplication.processEvents()
+    notice.resize(width, notice.heightForWidth(width))
+    QApplication.processEvents()
+    at = [button.mapTo(notice, button.rect().topLeft()) for button in notice.buttons]
+    assert all((place.y() > notice.text.geometry().bottom()) == below for place in at)
+    assert all(button.width() >= button.sizeHint().width() for button in notice.buttons)
+    text = notice.text
+    room = text.fontMetrics().boundingRect(text.contentsRect(), Qt.TextFlag.TextWordWrap, text.text())
+    assert text.width() >= 240 and text.height() >= room.height()

@@ -346,9 +346,7 @@ def test_a_word_covers_no_other_one_and_few_curves() -> None:
     box = QRectF(hole[0], hole[1], 3.0, 3.0)
     beside = places.take(box, word, filled=True)
     assert beside == QRect(QPoint(157, 374), word), "below and above it lies over the plate's edge"
-    assert places.take(box, word, filled=True).topLeft() == QPoint(94, 403), (
-        "next best"
-    )
+    assert places.take(box, word, filled=True).topLeft() == QPoint(94, 403), "next best"
     assert WordPlaces(view, QRect(0, 0, 50, 50), places.curves).take(box, word, filled=True) is None
 
 

@@ -1,6 +1,9 @@
 """The bottom line: one thing is waited for at a time."""
 
+from itertools import pairwise
+
 import pytest
+from PySide6.QtWidgets import QApplication, QWidget
 
 from app.ui.framework.verdict import VerdictLevel, VerdictSummary
 from app.ui.shell.bars.badge import Badge
@@ -26,6 +29,24 @@ def test_what_goes_on_in_the_background_is_told_while_no_job_tells_of_itself(bar
     assert bar.waiting.isVisible() and bar.waiting.text() == "Compiling: 4 of 9"
     bar.show_waiting("")
     assert not bar.waiting.isVisible()
+
+
+@pytest.mark.parametrize("width", [1280, 880])
+def test_nothing_lies_over_what_a_running_job_tells(qtbot, width: int) -> None:
+    window = QWidget()
+    qtbot.addWidget(window)
+    bar = StatusBar()
+    bar.setParent(window)
+    bar.setGeometry(0, 0, width, 34)
+    window.show()
+    bar.show_grid(100.0)
+    bar.show_message("Paths up to date")
+    bar.show_progress(0.9, "Reading a-part-with-a-long-name.dxf")
+    QApplication.processEvents()
+    row = [bar.grid, bar.message, bar.step, bar.bar, bar.cancel, bar.badge]
+    for left, right in pairwise(row):
+        assert left.geometry().right() < right.geometry().left() or not left.width(), (left, right)
+    assert bar.badge.geometry().right() <= bar.width()
 
 
 @pytest.mark.parametrize(("room", "shown"), [(1.0, 5), (0.9, 3), (0.6, 2)])

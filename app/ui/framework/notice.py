@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QPushButton, QWidget
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QWidget
 
 from .boxes import give_ground, h_box, put_away
 from .icons import IconButton
@@ -14,6 +15,9 @@ from .labels import restyle
 from .seen_with import SeenWith
 
 Answers = Sequence[tuple[str, Callable[[], None]]]
+
+_LEAST_TEXT_PX = 240
+"""Where buttons leave a sentence less than this, they stand below it."""
 
 
 def _call(act: Callable[[], None], *_: object) -> None:
@@ -36,13 +40,41 @@ class Notice(QWidget):
         self._stays = self._of_job = False
         self._seen_with = SeenWith(self)
         self.sentence = ""
-        self._row = h_box(self, (16, 4, 8, 4), 8)
-        self._row.addWidget(self.text, 1)
+        self._answers, self._below = QWidget(), False
+        self._row = h_box(self._answers, spacing=8)
         self._close = IconButton("cancel", "Close this line")
         self._close.clicked.connect(self.hide)
-        self._row.addWidget(self._close)
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(16, 4, 8, 4)
+        self._grid.setSpacing(8)
+        self._grid.setColumnStretch(0, 1)
+        self._grid.addWidget(self.text, 0, 0)
+        self._grid.addWidget(self._answers, 0, 1)
+        self._grid.addWidget(self._close, 0, 2)
         self.setMinimumHeight(36)
         self.hide()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Put the buttons where the sentence keeps room."""
+        super().resizeEvent(event)
+        self._arrange()
+
+    def event(self, event: QEvent) -> bool:
+        """Put the buttons elsewhere where they become wider: words are looked up when they are painted."""
+        if event.type() == QEvent.Type.LayoutRequest:
+            self._arrange()
+        return super().event(event)
+
+    def _arrange(self) -> None:
+        beside = self.width() - self._answers.sizeHint().width() - self._close.width() - 5 * self._grid.spacing()
+        below = bool(self.buttons) and beside < min(_LEAST_TEXT_PX, self.text.sizeHint().width())
+        if below != self._below:
+            self._below = below
+            self._grid.removeWidget(self._answers)
+            if below:
+                self._grid.addWidget(self._answers, 1, 0, 1, 3, Qt.AlignmentFlag.AlignLeft)
+            else:
+                self._grid.addWidget(self._answers, 0, 1)
 
     def hide(self) -> None:
         """Close the bar; it does not come back with the view that it spoke of."""
@@ -87,13 +119,15 @@ class Notice(QWidget):
         self.text.setProperty("role", "error" if error else "")
         for widget in (self, self.text):
             restyle(widget)
-        for at, (text, act) in enumerate(answers):
+        for text, act in answers:
             button = QPushButton(text)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
             button.clicked.connect(self.hide)
             button.clicked.connect(partial(_call, act))
             self.buttons.append(button)
-            self._row.insertWidget(1 + at, button)
+            self._row.addWidget(button)
+        self._answers.setVisible(bool(self.buttons))
+        self._arrange()
         self.show()
 
     def show_with(self, view: QWidget) -> None:

@@ -20,7 +20,9 @@ from tests.part_shapes import layered_part, square
 def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot, wiring: WindowController) -> None:
     wiring.files.open_sample()
     qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=60_000)
-    view = wiring.window_.views.cut
+    view, empty = wiring.window_.views.cut, wiring.window_.views.empty
+    wiring.display_controller.show_view(View.CUT)
+    assert view.model.picture is not None or empty.sentence.text() == "The cut is being made ready to be looked at."
     qtbot.waitUntil(lambda: view.model.picture is not None, timeout=60_000)
     picture = view.model.picture
     assert picture is not None and picture.moves is not None and picture.move is not None and picture.paths is not None

@@ -80,6 +80,18 @@ def test_what_is_wrong_is_read_whole_and_where_gives_way(qtbot):
         assert where.width() < where.sizeHint().width() and where.text() in row.toolTip()
 
 
+def test_a_long_verdict_is_read_whole_at_its_head(qtbot):
+    panel = CutPanel()
+    qtbot.addWidget(panel)
+    panel.resize(panel.width(), 700)
+    panel.show()
+    panel.title.setText("Material left 59.3 mm² at (25.8, 17.2) · 1 more")
+    QApplication.processEvents()
+    title = panel.title
+    room = title.fontMetrics().boundingRect(title.contentsRect(), Qt.TextFlag.TextWordWrap, title.text())
+    assert title.contentsRect().contains(room), (title.contentsRect(), room)
+
+
 def test_a_place_is_gone_to_and_its_line_is_shown(qtbot, beside):
     panel, view = beside.window_.cut_panel, beside.window_.views.cut
     at = next(k for k, entry in enumerate(panel.entries) if entry.colour is FindingColour.GOUGE and entry.line == 13)

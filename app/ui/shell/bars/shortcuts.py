@@ -23,11 +23,7 @@ class Shortcuts:
         """Return the name of the action that has a key, other than `but`."""
         wanted = QKeySequence(key)
         return next(
-            (
-                name
-                for name, action in self._actions.by_name.items()
-                if name != but and wanted in action.shortcuts()
-            ),
+            (name for name, action in self._actions.by_name.items() if name != but and wanted in action.shortcuts()),
             None,
         )
 

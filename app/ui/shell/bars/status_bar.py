@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QSizePolicy, QToolButton, QWidget
 
 from ...framework.boxes import give_ground, h_box
@@ -11,8 +12,10 @@ from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted, set_role
 from .badge import Badge
 
-_STEP_PX = 180
+_STEP_PX, _BAR_PX = 180, 120
 """So much of what a running job tells is shown whole; the message gives way first."""
+_NARROW_PX = 1150
+"""A narrower window has less room for a running job."""
 
 
 def _separator() -> QFrame:
@@ -75,7 +78,7 @@ class StatusBar(QWidget):
         row.addSpacing(4)
         row.addWidget(self.message, 1)
         row.addWidget(self.waiting)
-        self.bar.setFixedSize(120, 4)
+        self.bar.setFixedSize(_BAR_PX, 4)
         self.bar.setTextVisible(False)
         self.bar.setRange(0, 1000)
         for widget in (self.step, self.bar, self.cancel, self.badge):
@@ -126,4 +129,15 @@ class StatusBar(QWidget):
         self.bar.setValue(round(1000 * (fraction or 0.0)))
         self.step.setText(text)
         self.step.setToolTip(text)
-        self.step.setMinimumWidth(min(self.step.fontMetrics().horizontalAdvance(tr(text)) + 2, _STEP_PX))
+        self._make_room()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Have what a running job tells give way in a narrow window."""
+        super().resizeEvent(event)
+        self._make_room()
+
+    def _make_room(self) -> None:
+        share = 1 if self.width() >= _NARROW_PX else 3
+        self.bar.setFixedWidth(_BAR_PX // share)
+        words = self.step.fontMetrics().horizontalAdvance(tr(self.step.text())) + 2
+        self.step.setMinimumWidth(min(words, _STEP_PX // share))

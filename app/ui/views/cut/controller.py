@@ -86,7 +86,7 @@ class CutController(Controller):
 
     def __init__(self, page: CutPage, panel: CutPanel, form: SetupForm, workspace: Workspace) -> None:
         super().__init__(page)
-        self._view, self._panel, self._form = page.view, panel, form
+        self._page, self._view, self._panel, self._form = page, page.view, panel, form
         self._document, self._computation, self._activity = (
             workspace.document,
             workspace.computation,
@@ -109,6 +109,7 @@ class CutController(Controller):
     def _connect(self) -> None:
         activity = self._activity
         self.foreign_worker.busy_changed.connect(lambda _: self.changed.emit())
+        self.worker.busy_changed.connect(self._on_preparing)
         for worker in (self.worker, self.foreign_worker):
             worker.failed.connect(self._on_failed)
         self.trial_worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
@@ -223,6 +224,10 @@ class CutController(Controller):
             return
         name, colour = made.job.part.name, self._view.colour
         self.worker.start(lambda progress: job_shown(made, name, colour, progress), 0, self._show_own)
+
+    def _on_preparing(self, busy: bool) -> None:
+        self._page.preparing = busy
+        self.changed.emit()
 
     def _cut_foreign(self) -> None:
         foreign, colour = self._foreign, self._view.colour

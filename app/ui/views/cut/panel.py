@@ -142,7 +142,7 @@ class CutPanel(Themed, QWidget):
         self.back.clicked.connect(self.left)
 
     def _lay_out(self) -> None:
-        for label in (self.verdict, self.sentence):
+        for label in (self.title, self.verdict, self.sentence):
             label.setWordWrap(True)
         self._rows.setContentsMargins(0, 0, 0, 0)
         self._rows.setSpacing(0)
