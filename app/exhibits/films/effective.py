@@ -24,6 +24,7 @@ from .step_drawing import AMBER, BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, GREEN, 
 _BEFORE, _AFTER = 2, 3
 """Effective points beside a range that the text's example takes."""
 _CORNER = np.radians(30.0)
+"""Radians; what bends more is a corner."""
 _OFF_SEEN = 0.08
 """Of the path's extent, how far the farthest curve is drawn from the facets."""
 _CHORD = 1e-5

@@ -25,8 +25,11 @@ USUAL = "0.02 + 0.03*sin(pi*z)"
 """The region's outline that a film is made with unless another is asked for."""
 
 _MOST_ROUNDS = 12
+"""That are shown: the first ones, and the last."""
 _CORNER = math.radians(60.0)
+"""Radians; what bends more is a corner."""
 _DEEPEST = 30
+"""Halvings of a chord, at most."""
 _NO_POWER, _REAL = 1e-11, 1e-6
 """Coefficients of a raised curve's highest powers are nothing but rounding; roots so near to the real axis are real."""
 

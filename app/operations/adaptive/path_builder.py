@@ -22,6 +22,7 @@ from .link import Circle, PathPose, Row, smooth_way, way_in
 from .wall_stretches import WallStretch
 
 _NOTHING = 1e-6
+"""mm, instead of a radius of 0, which has no direction."""
 
 
 @dataclass(frozen=True, eq=False)
