@@ -135,6 +135,14 @@ def _beside_stock(axis: RoughAxis, stock: BoxSides | None, radius: float, least:
 
 @dataclass(frozen=True, eq=False)
 class _PlannedArea:
+    """A connected part that has an axis.
+
+    Attributes:
+        room, axis: where the cutter may be, and the middle of it.
+        levels: the last ways along the walls, as fine and as coarse ones. turns: least radius of a path round a centre,
+            mm, at tips of corners and elsewhere.
+    """
+
     room: WallClearance
     axis: RoughAxis
     levels: tuple[OffsetLevel, OffsetLevel]
