@@ -21,6 +21,7 @@ from ..model.reading import ReadingOptions
 UNIT_WORDS = {Units.MM: "mm", Units.INCH: "inch", Units.CM: "cm", Units.M: "m", Units.FOOT: "foot", Units.MICRON: "µm"}
 _OFFERED = (Units.MM, Units.INCH, Units.M)
 _MOST_LAYOUTS = 4
+"""That are offered, those with the most in them."""
 _MOST_LETTERS = 40
 """Of a name on a button; a DXF allows 255."""
 _THIN, _TIMES = "\N{THIN SPACE}", "\N{MULTIPLICATION SIGN}"

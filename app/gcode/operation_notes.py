@@ -46,6 +46,7 @@ def unspelled(text: str) -> str:
 _ALWAYS = ("tool", "depth", "stock_to_leave")
 
 _DECIMALS = 9
+"""Of a number in a note: more than any length or angle is asked with."""
 
 _NUMBER = re.compile(r"-?\d{1,9}(\.\d{1,9})?")
 

@@ -12,6 +12,7 @@ _SHORT = 16
 """So few are put in order by moving each to its place."""
 
 _ALL_BUT_SIGN = 0x7FFF_FFFF_FFFF_FFFF
+"""Bits of a double that are turned over where it is negative, so that its bits sort as integers do."""
 _NO_NUMBER = 0x7FF8_0000_0000_0000
 """Bits of a float that is no number, behind those of all numbers."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 _INCH = 25.4
+"""mm."""
 _SIZES = {
     "mm": 1.0,
     "ミリ": 1.0,

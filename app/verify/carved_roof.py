@@ -189,7 +189,13 @@ def _of_regions(walls: Primitives, numbers: Sequence[int]) -> Primitives:
 
 @dataclass(frozen=True, eq=False)
 class _BehindWalls:
-    """Discs behind walls, wherever these are; `RoofProof` has the words for the rest."""
+    """Discs behind walls, wherever these are; `RoofProof` has the words for the rest.
+
+    Attributes:
+        centres, radius: (n, 2) and (n,), mm.
+        blunt_mm: length of wall behind which the disc is narrower than the tip.
+        gap_mm: the most that neighbouring centres are apart.
+    """
 
     centres: Floats
     radius: Floats
@@ -281,7 +287,12 @@ def _normals(rows: Floats, points: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class _Discs:
-    """The largest discs behind places of walls, in order along each, n of them."""
+    """The largest discs behind places of walls, in order along each, n of them.
+
+    Attributes:
+        wall: number of the element. share: of its length, in [0, 1].
+        centres, radius: (n, 2) and (n,), mm.
+    """
 
     wall: NDArray[np.int64]
     share: Floats

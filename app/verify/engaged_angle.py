@@ -124,7 +124,11 @@ def prove_engagement(path: CutterPath, limit: float, progress: Progress = NO_PRO
 
 @dataclass
 class _Clear:
-    """Shapes that are clear down to one height, see `rim_kernels`."""
+    """Shapes that are clear down to one height, see `rim_kernels`.
+
+    Attributes:
+        shapes: (m, 9), mm, m as many as there is room for; the first `count` are in use.
+    """
 
     shapes: Floats = field(default_factory=lambda: np.empty((64, 9)))
     count: int = 0

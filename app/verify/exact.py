@@ -140,7 +140,12 @@ def moves_of(course: Course, job: Job, origin: tuple[float, float, float]) -> Mo
 
 @dataclass(frozen=True, eq=False)
 class _PlainMoves:
-    """Plain ways: starts and ends, the motion that each belongs to, kinds, and centres of arcs."""
+    """Plain ways: starts and ends, the motion that each belongs to, kinds, and centres of arcs.
+
+    Attributes:
+        start, end: (n, 3), mm. centre: (n, 2) of arcs, mm.
+        rows: number of the motion. kind: of it.
+    """
 
     start: Floats
     end: Floats

@@ -119,7 +119,11 @@ class WallProbe:
 
 @dataclass(frozen=True, eq=False)
 class _WallPoints:
-    """Points on walls, the way into the solid there, and whom to ask."""
+    """Points on walls, the way into the solid there, and whom to ask.
+
+    Attributes:
+        points: (n, 3), mm. inwards: (n, 3), of length 1.
+    """
 
     points: Floats
     inwards: Floats

@@ -84,6 +84,14 @@ class Heal:
 
 @dataclass
 class _HealJob:
+    """Curves that are being put right.
+
+    Attributes:
+        curves, drawn, layers: by number: as they are now, as they were drawn, where they are.
+        tolerance: no curve is led farther from where it was drawn, mm.
+        counts: what was put right. ends: of curves that are merged, where those that they are made of ended.
+    """
+
     curves: dict[int, Curve]
     drawn: dict[int, Curve]
     layers: dict[int, str]

@@ -27,9 +27,13 @@ INK, FAINT, GREEN, AMBER, BLUE, RED, PURPLE, AREA = (
 """Colours that people tell apart, whatever their eyes; the same as those of the plots."""
 
 LINE, BOLD, FINE = 0.35, 0.6, 0.18
+"""Widths of lines, mm on the sheet."""
 DOTTED, DASHED, CHAIN = (0.4, 1.2), (2.4, 1.4), (4.0, 1.2, 0.4, 1.2)
+"""Dashes and what is between them, mm on the sheet."""
 _TEXT = 3.0
+"""Height of letters, mm on the sheet."""
 _CORNERS = 48
+"""Of a circle as it is drawn."""
 
 
 class StepDrawing:

@@ -17,6 +17,7 @@ from ..band_kernels import factor
 
 _R, _Z, _BANDS, _FRAMES = "float64[::1]", "complex128[::1]", "float64[:, ::1]", "complex128[:, ::1]"
 _SAMPLES = 32
+"""Points of a stretch that are held against its limit, about."""
 _EACH = 8
 """A piece is held to so many samples at least, to all if there are no more than twice as many; a chord has so many."""
 _BAND = 8

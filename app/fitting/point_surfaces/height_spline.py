@@ -191,7 +191,13 @@ class _SurfaceEquations:
 
 @dataclass(frozen=True, eq=False)
 class _FitTask:
-    """What surfaces are found by."""
+    """What surfaces are found by.
+
+    Attributes:
+        places: (n, 3) u, v, z, mm. weights: (n,) of each.
+        points, light: (m, 3) that hold the surface beside the places, mm, and (m,) their weights.
+        box: of u and v.
+    """
 
     places: Floats
     weights: Floats

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 _STROKED = ("", "txt", "standard")
 """Names without an ending of fonts that are strokes in every CAD program; they are no families."""
 _LONGEST = 60
+"""Letters of a name in a sentence."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,9 @@ _OF_TEXT = 8
 _SHARES = tuple((k + 0.37) / 16 for k in range(16))
 """Where each line and arc of a boundary is looked at."""
 _POLYLINE, _EDGES = 1, 2
+"""Sorts of boundary paths, as the DXF library numbers them."""
 _LINE, _ARC, _ELLIPSE = 1, 2, 3
+"""Sorts of edges, as the DXF library numbers them."""
 
 
 @dataclass(frozen=True, slots=True)

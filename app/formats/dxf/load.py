@@ -41,6 +41,7 @@ _BYTE_ORDERS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", cod
 _BEYOND_ASCII = re.compile("[\u0080-\uffff]")
 
 _HEAD, _TAIL = 1 << 16, 1 << 12
+"""Bytes of beginning and end in which what tells the sort of a file has to stand."""
 
 MOST_BYTES = 200 << 20
 """A larger file would take gigabytes before anything of it is known."""

@@ -25,8 +25,11 @@ _TAB = 4.0
 _STACKED, _BETWEEN = 0.7, 0.2
 """Height of the letters of a fraction, and what lies between its two rows, in heights of the capitals beside it."""
 _SLACK = 1e-9
+"""Of a length, for rounding."""
 _DOWNWARD, _AS_STYLED = 3, 5
+"""Codes of the direction of letters: downwards, or as the style says (group 72)."""
 _EXACT = 2
+"""Code of line spacing that is kept whatever stands in the line (group 73)."""
 
 
 def columns_of(entity: Any) -> list[Any]:

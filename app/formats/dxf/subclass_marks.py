@@ -25,7 +25,9 @@ DAMAGED = " (damaged)"
 _COMMON = frozenset({6, 8, 48, 60, 62, 67, 370, 410, 420, 430, 440})
 """Codes of what all kinds have: line type, layer, its scale, whether it is seen, colour, paper, weight, layout."""
 _HANDLE, _OWNER, _GROUP, _MARK, _EMBEDDED = 5, 330, 102, 100, 101
+"""Codes of groups: handle, owner, what is in braces, subclass mark, embedded object."""
 _SEQUENCE_END, _PARTS_FOLLOW = "SEQEND", 66
+"""What ends the vertices of a polyline or the attributes of a block, and the code that says that some follow."""
 _R12, _R2000 = "AC1009", "AC1015"
 _VERSION = "$ACADVER"
 

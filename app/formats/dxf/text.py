@@ -19,8 +19,11 @@ from .letters import LeftOutError, LetterRun, LetterStyle, TextCurves, lettered,
 from .vertical import is_vertical, stacked
 
 _BACKWARD, _UPSIDE_DOWN = 2, 4
+"""Flags of how a text is mirrored (group 71)."""
 _LEFT, _CENTRE, _RIGHT, _ALIGNED, _MIDDLE, _FIT = range(6)
+"""How a text lies across its place (group 72)."""
 _BASELINE, _BOTTOM, _HALF, _TOP = range(4)
+"""What of a text lies at the height of its place (group 73)."""
 
 
 def text_lettering(entity: Any, fonts: Fonts) -> TextCurves:

@@ -15,8 +15,11 @@ from .letter_boxes import LetterBox
 from .letters import run_of
 
 _APART = 1.5
+"""Heights of the capitals from one letter down to the next."""
 _VERTICAL = 4
+"""Flag of a style whose letters stand below one another."""
 _SLACK = 1e-9
+"""Of a length, for rounding."""
 
 
 def is_vertical(style: Any) -> bool:

@@ -41,6 +41,7 @@ _FORBIDDEN_OF_OLD = re.compile(r"[^\w$-]|[\ud800-\udfff]")
 _BEYOND = re.compile("[\U00010000-\U0010ffff]")
 """Letters for which text before R2007 has no code."""
 _LONGEST, _LONGEST_OF_OLD = 255, 31
+"""Letters of the name of a layer, since R2000 and in R12."""
 _INK = 7
 """The colour that is black or white as the ground demands."""
 

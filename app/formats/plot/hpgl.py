@@ -25,6 +25,7 @@ _LINE_TYPES = {1: (0.0, 1.0), 2: (0.5, 0.5), 3: (0.7, 0.3), 4: (0.8, 0.1, 0.0, 0
 """The line types that plotters have: parts of a pattern's length by turns with the pen down and up; 0 is a dot."""
 
 _POINTS_A_LINE = 100
+"""Plotters of old take lines of some hundred letters."""
 _END = "\x03"
 _ANCHORS = {0.0: 1, 0.5: 4, 1.0: 7}
 _LETTER = (0.6, 0.7)

@@ -19,14 +19,19 @@ MARGIN, STRIP, OVERLAP = 10.0, 12.0, 10.0
 """Paper round the frame, height of the title strip, and what neighbouring sheets have in common, mm."""
 
 MOST_PAGES = 200
+"""Of a plot; more are a slip of the scale."""
 _ROOM = 4.0
+"""mm between the drawing and the edge of the page, at least."""
 _TICK = 3.0
+"""Length of the marks where pages are joined, mm."""
 _FRAME, _THIN = Pen(1, "#000000", 0.5), Pen(1, "#000000", 0.18)
 _CELLS = ((0.0, "Name"), (0.40, "Scale"), (0.58, "Units"), (0.68, "Date"), (0.86, "Sheet"))
 """Where the cells of the title strip begin, as parts of its width."""
 
 _CAPTION_MM, _TEXT_MM = 2.2, 3.5
+"""Heights of letters, mm."""
 _EPSILON = 1e-6
+"""mm; a drawing that is no wider is a point."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,9 @@ from .page import PlotPage
 from .pixels import FINE, SHIFT, Pixels, averaged, bgr, fixed, sheet_of
 
 _DPI = 200
+"""Pixels to the inch of paper."""
 _MOST_PIXELS = 16e6
+"""Of a page; a larger one is drawn coarser."""
 
 
 def page_png(page: PlotPage) -> bytes:

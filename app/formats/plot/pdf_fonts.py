@@ -30,6 +30,7 @@ _STANDARD = tuple(
     for name in ("Helvetica", "Helvetica-Bold")
 )
 _SYMBOLIC = 4
+"""Flag of a font that has signs beyond the Latin ones."""
 _TO_UNICODE = """/CIDInit /ProcSet findresource begin
 12 dict begin
 begincmap

@@ -31,6 +31,7 @@ _WIDTHS = {
     for bold, table in ((False, _REGULAR), (True, _BOLD))
 }
 _USUAL = 556
+"""Width of a sign that the table lacks, thousandths of the size of letters: that of a digit."""
 _WIDE = "\u2e80-\uffdc"
 """Signs as wide as high: those of Japanese, with its blanks, brackets and points."""
 _WIDE_RUN = re.compile(f"[{_WIDE}]+|[^{_WIDE}]+")

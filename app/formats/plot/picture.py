@@ -16,7 +16,9 @@ WIDTH = 1600
 """Pixels across a whole picture."""
 
 LEGEND = 220
+"""Width of the legend, px."""
 MARGIN = 40
+"""Round the drawing, px."""
 PAPER, INK, AREA, MUTED = "#FAFAF8", "#1E2227", "#F1F2EE", "#5C626A"
 LEFT, UNREACHABLE, PLUNGE = "#2979FF", "#B0A8C8", "#D55E00"
 

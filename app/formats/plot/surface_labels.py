@@ -16,7 +16,9 @@ _CELL = 0.4
 """Side of the squares of paper that are either free or taken, mm."""
 
 _MOST_CELLS = 2e7
+"""Of the table of what is taken; on larger paper cells are larger."""
 _GAP, _POINT, _ROUND = 0.5, 0.7, 3.5
+"""mm on paper: round a label, half the side of a point, how far labels may stand beyond all points."""
 _WIDE, _BODY = 0.62, 0.75
 """Greatest width of a letter and height of a capital, of the height of a text."""
 

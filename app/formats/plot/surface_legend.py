@@ -12,6 +12,7 @@ from ...model.curves import Circle
 from .page import Box, PageContent, Pen, PenStroke, TextLine, TracedPolyline, fitted
 
 _COLUMNS, _ROW, _EDGE, _SAMPLE, _TEXT = 3, 5.2, 2.0, 15.0, 2.5
+"""Columns; mm: from row to row, to the edge, length of a sample, height of letters."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,6 +27,7 @@ PATH_MM, SURFACE_MM, MARK_MM = 0.3, 0.15, 0.7
 """Widths of the lines of paths and of the compound surface, radius of a boundary point's circle, mm on paper."""
 
 LABEL_MM = 2.2
+"""Height of the letters of labels, mm."""
 DASHES = {LineType.SOLID: (), LineType.DOTTED: (0.05, 0.95), LineType.CHAIN: (6.0, 0.95, 0.05, 0.95)}
 """Dash and gap by turns, mm on paper. Dots are round ends with hardly a dash between: painters draw nothing where there
 is none.
@@ -34,6 +35,7 @@ is none.
 
 _CYCLE = (LineType.SOLID, LineType.DOTTED, LineType.CHAIN)
 _MARK = Pen(1, INK, 0.18)
+"""What points and their labels are drawn with."""
 
 
 class PlotColouring(Enum):

@@ -26,6 +26,7 @@ FARTHEST = 1e15
 """No number of a curve is greater; what the language draws ends far below, and a window can show it."""
 
 _HIGHEST, _MOST_TURN = 10**12, 100.0
+"""The largest number of a curve, and how far an ellipse may turn, radians."""
 
 Made = TypeVar("Made")
 _LAYER, _LETTERS = "layer ", " letters"

@@ -44,7 +44,9 @@ from .source import read_source, source_lines
 
 SUFFIX = ".hito"
 FORMAT, VERSION = "hitofude", 1
+"""What a project file says of itself; a later version has what this program cannot read."""
 MOST_BYTES = 64 * 2**20
+"""Of a project that is read."""
 MOST_HEAD = 8 * 2**20
 """Letters of all but curves and notes; the reader of TOML takes its time over a text that is made to be slow."""
 

@@ -62,7 +62,9 @@ def _sentences(title: str, look: str, sentences: tuple[str, ...]) -> str:
 
 
 _SIZE = 640.0
+"""Width of the picture, px."""
 _EDGE = 44.0
+"""Round the drawing, px."""
 
 
 def picture_svg(picture: SetupPicture) -> str:

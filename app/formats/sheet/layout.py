@@ -18,11 +18,16 @@ from ..plot.pdf_text import text_width, wrapped
 from .content import Legend, SetupPicture, SetupSheet, SheetColumn, SheetTable
 
 WIDTH, HEIGHT, MARGIN = 210.0, 297.0, 12.0
+"""A4 upright and its margin, mm."""
 INNER = WIDTH - 2 * MARGIN
+"""Width between the margins, mm."""
 INK, MUTED, RULE, BAND, GOOD, BAD, OPEN = "#1E2227", "#5C626A", "#C9CCD1", "#F1F2EE", "#0B6B4B", "#B3261E", "#8A5A00"
 _SMALL, _TITLE = 2.5, 7.0
+"""Heights of letters, mm."""
 _LEGEND_ROW, _LEGEND_EDGE = 4.5, 3.0
+"""Height of a row of the legend and what is left at its edge, mm."""
 _FOOT = 14.0
+"""What is left below for the foot of the page, mm."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +61,7 @@ class _Density:
 
 
 _COMPACT = _Density(body=2.7, lead=1.16, row=0.8, heading=5.7, label=3.0, fact=1.5, picture=(82.0, 58.0))
+"""Lengths of a sheet that shall do with one page, mm."""
 
 
 def sheet_pages(sheet: SetupSheet) -> tuple[PlotPage, ...]:

@@ -10,8 +10,11 @@ from .xml import Node
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 SODIPODI = "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"
 CSS_PER_INCH = 96.0
+"""User units to the inch, as CSS has them."""
 _OLD_INKSCAPE = 90.0
+"""User units to the inch before Inkscape 0.92."""
 _ILLUSTRATOR = 72.0
+"""User units to the inch of Illustrator: points."""
 KNOWN_PER_INCH = (CSS_PER_INCH, _OLD_INKSCAPE, _ILLUSTRATOR)
 """What is or was usual."""
 _VERSION = re.compile(r"\s*(\d+)\.(\d+)")

@@ -292,6 +292,7 @@ _WORDS = re.compile(r"/?(?:n[0-9]+)?(goto|if|while|end)(?![a-z])|/?(?:n[0-9]+)?(
 _DO = re.compile(r"do([0-9])$")
 
 MOST_CALLS = 99_999
+"""Of a subroutine in one block: L has five digits."""
 
 
 def is_macro(code: str) -> bool:

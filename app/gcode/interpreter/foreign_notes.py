@@ -9,6 +9,7 @@ from .own_header import LENGTH, NUMBER, UNIT, StockBoxNote, Three, length_mm
 from .program import ToolNote
 
 LARGEST_MM = 500.0
+"""Diameter; a larger number in a comment is that of something else."""
 
 _ANY = re.IGNORECASE
 

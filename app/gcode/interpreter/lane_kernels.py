@@ -64,6 +64,7 @@ from .word_kernels import _LINE, M_CODES, read_block
 
 _INTS, _REALS, _RECORDS = "int64[::1]", "float64[::1]", "float64[:, ::1]"
 _F, _I, _J, _K, _L, _P, _Q, _R, _S, _T, _X = (ord(letter) - 65 for letter in "FIJKLPQRSTX")
+"""Letters as places in the alphabet."""
 (
     _MOTION,
     _PLANE,
@@ -85,8 +86,11 @@ _SLOTS = 14
 _NEVER_PLAIN = (35, 77, 83, 84, 109, 115, 116)
 """What lines begin with that are surely more than plain ones: #, M, S, T."""
 _CYCLES = (73, 81, 82, 83, 85, 89)
+"""G codes of cycles that the lane carries out."""
 _NO_MOTION = 80
+"""G80."""
 _FASTEST_SPINDLE, _MOST_TOOLS, _LONGEST_DWELL = 1e7, 1e8, 1e6
+"""rpm, numbers of tools, seconds: beyond, a line is left to the reader, which says what is wrong."""
 
 
 @kernel(f"int64(int64, {_INTS})", counts=False)

@@ -17,6 +17,7 @@ _WANT_AXES = frozenset({"G10", "G28", "G30", "G52", "G92"})
 """Codes done once that leave no axis word to a motion."""
 
 _FULL_TURN = 360.0
+"""Degrees."""
 
 
 def check_linuxcnc_block(control: Control, block: Block) -> None:

@@ -142,6 +142,7 @@ RADIUS_SLACK_MM = 0.00127
 """How much the R word of a half circle may be too small to reach the end, as LinuxCNC has it."""
 
 LEAST_RADIUS_MM = 0.00127
+"""Arcs of less are refused, as LinuxCNC does."""
 
 RELATIVE_MISMATCH = 1e-3
 """The two radii of an arc may differ by so much of the larger one, whatever the control: LinuxCNC and grbl have it
@@ -149,6 +150,7 @@ so.
 """
 
 GRBL_MISMATCH_MM = (0.005, 0.5)
+"""mm between the radii of an arc: up to the first grbl takes it, beyond the second never, between them up to 0.1 %."""
 
 LINUXCNC_MISMATCH = {Units.MM: 0.02 * math.sqrt(2.0), Units.INCH: 0.002 * math.sqrt(2.0)}
 """How far the two radii may be apart whatever their size, in units of the program; measured at its interpreter."""
@@ -163,6 +165,7 @@ CURVES = ("G5.2", "G5.3", "G6.2")
 """They take several blocks for one curve."""
 
 MOST_TURNS = 100_000
+"""Of one arc; more are a slip of the keyboard."""
 
 
 def move(control: Control, block: Block) -> None:

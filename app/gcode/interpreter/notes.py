@@ -13,6 +13,7 @@ from .program import StockNote, ToolNote
 from .text import ProgramBuffer
 
 MOST_TOOLS = 500
+"""That comments may tell of."""
 
 _TOOL_WORDS = (b"tool", b"cutter", b"mill", b"drill", b"dia", b"d=", b"radius", b"bit", b"ball", b"flat", b"tc:")
 _CHANGE_WORDS = (b"m6", b"m06")
@@ -24,6 +25,7 @@ _LINES_BELOW, _BLOCKS_BELOW = 60, 5
 _TOGETHER = 10
 """Comments that are so many lines apart may tell of one tool; PyCAM has a line for each of its properties."""
 _BOUNDS_AROUND = 200
+"""Comments before and behind one that tells of the stock, in which its other bounds may stand."""
 
 
 def notes(data: bytes, unnamed: Units = Units.MM) -> ProgramNotes:

@@ -161,10 +161,13 @@ _AXES = range(3)
 _HOMES = {"G28": 5161, "G30": 5181}
 
 _SET_HERE = 5211
+"""Number of the first parameter of G92."""
 
 _WORK, _APART, _TURN = 5221, 20, 9
+"""Number of the first parameter of G54, how many a work offset has, and which of them is its rotation."""
 
 _READ_ONLY = (range(5400, 5414), range(5420, 5429))
+"""Parameters of the tool in the spindle and of where it is."""
 
 SETTABLE = frozenset(
     [first + axis for first in (*_HOMES.values(), _SET_HERE) for axis in _AXES]

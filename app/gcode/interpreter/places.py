@@ -46,7 +46,9 @@ _DO_END = re.compile(
 
 
 MOST_PLACES = 500_000
+"""O and N words that are looked up; more would fill the memory."""
 _LINE_END = 10
+"""The byte that ends a line."""
 
 
 @dataclass(frozen=True, slots=True)

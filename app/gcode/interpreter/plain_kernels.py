@@ -13,12 +13,15 @@ from ...core.jit import kernel
 from .arc_kernels import centre_by_radius, radii
 
 _X, _Y, _Z, _I, _J, _K, _R, _F = range(8)
+"""Letters that the lane reads, as places of `words`."""
 _RAPID, _LINE, _CW, _CCW = range(4)
+"""Codes of motion, G0 to G3."""
 _ABSENT, _WHOLE, _POINT = range(3)  # how a number is written; _WHOLE: without a decimal point
 # exact, so that digits / power rounds once, as float(text) does
 _POWERS = np.array([float(f"1e{k}") for k in range(23)])
 _DIGITS_BOUND = 10**15  # whole numbers below it are exact as floats
 _LARGEST_NUMBER = 999_999_999
+"""Of an N word; beyond, an int32 overflows."""
 _FARTHEST, _FASTEST = 1e6, 1e7  # mm, mm/min
 _LEAST_RADIUS, _RADII_ALIKE, _SLACK = 0.01, 0.0045, 1e-6  # mm; no control asks for more
 

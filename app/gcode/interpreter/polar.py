@@ -15,6 +15,7 @@ from .program import BlockFault
 
 RADIUS, ANGLE = "@", "^"
 AT_ORIGIN_MM = 1e-9
+"""mm; nearer to zero a place has no angle."""
 
 
 def check_polar(control: Control, block: Block) -> None:

@@ -279,8 +279,10 @@ class NcProgram:
 
 
 _FIRST = 1024
+"""Rows that are reserved at first."""
 
 _GROWTH = 1.5
+"""By how much they grow where they are full: copying costs a few times the rows in all."""
 
 _NOWHERE = (float("nan"),) * 3
 

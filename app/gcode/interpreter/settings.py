@@ -24,8 +24,10 @@ from .turned_program import choose_polar, turn_program
 PLANES = {"G17": Plane.XY, "G18": Plane.ZX, "G19": Plane.YZ}
 
 LARGEST_SPEED = 1e7
+"""rpm; more is a slip of the keyboard."""
 
 LARGEST_DWELL_S = 1e6
+"""Seconds; more is a slip of the keyboard."""
 
 
 def before_motion(control: Control, block: Block) -> None:

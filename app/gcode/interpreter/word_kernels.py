@@ -10,10 +10,13 @@ from ...core.jit import kernel
 from .plain_kernels import _ABSENT, _POINT, _after_comment, _number
 
 _G, _M = ord("G") - 65, ord("M") - 65
+"""Letters with codes, as places in the alphabet."""
 
 _MOST_CODES, _MOST_SETTINGS = 12, 8
+"""G and M codes of a line, and parameters that it sets; a line with more is left to the reader."""
 
 _LARGEST_CODE = 200.0
+"""No code is as large."""
 
 _LINE = "Tuple((float64[::1], int64[::1], int64[::1], float64[:, ::1], int64[::1], int64[::1], float64[:, ::1]))"
 """A line: values by letter (26,), how each is written (26,), codes (12,) as G 100 times their number, M less 100,000 of
@@ -22,11 +25,13 @@ that, settings (8, 2) of number and value, how many codes and settings there are
 """
 
 M_CODES = 100_000
+"""Taken off the code of an M word, so that it is told from that of a G word."""
 
 _TAKEN = "XYZIJKRFSTPLQ"
 """Letters of words that are known here beside G, M and N."""
 
 _KNOWN = tuple(chr(65 + k) in _TAKEN for k in range(26))
+"""Whether the lane reads a word of each letter of the alphabet."""
 
 
 @kernel("int64(float64)")
@@ -132,14 +137,18 @@ _MOST = 30
 """Operators and brackets that may wait for their operands: fewer than brackets may go deep."""
 
 _LARGEST, _ALIKE = 1e15, 1e-4
+"""A larger value is left to the reader; values that differ by less are equal, as in LinuxCNC."""
 
 _POWER, _TIMES, _DIVIDED, _MODULO, _PLUS, _MINUS, _EQ, _NE, _GT, _GE, _LT, _LE, _AND, _OR, _XOR = range(1, 16)
+"""Operators by number, as they wait on the stack."""
 
 _RANKS = np.array([0, 5, 4, 4, 4, 3, 3, 2, 2, 2, 2, 2, 2, 1, 1, 1])
+"""How strongly each operator binds, 0: none."""
 
 _BRACKET, _PARAMETER, _NEGATIVE, _SECOND = 20, 21, 22, 23  # _SECOND: the second bracket of ATAN
 
 _FUNCTION = 30
+"""Added to the number of a function, so that on the stack it is told from operators."""
 
 
 def _letters(word: str) -> int:
@@ -155,12 +164,14 @@ _FUNCTIONS = ("abs", "acos", "asin", "cos", "exp", "fix", "fup", "round", "ln", 
 _NAMES = np.array([_letters(word) for word in _FUNCTIONS])
 
 _ABS, _ACOS, _ASIN, _COS, _EXP, _FIX, _FUP, _ROUND, _LN, _SIN, _SQRT, _TAN, _ATAN = range(13)
+"""Functions by number."""
 
 _WORDS = np.array([_letters(word) for word in ["mod", "eq", "ne", "gt", "ge", "lt", "le", "and", "or", "xor"]])
 
 _WORD_OPERATORS = np.array([_MODULO, _EQ, _NE, _GT, _GE, _LT, _LE, _AND, _OR, _XOR])
 
 _RADIANS, _DEGREES = math.pi / 180.0, 180.0 / math.pi
+"""Factors of angles: expressions have degrees."""
 
 
 @kernel(f"int64({_BYTES}, int64)")

@@ -12,6 +12,7 @@ _SPACE, _ZERO, _NINE, _DOT, _PLUS, _MINUS, _UPPER = 32, 48, 57, 46, 43, 45, 0xDF
 _LETTERS = (88, 89, 90, 70)
 """X, Y, Z, F."""
 _G, _N = 71, 78
+"""Letters, as bytes."""
 
 
 @kernel("boolean(uint8)", counts=False)

@@ -13,18 +13,22 @@ UNKNOWN = -(2**62)
 NO_FEED = -1
 """In place of a feed rate: nothing is said of it; what is in force is unknown."""
 NO_MOTION = -1
+"""Instead of a kind of motion: none is in force."""
 LONGEST_NUMBER = 32
 """A word is no longer, its letter, its sign, its point and the space before it included."""
 WORDS = 8
+"""Words that a block may have."""
 
 _MOTION, _FEED, _NUMBER = 3, 4, 5  # columns of what is in force
 _POSITION_DECIMALS, _CENTRE_DECIMALS, _FEED_DECIMALS, _ZEROS, _FEED_POINT = 0, 3, 4, 5, 6  # columns of the form
 _ABSOLUTE, _MODAL, _STEP, _START, _LAST = 7, 8, 9, 10, 11
+"""Places in `form`: whether ends are absolute and motions modal; step, first and last number of blocks."""
 _LINE = 1  # kinds above it are arcs
 _LETTERS = np.frombuffer(b"XYZIJFNG", np.uint8)
 _IJ, _F, _N, _G = 3, 5, 6, 7  # places in it
 _DROPPED, _KEPT, _PUT = range(3)  # a point that has no digits behind it: never; where the word has decimals; always
 _SPACE, _POINT, _MINUS, _ZERO, _LINE_FEED = 32, 46, 45, 48, 10
+"""Bytes of text."""
 
 _BYTES, _COLUMN, _TABLE = "uint8[::1]", "int64[::1]", "int64[:, ::1]"
 

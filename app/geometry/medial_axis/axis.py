@@ -118,6 +118,8 @@ class _RegionRows(NamedTuple):
 
 
 class _KnownAxis(NamedTuple):
+    """A region's rows (n, 8) about its middle, mm, and its axis."""
+
     rows: Rows
     axis: MedialAxis
 

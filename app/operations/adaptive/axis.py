@@ -24,6 +24,7 @@ _ADDS = 0.01
 """mm; a branch whose tip adds less to the disc that it leaves is none."""
 
 _HALVINGS = 40
+"""Of an edge of the graph that leaves the room, for where it does: a trillionth of the edge is left."""
 
 _NEIGHBOURS = 1
 """Points along one wall so near to each other have no edge between them."""

@@ -20,6 +20,7 @@ _STEPS = 8
 """Feeds from one to two times the tool's: a program whose feed changes all the time is no better."""
 
 _LOOKED = 64
+"""Pieces of an arc at whose ends the engaged angle is looked at."""
 _SHORTEST = 0.3
 """Radii of the cutter; a piece that is shorter has the feed of the slower one beside it."""
 

@@ -15,7 +15,9 @@ Floats = NDArray[np.float64]
 Point = tuple[float, float]
 
 _EXACT = 1e-9
+"""mm; rounding of distances."""
 _STEPS = 40
+"""Halvings of the way on which the same wall stays the nearest, at most."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -57,6 +57,7 @@ class MetalFront:
     Attributes:
         limit: of the cutter.
         table: (n, 9) what is clear, shapes of `rim_kernels`.
+        _near, _place: those shapes that were asked for last, and where, mm.
     """
 
     limit: EngagementLimit

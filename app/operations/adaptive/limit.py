@@ -20,6 +20,7 @@ the most, and proofs need some room.
 """
 
 _LESS = math.radians(0.15)
+"""Radians less than planned, for arcs that are not quite the way along the edge of the metal."""
 
 _ASIDE = 3e-4
 """mm by which fine digits move one end of a row beside the other at most, both rounded in x and y, and as much again

@@ -20,11 +20,14 @@ _TURNED = 0.3
 """Of the radius of the path round a disc: so large are the arcs of a way back over it."""
 
 _SAME = 1e-9
+"""Radians, and mm: what is as near is one angle or one place."""
 _FLAT = 1e-4
+"""Radians; a way that turns by less is straight, and its radius has no meaning."""
 _HAIR = 2e-4
 """mm by which a circle may reach out of a disc that it touches."""
 
 _HALVINGS = 12
+"""Of the circle on which a way arrives, at most; then it arrives straight."""
 
 
 @dataclass(frozen=True)

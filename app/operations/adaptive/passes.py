@@ -30,6 +30,7 @@ _SEED = 2
 """Rows at the beginning of a part that widen the hole in which the cutter has come down."""
 
 _SAME = 1e-9
+"""mm; heights that differ by less are the same."""
 
 
 def clear_feed(label: StrokeLabel) -> float:

@@ -22,6 +22,7 @@ from .link import Circle, PathPose, Row, smooth_way, way_in
 from .wall_stretches import WallStretch
 
 _NOTHING = 1e-6
+"""mm, instead of a radius of 0, which has no direction."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +49,8 @@ class PathBuilder:
         farthest: mm that the cutter goes over clear ground at most before it goes through the air instead.
         fastest: times the tool's feed at most, where less is engaged than at the limit.
         front: what is clear, where more is than the discs; ways over clear ground are then proven by it.
+        runs: that are done. _rows, _clear, _times: of the one in the making, see `CutRun`.
+        _pose, _in: where it ends, and the number of the disc there.
     """
 
     limit: EngagementLimit

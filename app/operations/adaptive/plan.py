@@ -46,6 +46,7 @@ _BESIDE = 0.5
 """mm beside the stock at least at which the cutter comes down, as the first turn is not quite about its centre."""
 
 _CHORD = 1e-3
+"""mm between a wall and its chords, and by as much the outline is grown."""
 
 _SHORT, _KINK = 1e-4, 2e-3
 """mm of rows that have no direction to speak of, and radians by which the others may turn where they meet."""
@@ -134,6 +135,14 @@ def _beside_stock(axis: RoughAxis, stock: BoxSides | None, radius: float, least:
 
 @dataclass(frozen=True, eq=False)
 class _PlannedArea:
+    """A connected part that has an axis.
+
+    Attributes:
+        room, axis: where the cutter may be, and the middle of it.
+        levels: the last ways along the walls, as fine and as coarse ones. turns: least radius of a path round a centre,
+            mm, at tips of corners and elsewhere.
+    """
+
     room: WallClearance
     axis: RoughAxis
     levels: tuple[OffsetLevel, OffsetLevel]

@@ -31,11 +31,13 @@ _LONGEST = 400
 """Radii of the cutter; a longer way is none."""
 
 _HALVINGS = 30
+"""Of the last step of a way, for where it reaches the angle: a billionth of the step is left."""
 
 _TOLERANCE, _TURNED = 0.001, 2e-3
 """mm that arcs leave the places of a way by, and radians that they turn off it: the angle changes by as many."""
 
 _SAME = 1e-6
+"""mm, and radians: rounding."""
 
 
 @dataclass(frozen=True)

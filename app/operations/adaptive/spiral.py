@@ -17,7 +17,9 @@ from .cleared_discs import Point
 from .limit import DigitGrid, EngagementLimit
 
 _HALVINGS = 60
+"""Of the first radius, until the turns end at the last circle: no double is left between."""
 _MOST_TURNS = 20_000
+"""Half turns of a spiral; more are no clearing that anybody waits for."""
 
 
 def spiral(centre: Point, turn: float, limit: EngagementLimit, seed: float) -> Rows:

@@ -107,6 +107,8 @@ class WideClearing:
         worth: what the path may cost.
         rows, clear: the path so far, and whether each row is over clear ground.
         refused: stretches that are left to discs, as no way there keeps the limit.
+        _at: the wall that is followed, and where on it, mm. _aim: angle that is gone for, radians.
+        _idle: rounds in a row that left as much uncut as before.
     """
 
     limit: EngagementLimit

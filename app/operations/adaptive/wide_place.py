@@ -29,6 +29,7 @@ _TURN = 2 / 3
 """Of the cutter's radius: that of the arcs in which it turns along walls."""
 
 _CHORD = 1e-3
+"""mm between a wall and its chords, and by as much the outline is grown beyond them."""
 
 _BESIDE = 0.1
 """Radii of the cutter that metal may be farther than the cutter is in a disc, and still be of that disc."""

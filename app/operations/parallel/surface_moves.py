@@ -83,6 +83,13 @@ def surface_moves(families: Sequence[PassFamily], clearance: float, approach: fl
 
 @dataclass(frozen=True, slots=True)
 class _Row:
+    """A move in the making.
+
+    Attributes:
+        end: mm. feed: mm/min; 0 = rapid. operation: by index. tool: by number.
+        surface: of the compound that is cut there.
+    """
+
     end: tuple[float, float, float]
     kind: MoveKind
     purpose: Purpose

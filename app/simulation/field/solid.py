@@ -9,8 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
-from ...surfaces.meshes.orientation import orient_outwards
-from ...surfaces.meshes.read import stl_triangles
 from .triangle_tree import TriangleTree
 from .workpiece import Grid, Workpiece, ensure_memory
 
@@ -87,6 +85,9 @@ def read_solid(name: str, data: bytes) -> SolidStock:
     Raises:
         InputError: it is no STL file, holds nothing, its surface is not closed, or has no inside.
     """
+    from ...surfaces.meshes.orientation import orient_outwards  # few stocks are files, and readers of meshes are many
+    from ...surfaces.meshes.read import stl_triangles
+
     triangles = stl_triangles(name, data)
     wound = orient_outwards(triangles)
     if wound.fault:

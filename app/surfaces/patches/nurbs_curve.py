@@ -214,6 +214,8 @@ def compatible(curves: Sequence[Nurbs]) -> CompatibleCurves:
 
 
 class _Knot(NamedTuple):
+    """A knot, and how many times it stands there."""
+
     value: float
     times: int
 

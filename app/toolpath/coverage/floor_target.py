@@ -129,7 +129,12 @@ def _cutting(program: Program, job: Job) -> list[_ClearingOperation]:
 
 @dataclass
 class _Shapes:
-    """Polygons of areas and what tools reach of them; alike ones are made once."""
+    """Polygons of areas and what tools reach of them; alike ones are made once.
+
+    Attributes:
+        job: whose tools these are.
+        off: mm that a centre keeps off walls more than radius and stock to leave say.
+    """
 
     job: Job
     off: float

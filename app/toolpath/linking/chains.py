@@ -180,7 +180,12 @@ def _candidates(net: LinkGraph, tied: _Ties, longest: float) -> Indices:
 
 @dataclass(frozen=True, eq=False)
 class _Thread:
-    """Makes the path of a chain."""
+    """Makes the path of a chain.
+
+    Attributes:
+        chunks, runs, corridor: what is cut, and where the tool may go. net: ways between ends of runs.
+        longest: way from one run to the next, mm.
+    """
 
     chunks: RingChunks
     runs: list[RingRun]

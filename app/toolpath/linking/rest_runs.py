@@ -218,7 +218,12 @@ def _joined(chosen: Indices, order: Indices, group: Indices) -> list[RingRun]:
 
 @dataclass(frozen=True, eq=False)
 class _Buckets:
-    """Cells sorted into squares, for kernels."""
+    """Cells sorted into squares, for kernels.
+
+    Attributes:
+        arrays: centres (n, 2) and needs (n,) of the cells, mm, by square; (rows, columns + 1) where each square begins;
+            and corner, side, mm, and the largest need of all.
+    """
 
     arrays: tuple[Floats, Floats, Indices, Floats]
 

@@ -35,7 +35,12 @@ CHORD_SHARE, SMOOTHING_SHARE = 0.1, 0.15
 
 @dataclass(frozen=True, slots=True)
 class ToleranceShares:
-    """What each part of the way may spend, mm."""
+    """What each part of the way may spend, mm.
+
+    Attributes:
+        facets: from the surfaces to their triangles. chords: from the way over these to its points.
+        smoothing: from the points to what is written for them. digits: from that to the decimals in the text.
+    """
 
     facets: float
     chords: float

@@ -12,9 +12,6 @@ from ....model.job import Job
 from ....model.moves import Program
 from ....operations.registry import OperationProof, ProofInput, method_of
 from ..written import WrittenMotions, WrittenProgram
-from .carving import carving_proofs
-from .engagement import engagement_proofs
-from .wear import wear_proofs
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +36,7 @@ class ProgramProofs:
 
 
 def prove(program: Program, job: Job, written: WrittenProgram, progress: Progress) -> ProgramProofs:
-    """Return what is proven of a program's operations.
+    """Return what is proven of a program's operations; what proves a kind is loaded with the first of it.
 
     Raises:
         Cancelled: by progress.
@@ -50,11 +47,17 @@ def prove(program: Program, job: Job, written: WrittenProgram, progress: Progres
     enabled = [each for each in job.operations if each.cut.enabled]
     kinds: list[Mapping[int, OperationProof]] = []
     if any(each.proven_angle is not None for each in job.operations):
+        from .engagement import engagement_proofs
+
         kinds.append(engagement_proofs(job, motions, progress.part(0.0, 0.4)))
     if any(each.CARVES for each in enabled):
+        from .carving import carving_proofs
+
         kinds.append(carving_proofs(program, job, motions, progress.part(0.4, 0.8)))
     kinds.append(dict(_of_their_own(program, job, motions)))
     if any(each.wear for each in enabled):
+        from .wear import wear_proofs
+
         kinds.append(wear_proofs(program, job, written, motions, progress.part(0.8, 1.0)))
     return ProgramProofs(tuple(kinds))
 

@@ -147,7 +147,12 @@ class _FeedsAsRead:
 
 @dataclass(frozen=True, eq=False)
 class _WornWalls:
-    """What a path keeps off, and by how much: the tool's radius and the stock to leave, mm."""
+    """What a path keeps off, and by how much: the tool's radius and the stock to leave, mm.
+
+    Attributes:
+        rows, field: (n, 8) of the walls, mm, and distances from them.
+        keep: from the walls, mm.
+    """
 
     rows: Rows
     field: DistanceField
@@ -175,7 +180,12 @@ class _WornWalls:
 
 @dataclass(frozen=True, eq=False)
 class _Worn:
-    """A program whose registers hold wear."""
+    """A program whose registers hold wear.
+
+    Attributes:
+        program, job: as planned. written: as it was read back.
+        origin: (3,) of the work offset, mm in part coordinates.
+    """
 
     program: Program
     job: Job
