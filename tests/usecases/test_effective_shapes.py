@@ -19,7 +19,7 @@ from scipy.special import fresnel
 from app.core.errors import InputError
 from app.fitting.point_curves.correction import CorrectionOptions
 from app.fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
-from app.fitting.point_curves.effective_points import EffectiveOptions
+from app.fitting.point_curves.effective_points import EffectiveOptions, effective_points
 from app.usecases.smoothing.report import report
 from app.usecases.smoothing.result import OutputForm, SmoothedProgram, SmoothOptions
 from app.usecases.smoothing.smooth import smooth
@@ -320,6 +320,28 @@ def test_a_facet_over_the_joint_of_a_line_and_an_arc_becomes_both(
     assert away <= 2 * done.nearness + (choose.epsilon if share > 0.5 else 0.0)
     if correct is None and share <= 0.5:
         assert away < sag / 50 + 2 * DIGIT
+
+
+@pytest.mark.parametrize(
+    ("shape", "digits", "wrong"),
+    [("s-curve", 4, 0), ("ellipse", 3, 2), pytest.param("circle", 3, 0, marks=pytest.mark.exhaustive)],
+)
+def test_ends_of_facets_are_found_where_rounding_decides_where_the_loop_stops(
+    shape: str, digits: int, wrong: int
+) -> None:
+    """Facets 0.002 mm off the shape bend by some last decimals: the text's loop alone goes a point too far."""
+    ends = facet_ends(shape, 0.002)
+    share = np.arange(1, INNER + 2) / (INNER + 1)
+    inner = (ends[:-1, None] + (ends[1:] - ends[:-1])[:, None] * share[None, :, None]).reshape(-1, 2)
+    points = np.vstack([ends[:1], inner]).round(digits)
+    choose, seam = EffectiveOptions(2 * 10.0**-digits), [0, len(points) - 1]
+    plain, settled = (
+        effective_points(points, choose, seam, at_bends=True, settled=settled).ranges[:-1, 1]
+        for settled in (False, True)
+    )
+    missed = [int(np.count_nonzero(found % (INNER + 1))) for found in (plain, settled)]
+    assert missed[0] > missed[1] <= wrong
+    assert off(shape, points[settled]) <= off(shape, points[plain])
 
 
 def test_the_certificate_states_both_limits_and_each_point() -> None:

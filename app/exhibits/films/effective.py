@@ -166,7 +166,9 @@ class _EffectiveSteps:
         self.kept = corners(points, _CORNER, REACH * min(options.tolerance, options.epsilon))
         choose, kept = EffectiveOptions(options.epsilon), self.kept.tolist()
         self.found = effective_points(points, choose, kept)
-        self.passed = effective_points(points, choose, kept, at_bends=True).passed  # what the program goes by
+        self.passed = effective_points(
+            points, choose, kept, at_bends=True, settled=True
+        ).passed  # what the program goes by
         self.trials = range_trials(points, options.epsilon, frozenset(self.kept.tolist()))
         self.by_definition = ranges_of(self.trials)
         self.effective = self.found.passed

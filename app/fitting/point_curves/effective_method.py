@@ -122,7 +122,8 @@ class EffectiveMethod:
         """
         # a correction curve is told by the points inside a range, too, and loses those that lie behind a bend: within a
         # facet that holds the joint of a line and an arc it came out 0.0124 mm off, where 0.0038 holds without
-        effective = effective_points(points, self.choose, corners.tolist(), at_bends=self.correct is None)
+        kept, at_bends = corners.tolist(), self.correct is None
+        effective = effective_points(points, self.choose, kept, at_bends, settled=True)
         if state is not None:
             known = state.copy()
             known[corners] = PointState.EFFECTIVE

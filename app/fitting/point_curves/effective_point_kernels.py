@@ -27,6 +27,12 @@ _EVIDENCE = 4
 """Chords of a range that may bend at one point, at least: fewer are straight on both sides of any of theirs."""
 _PLAIN = 0.5
 """Of epsilon: a bend that is so far off is seen by its range alone."""
+_CLEARLY = 2.5
+"""Times the sum of squares: what rounding does to points of straight facets seldom makes so much."""
+_NEAR = 8
+"""Points to either side of an end among which it is looked for."""
+_ROUNDS = 4
+"""Of settling ends: an end that has moved lets its neighbours move."""
 _MANY = 8
 """Chords of a range in which a smaller one is: so many points are straight on both sides of it by no chance."""
 
@@ -171,4 +177,66 @@ def ranges(points, epsilon, stop, at_bends, found):
         found[count, 0], found[count, 1] = i, k
         count += 1
         i = k
+    return count
+
+
+@kernel("float64(float64[:, ::1], int64, int64, float64)", counts=False)
+def _bent(points, i, k, epsilon):
+    """Return the sum of squares of how far the points between are off the segment; infinity if one is beyond it."""
+    total = 0.0
+    for j in range(i + 1, k):
+        away = _off(points, i, j, k)
+        if away > epsilon:
+            return math.inf
+        total += away * away
+    return total
+
+
+@kernel("int64(float64[:, ::1], int64, int64, int64, float64, float64[::1])", counts=False)
+def _straightest(points, i, e, k, epsilon, least):
+    """Return the point near e at which ranges from i and to k are straightest together; write how bent they are."""
+    at, least[0] = e, _bent(points, i, e, epsilon) + _bent(points, e, k, epsilon)
+    for j in range(max(i + 1, e - _NEAR), min(k, e + _NEAR + 1)):
+        both = _bent(points, i, j, epsilon) + _bent(points, j, k, epsilon)
+        if both < least[0]:
+            at, least[0] = j, both
+    return at
+
+
+@kernel("float64(float64[:, ::1], int64[::1], float64)", counts=False)
+def _scatter(points, ends, epsilon):
+    """Return the mean square of how far the points between ends of ranges are off their segments."""
+    total, inner = 0.0, 0
+    for m in range(len(ends) - 1):
+        total += _bent(points, ends[m], ends[m + 1], epsilon)
+        inner += ends[m + 1] - ends[m] - 1
+    return total / max(inner, 1)
+
+
+@kernel("int64(float64[:, ::1], float64, boolean[::1], int64[::1])")
+def settle(points, epsilon, stop, ends):
+    """Move ends of ranges (m,), in place, to where both ranges beside are clearly straighter, and take out those
+    without which one range is as straight; return how many are left. No stop is moved.
+
+    Of few points some are straight by chance: one range is as straight, too, where it is as straight as all are.
+    """
+    count, least = len(ends), np.empty(1)
+    for _ in range(_ROUNDS):
+        kept, changed, scatter = 1, False, _scatter(points, ends[:count], epsilon)
+        for m in range(1, count - 1):
+            i, e, k = ends[kept - 1], ends[m], ends[m + 1]
+            if not stop[e]:
+                at = _straightest(points, i, e, k, epsilon, least)
+                chance = max(least[0], scatter * (k - i - 1))
+                if k - i >= _EVIDENCE and _bent(points, i, k, epsilon) <= _CLEARLY * chance:
+                    changed = True
+                    continue
+                if _bent(points, i, e, epsilon) + _bent(points, e, k, epsilon) > _CLEARLY * least[0]:
+                    e, changed = at, True
+            ends[kept] = e
+            kept += 1
+        ends[kept] = ends[count - 1]
+        count = kept + 1
+        if not changed:
+            break
     return count

@@ -88,7 +88,11 @@ class EffectivePoints:
 
 
 def effective_points(
-    points: Floats, options: EffectiveOptions, kept: Iterable[int] = (), at_bends: bool = False
+    points: Floats,
+    options: EffectiveOptions,
+    kept: Iterable[int] = (),
+    at_bends: bool = False,
+    settled: bool = False,
 ) -> EffectivePoints:
     """Part a path into ranges (S111-S117) and tell its effective points.
 
@@ -98,6 +102,9 @@ def effective_points(
         kept: points, such as corners, beyond which no range goes.
         at_bends: whether a range that bends at one point ends there. Where facets turn by little, as at an inflection,
             the text's range goes on into the next facet as far as epsilon lets it, and ends at a point within that.
+        settled: whether ends move to where both ranges beside are clearly straighter, all points within epsilon of
+            them still. The text's loop ends a range where the next point is too far, which rounding decides where
+            facets bend by a few last decimals.
 
     Raises:
         GeometryError: fewer than two points, or one without a finite place.
@@ -109,6 +116,10 @@ def effective_points(
     stop[list(kept)] = True
     count = effective_point_kernels.ranges(flat, options.epsilon, stop, at_bends, found)
     ranges = found[:count].copy()
+    if settled:
+        ends = np.append(ranges[:, 0], ranges[-1, 1])
+        ends = ends[: effective_point_kernels.settle(flat, options.epsilon, stop, ends)]
+        ranges, count = np.column_stack([ends[:-1], ends[1:]]), len(ends) - 1
     state = np.full(len(flat), PointState.INVALID, np.uint8)
     state[ranges] = PointState.EFFECTIVE
     if options.ends != RangeEnds.OUTER:
