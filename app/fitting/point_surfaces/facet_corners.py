@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats
 from ..point_curves.effective_points import PointState
-from ..point_curves.facets import CloudFacets, facets_of_rows, row_neighbours
+from ..point_curves.facets import CloudFacets, distinct_pairs, facets_of_rows, row_neighbours
 
 Ints = NDArray[np.int64]
 
@@ -194,8 +194,7 @@ def met_corners(found: CloudFacets, pairs: Ints, planes: FacetPlanes, reach: flo
 def _triples(found: CloudFacets, pairs: Ints, known: NDArray[np.bool_]) -> Ints:
     """Return the numbers (t, 3) of facets of which one is beside both others."""
     beside = np.sort(found.facet[pairs], axis=1)
-    beside = np.unique(beside[beside[:, 0] != beside[:, 1]], axis=0)
-    beside = beside[known[beside].all(axis=1)]
+    beside = distinct_pairs(beside[(beside[:, 0] != beside[:, 1]) & known[beside].all(axis=1)])
     around: dict[int, list[int]] = {}
     for one, other in beside.tolist():
         around.setdefault(one, []).append(other)

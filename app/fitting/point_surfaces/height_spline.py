@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -75,9 +75,12 @@ class HeightSpline:
 
     def heights(self, places: Floats) -> Floats:
         """Return the heights (k,) at places (k, 2), mm; beyond the box those of its rim."""
-        along, across = _basis(places[:, 0], self.knots_u), _basis(places[:, 1], self.knots_v)
-        heights: Floats = np.einsum("ij,ij->i", along @ self.control, across.toarray())
-        return heights
+        from . import height_kernels
+
+        found = np.empty(len(places))
+        plane = np.ascontiguousarray(places[:, :2], np.float64)
+        height_kernels.heights(plane, self.knots_u, self.knots_v, np.ascontiguousarray(self.control), found)
+        return found
 
     def slopes(self, places: Floats) -> Floats:
         """Return the slopes (k, 2) along u and v at places (k, 2)."""
@@ -169,24 +172,38 @@ class _SurfaceEquations:
     """Normal equations of a surface by places: one matrix for how far it is off, one for how much it is bent.
 
     Attributes:
-        knots: along u and v. off, bent: (n, n) sparse. right: (n,).
+        knots: along u and v. off, bent: (m, n, 7, 7), by control point and by how far the other one is from it along u
+            and v, less 3. right: (m, n).
     """
 
     knots: tuple[Floats, Floats]
-    off: Any
-    bent: Any
+    off: Floats
+    bent: Floats
     right: Floats
 
     def solved(self, stiff: float) -> HeightSpline:
         """Return the surface of least squares, as little bent as these let it; heights are nan where none is."""
+        from scipy.sparse import csc_matrix
         from scipy.sparse.linalg import splu
 
-        shape = len(self.knots[0]) - 4, len(self.knots[1]) - 4
+        known, indices, begins = self._pattern
+        size = self.right.size
+        matrix = csc_matrix(((self.off + stiff * self.bent)[known], indices, begins), (size, size))
         try:
-            control = splu(self.off + stiff * self.bent).solve(self.right)
+            control = splu(matrix).solve(self.right.ravel())
         except RuntimeError:  # singular: too few places for so many spans
-            control = np.full(len(self.right), math.nan)
-        return HeightSpline(*self.knots, control.reshape(shape))
+            control = np.full(size, math.nan)
+        return HeightSpline(*self.knots, control.reshape(self.right.shape))
+
+    @cached_property
+    def _pattern(self) -> tuple[NDArray[np.bool_], NDArray[np.int32], NDArray[np.int32]]:
+        """Which numbers of the matrices there are, in which row each is, and where each column begins."""
+        rows = [np.arange(count)[:, None] + np.arange(-3, 4) for count in self.right.shape]
+        there = [(each >= 0) & (each < count) for each, count in zip(rows, self.right.shape, strict=True)]
+        known = there[0][:, None, :, None] & there[1][None, :, None, :]
+        indices = (rows[0][:, None, :, None] * self.right.shape[1] + rows[1][None, :, None, :])[known]
+        begins = np.concatenate([[0], known.sum(axis=(2, 3)).ravel().cumsum()])
+        return known, indices.astype(np.int32), begins.astype(np.int32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -247,24 +264,18 @@ class _FitTask:
 
     def equations(self, rows: NDArray[np.int64], u: int, v: int) -> _SurfaceEquations:
         """Return the equations of the surface of u x v spans by some places, however stiff it is."""
-        from scipy import sparse
+        from . import height_kernels
 
         knots = _even(self.box.u0, self.box.u1, u), _even(self.box.v0, self.box.v1, v)
         asked = np.concatenate([self.places[rows], self.points])
         weights = np.concatenate([self.weights[rows], self.light])
-        along, across = (_basis(asked[:, axis], knots[axis]) for axis in (0, 1))
-        shape = along.shape[1], across.shape[1]
-        values = along.data.reshape(-1, 4)[:, :, None] * across.data.reshape(-1, 4)[:, None, :]
-        columns = along.indices.reshape(-1, 4)[:, :, None] * shape[1] + across.indices.reshape(-1, 4)[:, None, :]
-        rows_at = np.arange(0, 16 * len(asked) + 1, 16)
-        matrix = sparse.csr_matrix((values.ravel(), columns.ravel(), rows_at), (len(asked), shape[0] * shape[1]))
-        bent = [_third(count) for count in shape]
-        stiffness = sparse.kron(bent[0], sparse.identity(shape[1])) + sparse.kron(sparse.identity(shape[0]), bent[1])
-        weighted = matrix.T.multiply(weights)
+        shape = u + 3, v + 3
+        off, bent, right = np.zeros((*shape, 7, 7)), np.zeros((*shape, 7, 7)), np.zeros(shape)
+        height_kernels.add_places(asked, weights, *knots, off, right)
         share = float(weights.sum()) / (shape[0] * shape[1])
-        return _SurfaceEquations(
-            knots, (weighted @ matrix).tocsc(), (share * stiffness).tocsc(), weighted @ asked[:, 2]
-        )
+        bent[:, :, :, 3] += share * _third(shape[0])[:, None]
+        bent[:, :, 3] += share * _third(shape[1])[None]
+        return _SurfaceEquations(knots, off, bent, right)
 
 
 def _even(low: float, high: float, spans: int) -> Floats:
@@ -278,8 +289,13 @@ def _basis(at: Floats, knots: Floats):  # type: ignore[no-untyped-def]  # scipy'
     return BSpline.design_matrix(np.clip(at, knots[3], knots[-4]), knots, 3)
 
 
-def _third(count: int):  # type: ignore[no-untyped-def]  # scipy's sparse matrix
-    from scipy import sparse
-
-    steps = sparse.diags([-1.0, 3.0, -3.0, 1.0], [0, 1, 2, 3], shape=(count - 3, count), dtype=np.float64)
-    return steps.T @ steps
+def _third(count: int) -> Floats:
+    """Return of the squares of all third differences of control points in a row their matrix (count, 7): by control
+    point and by how far the other one is from it, less 3.
+    """
+    found = np.zeros((count, 7))
+    weights = (-1.0, 3.0, -3.0, 1.0)
+    for a, own in enumerate(weights):
+        for b, other in enumerate(weights):
+            found[a : count - 3 + a, 3 + b - a] += own * other
+    return found

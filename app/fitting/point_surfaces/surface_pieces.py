@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats
 from ..point_curves.effective_points import PointState
-from ..point_curves.facets import CloudFacets
+from ..point_curves.facets import CloudFacets, distinct_pairs
 from .facet_corners import FacetCorners, FacetPlanes, ShapePlace, crossed_edges, met_corners, row_facets
 
 Ints = NDArray[np.int64]
@@ -97,8 +97,7 @@ def _smooth_groups(found: CloudFacets, pairs: Ints, planes: FacetPlanes) -> Ints
     from scipy.sparse.csgraph import connected_components
 
     beside = np.sort(found.facet[pairs], axis=1)
-    beside = np.unique(beside[beside[:, 0] != beside[:, 1]], axis=0)
-    beside = beside[planes.known[beside].all(axis=1)]
+    beside = distinct_pairs(beside[(beside[:, 0] != beside[:, 1]) & planes.known[beside].all(axis=1)])
     cosine = np.einsum("ij,ij->i", planes.normals[beside[:, 0]], planes.normals[beside[:, 1]])
     turns = np.arccos(np.clip(cosine, -1.0, 1.0))
     limit = max(_CREASE, _TURNS * float(np.median(turns))) if len(turns) else _CREASE
