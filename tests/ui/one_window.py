@@ -159,6 +159,7 @@ def reset(wiring: WindowController, view: CanvasView) -> None:
     workers = window.findChildren(Worker)
     wiring.cancel()
     _end_jobs(workers)
+    window.show()  # the test may have closed it
     _forget_texts(wiring)
     window.canvas.cancel()
     window.document.load(empty.job)
@@ -345,7 +346,7 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
         *(wiring.stages_controller, views.stages.pixels, views.stages.pixels._hand),
         *(*views.start.new.lengths, views.start.new.corners),
         *(wiring.cleanup_controller, wiring.cleanup_controller._section.tolerance, wiring.tab_controller),
-        wiring.purpose_words,
+        *(wiring.purpose_words, wiring.context_menu),
         window.canvas.turns,
         *(window.stages_panel, window.stages_panel.points, window.stages_panel.pitch),
         *(form.peck_picture, form.side_picture, *window.cut_form.stock),

@@ -56,6 +56,7 @@ _UNTOLD = {
     "_last",  # counters that only ever go on: nothing is decided by where they start
     "scene_ms",
     "_scene_view",
+    "_outdated",
     "_way",
     "_opacity",
     "_turn",
