@@ -8,7 +8,7 @@ from .draw import DRAW
 from .dxf import DXF
 from .project import PROJECT
 from .registry import register
-from .svg import SVG
+from .svg import SVG, SVGZ
 
-for _format in (PROJECT, DXF, SVG, DRAW):
+for _format in (PROJECT, DXF, SVG, SVGZ, DRAW):
     register(_format)

@@ -184,12 +184,13 @@ def test_height_is_projected_and_said() -> None:
         (6, 1000, Units.M),
         (9, 0.0254, Units.INCH),
         (13, 1e-3, Units.MICRON),
+        (24, 5280 * 1200 / 3937 * 1000, Units.FOOT),
     ],
 )
 def test_units_of_the_header(code: int, size: float, units: Units) -> None:
-    drawing = read(lambda space: space.add_line((0, 0), (100, 0)), units=code)
+    drawing = read(lambda space: space.add_line((0, 0), (0.1, 0)), units=code)
     assert drawing.units_named and drawing.part.units is units and not drawing.findings
-    assert drawing.part.entities[0].curve.end == pytest.approx((100 * size, 0))
+    assert drawing.part.entities[0].curve.end == pytest.approx((0.1 * size, 0))
 
 
 def test_no_units_are_mm_and_said() -> None:

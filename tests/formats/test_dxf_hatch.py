@@ -103,6 +103,20 @@ def test_a_quarter_of_an_ellipse_and_its_axes() -> None:
     assert area(read(document)) == pytest.approx(10 * 5 * math.pi / 4, abs=1e-2)
 
 
+@pytest.mark.parametrize("by_parameter", [False, True])
+@pytest.mark.parametrize("ccw", [False, True])
+def test_a_piece_of_an_ellipse_meets_what_is_beside_it(by_parameter: bool, ccw: bool) -> None:
+    """Both ways of telling its ends are in use; the chord of parameters 0 and 60 degrees is one of an area known."""
+    (document, path), turn = edged(), math.radians(60)
+    end = 5 * math.cos(turn), 2 * math.sin(turn)
+    told = 60.0 if by_parameter else math.degrees(math.atan2(end[1], end[0]))
+    path.add_ellipse((0, 0), (5, 0), 0.4, 0, told, ccw)
+    path.add_line(end, (5, 0))
+    drawing = read(document)
+    assert all(contour.closed for contour in chain(drawing.part.entities).contours)
+    assert abs(area(drawing)) == pytest.approx(5 * (turn - math.sin(turn)), abs=1e-2)
+
+
 def test_splines_by_control_points_and_by_fit_points() -> None:
     """A parabola over a chord of 20, its control point 10 high, holds two thirds of 20 x 5."""
     document, path = edged()

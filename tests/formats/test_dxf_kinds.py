@@ -13,6 +13,7 @@ from app.model.curves import Line, Spline
 from tests.formats.test_dxf_foreign import new, plate, read, telling
 
 LOST = "whose outlines are not in the file or cannot be read"
+DAMAGED = "which cannot be read; repair"
 
 
 def test_the_lines_of_a_multiple_line_are_read() -> None:
@@ -50,6 +51,35 @@ def test_an_external_drawing_is_missing_from_the_part(nested: bool) -> None:
     assert dict(drawing.left_out) == {"INSERT of an external drawing": count}
     found = telling(drawing, LOST)
     assert found.counts and found.amount == count
+
+
+def test_a_drawing_that_is_laid_over_is_missing_from_the_part() -> None:
+    document = new()
+    document.add_xref_def("other.dwg", "OTHER")
+    document.blocks.get("OTHER").block.dxf.flags = 8
+    plate(document.modelspace())
+    document.modelspace().add_blockref("OTHER", (5, 5))
+    assert dict(read(document).left_out) == {"INSERT of an external drawing": 1}
+
+
+@pytest.mark.parametrize("wrong", [("41", "0.0"), ("42", "0.0"), ("20", "nan")])
+def test_a_block_that_has_no_place_or_size_is_missing_from_the_part(wrong: tuple[str, str]) -> None:
+    line = ["0", "LINE", "8", "0", "10", "0", "20", "0", "11", "5", "21", "7"]
+    insert = ["0", "INSERT", "8", "0", "2", "B", "10", "5", *wrong]
+    blocks = ["0", "SECTION", "2", "BLOCKS", "0", "BLOCK", "8", "0", "2", "B", *line, "0", "ENDBLK", "0", "ENDSEC"]
+    text = [*blocks, "0", "SECTION", "2", "ENTITIES", *line, *insert, "0", "ENDSEC", "0", "EOF", ""]
+    drawing = read_drawing("x.dxf", "\n".join(text).encode())
+    assert dict(drawing.left_out) == {"INSERT (damaged)": 1} and telling(drawing, DAMAGED).counts
+
+
+def test_a_frame_without_its_curve_is_missing_from_the_part() -> None:
+    document = new()
+    plate(document.modelspace())
+    frame = document.modelspace().add_polyline2d([(0, 0), (4, 8), (9, 0)], dxfattribs={"flags": 4})
+    for vertex in frame.vertices:
+        vertex.dxf.flags = 16
+    drawing = read(document)
+    assert dict(drawing.left_out) == {"POLYLINE (damaged)": 1} and telling(drawing, DAMAGED).counts
 
 
 def test_a_missing_block_and_a_region_are_missing_from_the_part() -> None:

@@ -262,6 +262,18 @@ def test_a_text_without_letters_is_nothing(fonts: Path) -> None:
     assert len(drawing.part.entities) == 1 and not drawing.findings and not drawing.left_out
 
 
+@pytest.mark.parametrize(("flags", "shown"), [(2, True), (3, False), (0, False)])
+def test_a_constant_attribute_is_a_text_of_its_block(fonts: Path, flags: int, shown: bool) -> None:
+    document = new()
+    block = document.blocks.new("B")
+    block.add_circle((0, 0), 1)
+    block.add_attdef("TAG", (2, 0), "H", height=7, dxfattribs={"style": "BLOCK", "flags": flags})
+    document.modelspace().add_blockref("B", (10, 20))
+    circle, *letters = curves(document)
+    assert circle == Circle((10, 20), 1)
+    assert near(boxes(letters), [(13, 20, 17, 27)] if shown else [])
+
+
 def with_attributes(**insert: Any) -> Any:
     document = new("R2018")
     document.blocks.new("B").add_circle((0, 0), 1)

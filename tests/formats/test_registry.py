@@ -58,12 +58,14 @@ def test_the_command_line_reads_it(tmp_path: Path, capsys: pytest.CaptureFixture
     assert main(["make", str(drawing), "-o", str(program), "--quiet"]) == 2
     assert "x.foo: 0 0 40 is no box" in capsys.readouterr().err
     assert main(["make", "--help"]) == 0
-    assert ".hito .dxf .svg .draw .foo" in " ".join(capsys.readouterr().out.split())
+    assert ".hito .dxf .svg .svgz .draw .foo" in " ".join(capsys.readouterr().out.split())
 
 
 def test_what_it_takes_is_asked_of_it() -> None:
     check_options(DrawingOptions(layout="A4"), "x.foo")
-    with pytest.raises(InputError, match=r"--to-zero is for \.dxf and \.svg drawings and says nothing of x\.foo; take"):
+    with pytest.raises(
+        InputError, match=r"--to-zero is for \.dxf, \.svg and \.svgz drawings and says nothing of x\.foo; take"
+    ):
         read_drawing("x.foo", b"0 0 1 1", how=DrawingOptions(to_zero=True))
     with pytest.raises(InputError, match=r"--layout is for \.dxf and \.foo drawings and says nothing of a\.svg"):
         check_options(DrawingOptions(layout="A4"), "a.svg")

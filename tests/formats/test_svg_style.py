@@ -40,6 +40,10 @@ def curves(body: str) -> list[Curve]:
         '<switch><g systemLanguage="ja"><rect width="9" height="9"/></g><g/></switch>',
         '<style>@import url("a.css?b;c"); rect{display:none}</style><rect width="9" height="9"/>',
         '<style>@import url(a.css?b;c) screen; rect{display:none}</style><rect width="9" height="9"/>',
+        '<rect style="display:none ! important" width="9" height="9"/>',
+        '<style>rect{display:none !IMPORTANT}</style><rect style="display:inline" width="9" height="9"/>',
+        '<rect style="/* outline only */fill:none;/* no pen: */stroke:none" width="9" height="9"/>',
+        '<style type="text/x-other">rect{fill:red}</style><rect style="fill:none" width="9" height="9"/>',
         '<style>@charset "UTF-8"; rect{display:none}</style><rect width="9" height="9"/>',
         '<style>@font-face{src:url("a;b{c")} rect{display:none}</style><rect width="9" height="9"/>',
         '<style>@supports (display:grid){@layer a{g{fill:red} rect{display:none}}}</style><rect width="9" height="9"/>',
@@ -137,6 +141,21 @@ def test_a_style_sheet_in_another_file_is_told() -> None:
     data = f'<?xml version="1.0"?>\n<?xml-stylesheet href="a.css"?>\n<svg {PAGE}>{RIM}</svg>'.encode()
     (found,) = read_drawing("a.svg", data).findings
     assert found.counts and 'xml-stylesheet href="a.css"' in found.text
+
+
+@pytest.mark.parametrize(
+    ("sheet", "told"),
+    [
+        ('@import url("a.css");', True),
+        ("@import 'a.css' screen;", True),
+        ("@import url(a.css) print;", False),
+        ("/* @import 'a.css'; */", False),
+        ("@import url('https://fonts.example/css?family=A');", False),
+    ],
+)
+def test_a_style_sheet_that_is_imported_is_told(sheet: str, told: bool) -> None:
+    found = read_drawing("a.svg", f"<svg {PAGE}><style>{sheet}</style>{RIM}</svg>".encode()).findings
+    assert [each.counts and "the first for @import" in each.text for each in found] == [True] * told
 
 
 def test_a_rule_that_only_paints_does_not_count() -> None:

@@ -255,12 +255,14 @@ class DxfWalker:
         elif kind == "POINT":
             x, y, _ = entity.dxf.location
             content.points.append(LayeredPoint((float(x), float(y)), entity.dxf.layer))
+        elif kind == "ATTDEF" and self._open and entity.is_const and entity.is_invisible:
+            content.left_out["ATTDEF (invisible)"] += 1
         else:
             self._draw(entity, kind, content)
 
     def _draw(self, entity: Any, kind: str, content: DxfContent) -> None:
         try:
-            made = self._letterings(entity, kind) if kind in _TEXTS else _filled(entity, kind)
+            made = self._letterings(entity, kind) if self._is_text(entity, kind) else _filled(entity, kind)
             curves = [] if made else curves_of(entity)
         except NoLengthError as nothing:
             content.without_length.append(nothing.args[0])
@@ -294,6 +296,10 @@ class DxfWalker:
         for each in made:
             content.add(each)
 
+    def _is_text(self, entity: Any, kind: str) -> bool:
+        """Tell whether an entity shows letters, as a constant attribute does wherever its block is inserted."""
+        return kind in _TEXTS or (kind == "ATTDEF" and bool(self._open) and bool(entity.is_const))
+
     def _letterings(self, entity: Any, kind: str) -> list[TextCurves]:
         """Return what a text draws; an MTEXT of several columns as many times as it has columns."""
         if kind != "MTEXT":
@@ -309,14 +315,14 @@ class DxfWalker:
 
         if kind == "MTEXT":
             return mtext_lettering(entity, self._fonts)
-        if kind == "ATTRIB" and entity.has_embedded_mtext_entity:
+        if kind in ("ATTRIB", "ATTDEF") and entity.has_embedded_mtext_entity:
             return replace(mtext_lettering(entity.virtual_mtext_entity(), self._fonts), kind=kind)
         return text_lettering(entity, self._fonts)
 
     def _insert(self, insert: Any, content: DxfContent) -> None:
         """Add every copy of a block; what is on its layer 0 takes the layer of the insert."""
         block = insert.block()
-        outside = block is not None and block.block.is_xref and not len(block)
+        outside = block is not None and _is_outside(block)
         if block is None or outside:
             content.left_out[LeftOutSort(f"INSERT of {'an external drawing' if outside else 'a missing block'}")] += 1
             content.left_out[LeftOutSort("ATTRIB")] += len(insert.attribs)
@@ -339,6 +345,9 @@ class DxfWalker:
         if inner.is_empty and not points and not insert.attribs:
             return
         copies = _places(insert)
+        if not copies:
+            content.left_out["INSERT (damaged)"] += 1
+            return
         content.points += [
             LayeredPoint(place.point(at), insert.dxf.layer if layer == "0" else layer)
             for place in copies
@@ -440,16 +449,21 @@ def _filled(entity: Any, kind: str) -> list[Hatch]:
     return [_FILLED[kind](entity)] if kind in _FILLED else []
 
 
+def _is_outside(block: Any) -> bool:
+    """Tell whether what a block draws lies in another file, attached or laid over."""
+    return (block.block.is_xref or block.block.is_xref_overlay) and not len(block)
+
+
 def _origins(insert: Any) -> list[Point]:
     return [place.point((0.0, 0.0)) for place in _places(insert)[:1]]
 
 
 def _places(insert: Any) -> list[Affine]:
-    """Return the map from block to drawing for each row and column."""
+    """Return the map from block to drawing for each row and column; none where a scale is 0 or a number is none."""
     matrix = insert.matrix44()
     origin, x, y = matrix.transform((0, 0, 0)), matrix.transform((1, 0, 0)), matrix.transform((0, 1, 0))
     numbers = (*origin, *x, *y)
-    if not all(map(isfinite, numbers)):
+    if not (all(map(isfinite, numbers)) and insert.dxf.xscale and insert.dxf.yscale):
         return []
     plane, angle = plane_of(insert, 0.0), radians(insert.dxf.rotation)
     places = []

@@ -60,7 +60,7 @@ def heights_of(entity: Any) -> Iterable[float]:
         return (entity.dxf.start_location.z,)
     if kind == "HATCH":
         return (entity.dxf.elevation.z * entity.dxf.extrusion.z,)
-    if kind in ("TEXT", "ATTRIB", "MTEXT"):
+    if kind in ("TEXT", "ATTRIB", "ATTDEF", "MTEXT"):
         return (entity.dxf.insert.z * (1.0 if kind == "MTEXT" else entity.dxf.extrusion.z),)
     if kind in ("SOLID", "TRACE"):
         return (entity.dxf.vtx0.z * entity.dxf.extrusion.z,)
@@ -171,6 +171,8 @@ def _polyline(entity: Any) -> list[Curve] | None:
     if not (entity.is_2d_polyline or entity.is_3d_polyline):
         return None
     shown = [v.dxf for v in entity.vertices if not v.dxf.flags & _SPLINE_FRAME]
+    if not shown and len(entity.vertices) > 1:  # the curve that its frame steers is not in the file
+        raise DamagedCurveError(_flat(entity.vertices[0].dxf.location))
     flat = entity.is_2d_polyline
     vertices = [(_flat(v.location), float(v.bulge) if flat else 0.0) for v in shown]
     segments = segments_of(vertices, entity.is_closed)

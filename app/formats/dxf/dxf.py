@@ -82,6 +82,7 @@ _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     21: (1200 / 3937 * 1000, Units.FOOT),
     22: (100 / 3937 * 1000, Units.INCH),
     23: (3600 / 3937 * 1000, Units.FOOT),
+    24: (5280 * 1200 / 3937 * 1000, Units.FOOT),
 }
 """$INSUNITS codes: size in mm, and the nearest unit to show the drawing in."""
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -57,11 +58,7 @@ def hatch_of(entity: Any) -> Hatch:
     layer, rings = entity.dxf.layer, []
     for path in entity.paths:
         if not path.path_type_flags & _OF_TEXT:
-            found = (
-                _ring(path)
-                if path.type == _POLYLINE
-                else [curve for edge in path.edges for curve in _edge(edge, layer)]
-            )
+            found = _ring(path) if path.type == _POLYLINE else _closed_best(path, layer)
             rings.append(tuple(placed_in(entity, entity.dxf.elevation.z, found)))
     if not any(rings):
         raise NoLengthError(None)
@@ -87,7 +84,46 @@ def _ring(path: Any) -> list[Curve]:
         return []
 
 
-def _edge(edge: Any, layer: str) -> Iterator[Curve]:
+def _closed_best(path: Any, layer: str) -> list[Curve]:
+    """Return the edges of a boundary.
+
+    Some programs tell where a piece of an ellipse begins and ends by angles seen from its centre, others by its
+    parameters: what the edges beside it meet is meant.
+    """
+    by_angles = [curve for edge in path.edges for curve in _edge(edge, layer)]
+    if len(by_angles) < 2 or not any(edge.type == _ELLIPSE for edge in path.edges):
+        return by_angles
+    by_parameters = [curve for edge in path.edges for curve in _edge(edge, layer, _told_parameters)]
+    return min(by_angles, by_parameters, key=_gaps)
+
+
+def _gaps(ring: list[Curve]) -> float:
+    """Return how far the ends of curves are from those of their neighbours, together; curves may run either way.
+
+    It is rounded, so that the first of equals is taken.
+    """
+    before, after = ring[-1:] + ring[:-1], ring[1:] + ring[:1]
+    return round(sum(map(_to_neighbours, ring, before, after)), 6)
+
+
+def _to_neighbours(curve: Curve, before: Curve, after: Curve) -> float:
+    ends = [end for each in (before, after) for end in (each.start, each.end)]
+    return sum(min(math.dist(own, end) for end in ends) for own in (curve.start, curve.end))
+
+
+def _seen_parameters(edge: Any) -> tuple[float, float]:
+    """Return the parameters of an edge of an ellipse whose angles are seen from its centre, radians."""
+    return edge.start_param, edge.end_param
+
+
+def _told_parameters(edge: Any) -> tuple[float, float]:
+    """Return the parameters of an edge of an ellipse that are told as such, radians."""
+    return math.radians(edge.start_angle), math.radians(edge.end_angle)
+
+
+def _edge(
+    edge: Any, layer: str, parameters: Callable[[Any], tuple[float, float]] = _seen_parameters
+) -> Iterator[Curve]:
     """Yield the curve of an edge, if it has any length. Clockwise ones are counter-clockwise here: a ring has no
     direction.
     """
@@ -104,10 +140,11 @@ def _edge(edge: Any, layer: str) -> Iterator[Curve]:
         )
     elif edge.type == _ELLIPSE:
         x, y = float(edge.major_axis.x), float(edge.major_axis.y)
-        sweep = (edge.end_param - edge.start_param) % (2 * np.pi)
+        first, last = parameters(edge)
+        sweep = (last - first) % (2 * np.pi)
         whole = sweep < 1e-9 or sweep > 2 * np.pi - 1e-9
         axes = (float(edge.center.x), float(edge.center.y)), (x, y), (-y * edge.ratio, x * edge.ratio)
-        made = ellipse(axes, edge.start_param, edge.start_param + (2 * np.pi if whole else sweep))
+        made = ellipse(axes, first, first + (2 * np.pi if whole else sweep))
     else:
         made = spline_of_edge(edge, layer)
     if made is not None:

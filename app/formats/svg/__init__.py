@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ...model.part import Part
 from ...model.reading import ReadingOptions
 from ..drawing import Drawing, WrittenDrawing
@@ -28,3 +30,6 @@ SVG = DrawingFormat(
     scaled_page=True,
     writers=(FormatWriter(".svg", "SVG", _write),),
 )
+
+SVGZ = replace(SVG, suffixes=(".svgz",), writers=())
+"""The same, compressed, which is read alone."""

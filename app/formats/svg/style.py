@@ -12,7 +12,7 @@ from typing import NamedTuple
 from .colours import colour, is_clear
 from .lengths import MEDIUM, letter_height, size_of_font
 from .selectors import Selector, Specificity, keys_of, selector
-from .style_rules import is_on_screen, written_rules
+from .style_rules import imported, is_on_screen, without_comments, written_rules
 from .xml import Node
 
 _READ = (
@@ -64,6 +64,7 @@ _OF_THE_MOMENT = re.compile(r":(?:hover|active|focus|visited|link|target|before|
 """What a drawing looks like under the mouse or in letters; it says nothing of its shapes."""
 
 _UNITS = re.compile(r"(?<=[\d.])(?:px|deg)\b")
+_IMPORTANT = re.compile(r"!\s*important", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,12 +177,13 @@ class StyleSheet:
     def __init__(self, root: Node) -> None:
         self._rules: dict[str, list[_StyleRule]] = defaultdict(list)
         self._parents: dict[int, Node] = {}
-        self.unread: list[str] = [" ".join(written.split()) for written in root.outer_sheets]
+        sheets = [each.text for each in root.every() if each.tag == "style" and _is_in_force(each)]
+        outer = [*root.outer_sheets, *(each for text in sheets for each in imported(text))]
+        self.unread: list[str] = [" ".join(written.split()) for written in outer]
         self.unread_hides = bool(self.unread)
         self._count = 0
-        for node in root.every():
-            if node.tag == "style" and is_on_screen(node.attributes.get("media", "")):
-                self._add(node.text)
+        for text in sheets:
+            self._add(text)
         if self._count:
             self._parents = {id(child): node for node in root.every() for child in node.children}
 
@@ -218,11 +220,17 @@ class StyleSheet:
         return self._parents.get(id(node))
 
 
+def _is_in_force(sheet: Node) -> bool:
+    """Tell whether a style element is CSS for a screen."""
+    language = sheet.attributes.get("type", "").strip().lower()
+    return language in ("", "text/css") and is_on_screen(sheet.attributes.get("media", ""))
+
+
 def declarations(text: str) -> Iterator[Declaration]:
     """Yield the properties in "name: value; name: value" that are of use here."""
-    for part in text.split(";"):
+    for part in without_comments(text).split(";"):
         key, _, value = part.partition(":")
-        name, kept = key.strip(), value.replace("!important", "").strip()
+        name, kept = key.strip(), _IMPORTANT.sub("", value).strip()
         name = name if name.startswith("--") else name.lower()
         if kept and (name in _READ or name in _GEOMETRY or name in _UNFOLLOWED or name.startswith("--")):
             yield Declaration(name, kept, kept != value.strip())

@@ -12,6 +12,11 @@ _PART = re.compile(
 )
 """Signs within quotes and addresses end nothing: @import url(https://a.b/c?d;e);"""
 
+_IMPORT = re.compile(r"@import\s+(url\([^)]*\)|\"[^\"]*\"|'[^']*')([^;{}]*)", re.IGNORECASE)
+_NOT_FOR_SHAPES = re.compile(r"font", re.IGNORECASE)
+"""In the address of a sheet that only brings letters, as those of web fonts do."""
+_NOT_ON_SCREENS = re.compile(r"\s*(?:only\s+)?(?:print|speech)\b", re.IGNORECASE)
+
 _HOLDS_RULES = re.compile(r"@(?:supports|layer|container|scope)\b", re.IGNORECASE)
 """At-rules whose rules are in force on a screen."""
 _ELSEWHERE = re.compile(r"@(?!media\b)|@media\s+(?:only\s+)?(?:print|speech)\b|@media[^{]*\bprefers-", re.IGNORECASE)
@@ -37,13 +42,29 @@ def is_on_screen(media: str) -> bool:
     )
 
 
+def without_comments(text: str) -> str:
+    """Return the text of a style sheet or attribute without its comments."""
+    return _COMMENT.sub(" ", text) if "/*" in text or "<!--" in text or "-->" in text else text
+
+
+def imported(text: str) -> Iterator[str]:
+    """Yield the statements by which a style sheet takes rules for a screen from elsewhere.
+
+    Args:
+        text: of a style element.
+    """
+    for each in _IMPORT.finditer(without_comments(text)):
+        if not (_NOT_FOR_SHAPES.search(each[1]) or _NOT_ON_SCREENS.match(each[2])):
+            yield each[0]
+
+
 def written_rules(text: str) -> Iterator[WrittenRule]:
     """Yield the rules of a style sheet, those of at-rules that are in force on a screen among them.
 
     Args:
         text: of a style element.
     """
-    yield from _rules(_COMMENT.sub(" ", text), 0)
+    yield from _rules(without_comments(text), 0)
 
 
 def _rules(text: str, depth: int) -> Iterator[WrittenRule]:
