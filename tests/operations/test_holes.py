@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -152,7 +153,7 @@ def test_a_tap_goes_by_the_pitch_and_back_at_the_same_feed() -> None:
     assert "8 mm deep" in counting(program_of(shallow, TapOperation(CutParameters(2, 8.0))))
 
 
-M6_HOLE = {"least": 5.0, "most": 6.5}
+M6_HOLE: dict[str, Any] = {"least": 5.0, "most": 6.5}
 WORK_IN_HOLES = [
     ReamOperation(CutParameters(4, 9.0), **M6_HOLE),
     TapOperation(CutParameters(2, 8.0), **M6_HOLE),
@@ -164,10 +165,11 @@ WORK_IN_HOLES = [
 def test_of_a_hole_with_steps_the_one_as_deep_as_the_work_counts(work: Operation) -> None:
     drill = replace(DRILL, diameter=5.8 if isinstance(work, ReamOperation) else 5.0)
     wider = BoreOperation(CutParameters(1, 3.0), diameter=10.0, **M6_HOLE)  # a seat for the screw's head
-    for before in ((DRILLED, wider), (wider, DRILLED)):
-        assert not counting(program_of(*before, work, tools=(drill,)))
-    for before in ((wider,), (wider, replace(DRILLED, cut=CutParameters(9, 7.0)))):  # nothing is as deep
-        assert "No operation before it" in counting(program_of(*before, work, tools=(drill,)))
+    assert not counting(program_of(DRILLED, wider, work, tools=(drill,)))
+    assert not counting(program_of(wider, DRILLED, work, tools=(drill,)))
+    shallow = replace(DRILLED, cut=CutParameters(9, 7.0))
+    assert "No operation before it" in counting(program_of(wider, work, tools=(drill,)))
+    assert "No operation before it" in counting(program_of(wider, shallow, work, tools=(drill,)))
 
 
 @pytest.mark.parametrize("work", WORK_IN_HOLES[1:], ids=lambda each: each.WORD)
