@@ -27,6 +27,9 @@ from ..toolpath.ordering.tour import in_short_order
 _HERE = 1e-3
 """mm between the centres of holes that are one."""
 
+_ROUNDING = 1e-9
+"""mm that a hole may be less deep than what is done in it."""
+
 _NAMED = 6
 """Diameters that a finding names."""
 
@@ -184,40 +187,54 @@ def thread_findings(
         )
 
 
-@dataclass(frozen=True, slots=True)
-class MadeHole:
-    """A hole that is there: how wide and how deep with all its width, mm; 0 = there is none."""
+def no_thread_findings(
+    holes: Sequence[CircleHole], before: HolesBefore, operation: TapOperation | ThreadOperation, depth: float
+) -> Iterator[Finding]:
+    """Yield that holes are so wide before they are threaded that no more than half of a tooth stands there.
 
-    diameter: float = 0.0
-    depth: float = 0.0
+    Args:
+        depth: to which the thread is cut, mm.
+    """
+    thread = operation.thread
+    wide = [hole for hole in holes if before.at(hole, depth) > thread.pitch_diameter]
+    if wide:
+        x, y, made = wide[0].x, wide[0].y, before.at(wide[0], depth)
+        what = f"more than the pitch diameter of {thread.value}, {thread.pitch_diameter:.3f} mm"
+        advice = f"less than half of each tooth would stand; drill {thread.tap_drill:g} mm instead"
+        text = (
+            f"The hole at ({x:.3f}, {y:.3f}) is made {made:.3f} mm wide before it is threaded, {what}: {advice}."
+            if len(wide) == 1
+            else f"{len(wide)} holes are made too wide before they are threaded, the first, at ({x:.3f}, {y:.3f}), "
+            f"{made:.3f} mm, {what}: {advice}."
+        )
+        yield Finding(FindingKind.ENGAGEMENT, text, x, y, amount=float(len(wide)))
 
 
 class HolesBefore:
-    """The holes that operations before one in the list make, by where they are."""
+    """The holes that operations before one in the list make, by where they are: of one place there may be several,
+    such as a counterbore and what is drilled in its middle.
+    """
 
     def __init__(self, job: Job, drawn: DrawnContours, index: int) -> None:
         """Find the holes of all operations before `index`."""
-        self._made: dict[tuple[int, int], MadeHole] = {}
+        self._made: dict[tuple[int, int], list[tuple[float, float]]] = {}
         for each in job.operations[:index]:
             if (
                 isinstance(each, HoleOperation)
                 and each.cut.enabled
-                and not (each.CARVES or each.TAPS or each.on_bosses)
+                and not (each.CARVES or each.TAPS or isinstance(each, ThreadOperation))
             ):
                 depth, tool = each.cut.floor + each.beyond, job.tool(each.cut.tool)
+                left = 0.0 if "stock_to_leave" in each.UNUSED else 2 * each.cut.stock_to_leave
                 for hole in holes_of(job, drawn, each).drilled:
-                    self._add(hole, MadeHole(each.made(hole.diameter, tool), depth))
+                    key = round(hole.x / _HERE), round(hole.y / _HERE)
+                    self._made.setdefault(key, []).append((each.made(hole.diameter, tool) - left, depth))
 
-    def _add(self, hole: CircleHole, made: MadeHole) -> None:
-        key = round(hole.x / _HERE), round(hole.y / _HERE)
-        if made.diameter > self.at(hole).diameter:
-            self._made[key] = made
-
-    def at(self, hole: CircleHole) -> MadeHole:
-        """Return the widest hole round the centre of a circle."""
+    def at(self, hole: CircleHole, depth: float) -> float:
+        """Return how wide the hole round the centre of a circle is down to a depth, mm; 0: none is as deep."""
         x, y = round(hole.x / _HERE), round(hole.y / _HERE)
-        near = (self._made.get((x + dx, y + dy)) for dx in (-1, 0, 1) for dy in (-1, 0, 1))
-        return max((each for each in near if each), key=lambda each: each.diameter, default=MadeHole())
+        near = (each for dx in (-1, 0, 1) for dy in (-1, 0, 1) for each in self._made.get((x + dx, y + dy), ()))
+        return max((diameter for diameter, deep in near if deep >= depth - _ROUNDING), default=0.0)
 
 
 def _counted(holes: Sequence[CircleHole]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -150,6 +151,42 @@ def test_a_tap_goes_by_the_pitch_and_back_at_the_same_feed() -> None:
     assert "the tap would break: drill 5 mm first" in counting(program_of(TapOperation(CutParameters(2, 8.0))))
     shallow = replace(DRILLED, cut=CutParameters(9, 7.0))
     assert "8 mm deep" in counting(program_of(shallow, TapOperation(CutParameters(2, 8.0))))
+
+
+M6_HOLE: dict[str, Any] = {"least": 5.0, "most": 6.5}
+WORK_IN_HOLES = [
+    ReamOperation(CutParameters(4, 9.0), **M6_HOLE),
+    TapOperation(CutParameters(2, 8.0), **M6_HOLE),
+    ThreadOperation(CutParameters(5, 8.0), **M6_HOLE),
+]
+
+
+@pytest.mark.parametrize("work", WORK_IN_HOLES, ids=lambda each: each.WORD)
+def test_of_a_hole_with_steps_the_one_as_deep_as_the_work_counts(work: Operation) -> None:
+    drill = replace(DRILL, diameter=5.8 if isinstance(work, ReamOperation) else 5.0)
+    wider = BoreOperation(CutParameters(1, 3.0), diameter=10.0, **M6_HOLE)  # a seat for the screw's head
+    assert not counting(program_of(DRILLED, wider, work, tools=(drill,)))
+    assert not counting(program_of(wider, DRILLED, work, tools=(drill,)))
+    shallow = replace(DRILLED, cut=CutParameters(9, 7.0))
+    assert "No operation before it" in counting(program_of(wider, work, tools=(drill,)))
+    assert "No operation before it" in counting(program_of(wider, shallow, work, tools=(drill,)))
+
+
+@pytest.mark.parametrize("work", WORK_IN_HOLES[1:], ids=lambda each: each.WORD)
+def test_a_hole_too_wide_for_a_thread_is_told(work: Operation) -> None:
+    d2 = ThreadSize.M6.pitch_diameter
+    said = counting(program_of(DRILLED, work, tools=(replace(DRILL, diameter=round(d2 + 0.01, 3)),)))
+    assert "2 holes are made too wide before they are threaded" in said and "5.360 mm, more than" in said
+    assert not counting(program_of(DRILLED, work, tools=(replace(DRILL, diameter=round(d2 - 0.01, 3)),)))
+    assert not counting(program_of(DRILLED, work, work))  # once more over the same thread
+
+
+def test_a_bore_that_leaves_stock_is_so_much_narrower_for_what_comes_after() -> None:
+    bored = BoreOperation(CutParameters(1, 9.0, stock_to_leave=0.4), diameter=7.4, least=5.5, most=6.5)
+    m8 = ThreadOperation(CutParameters(5, 8.0), thread=ThreadSize.M8, least=5.5, most=6.5)
+    assert ThreadSize.M8.nut_core == pytest.approx(6.647, abs=1e-3)
+    assert "as wide as the core of M8" in counting(program_of(bored, m8))  # 6.6 mm
+    assert not counting(program_of(replace(bored, cut=CutParameters(1, 9.0, stock_to_leave=0.35)), m8))
 
 
 @pytest.mark.parametrize(

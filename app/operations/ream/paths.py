@@ -33,9 +33,7 @@ def ream(context: OperationContext, index: int, progress: Progress) -> None:
     made = HolesBefore(job, context.areas.drawn, index)
     for hole, label in holes_in_order(context, index, VERB, progress):
         reamed.append(hole)
-        before = made.at(hole)
-        left = job.tool(operation.cut.tool).diameter - before.diameter
-        if not (0 <= left <= MOST_LEFT and before.depth >= -bottom - 1e-9):
+        if not 0 <= job.tool(operation.cut.tool).diameter - made.at(hole, -bottom) <= MOST_LEFT:
             solid.append(hole)
         over_hole(context, (hole.x, hole.y), label)
         builder.straight((hole.x, hole.y, bottom), Purpose.DRILL, label)

@@ -12,7 +12,15 @@ from ...model.moves import Purpose
 from ...model.tool import Tool
 from ...toolpath.drill_holes import CircleHole, tip_depth
 from ...toolpath.operation_context import OperationContext
-from ..holes import HolesBefore, HoleVerb, holes_in_order, out_of_hole, over_hole, thread_findings
+from ..holes import (
+    HolesBefore,
+    HoleVerb,
+    holes_in_order,
+    no_thread_findings,
+    out_of_hole,
+    over_hole,
+    thread_findings,
+)
 
 VERB = HoleVerb("tap", "taps", "tapped", "tap", "narrower than the thread's core")
 
@@ -47,8 +55,7 @@ def tap(context: OperationContext, index: int, progress: Progress) -> None:
     made = HolesBefore(job, context.areas.drawn, index)
     for hole, label in holes_in_order(context, index, VERB, progress):
         holes.append(hole)
-        before = made.at(hole)
-        if before.diameter < thread.nut_core - 1e-6 or before.depth < -bottom - 1e-9:
+        if made.at(hole, -bottom) < thread.nut_core - 1e-6:
             unready.append(hole)
         over_hole(context, (hole.x, hole.y), label)
         tapping = replace(label, plunge_rate=feed)
@@ -63,6 +70,7 @@ def tap(context: OperationContext, index: int, progress: Progress) -> None:
             f"{-bottom:g} mm deep; the tap would break: drill {thread.tap_drill:g} mm first."
         )
         context.findings.append(Finding(FindingKind.ENGAGEMENT, text, first.x, first.y, amount=float(len(unready))))
+    context.findings.extend(no_thread_findings(holes, made, operation, -bottom))
     context.findings.extend(thread_findings(holes, tool, operation))
     context.findings.append(_feed_finding(operation, tool, feed))
 

@@ -24,7 +24,15 @@ from ...toolpath.build import Stroke, StrokeLabel
 from ...toolpath.drill_holes import CircleHole
 from ...toolpath.operation_context import OperationContext
 from ..helix import HelixRows, half_circle, helix
-from ..holes import HolesBefore, HoleVerb, holes_in_order, out_of_hole, over_hole, thread_findings
+from ..holes import (
+    HolesBefore,
+    HoleVerb,
+    holes_in_order,
+    no_thread_findings,
+    out_of_hole,
+    over_hole,
+    thread_findings,
+)
 from .form import correction
 
 VERB = HoleVerb("thread", "threads", "threaded", "thread mill", "too narrow for the mill")
@@ -105,14 +113,13 @@ def thread(context: OperationContext, index: int, progress: Progress) -> None:
     made = HolesBefore(job, context.areas.drawn, index)
     for hole, label in holes_in_order(context, index, VERB, progress):
         holes.append(hole)
-        before = made.at(hole)
-        if not operation.external and (
-            before.diameter < operation.core - 1e-3 or before.depth < operation.cut.depth - 1e-9
-        ):
+        if not operation.external and made.at(hole, operation.cut.depth) < operation.core - 1e-3:
             unready.append(hole)
         _cut_thread(context, hole, way, label)
     if unready:
         context.findings.append(_unready(unready, operation))
+    if not operation.external:
+        context.findings.extend(no_thread_findings(holes, made, operation, operation.cut.depth))
     context.findings.extend(thread_findings(holes, tool, operation))
     context.findings.append(_turns_finding(operation, tool, way))
 
