@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
+from PySide6.QtGui import QFocusEvent, QMouseEvent
 from PySide6.QtWidgets import QApplication
 
 from app.drafting.document import Document
@@ -352,6 +352,7 @@ def test_the_tab_key_goes_down_the_panel_and_rows_are_read_aloud(document, panel
     stop, seen = panel.tools.add_button, []
     while len(seen) < 9:
         if stop.isVisible() and stop.focusPolicy() & Qt.FocusPolicy.TabFocus:
+            QApplication.sendEvent(stop, QFocusEvent(QEvent.Type.FocusIn))
             seen.append(stop.accessibleName())
         stop = stop.nextInFocusChain()
     rows = [each for each in seen if each.startswith("T")]

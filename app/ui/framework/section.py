@@ -103,7 +103,6 @@ class ListRow(QWidget):
             line.addWidget(widget, 1 if at == wide else 0)
             if at == stretch_after:
                 line.addStretch(1)
-        self._read_aloud()
 
     @property
     def stops(self) -> list[QWidget]:
