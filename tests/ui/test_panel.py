@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
+from PySide6.QtGui import QFocusEvent, QMouseEvent
 from PySide6.QtWidgets import QApplication
 
 from app.drafting.document import Document
@@ -343,3 +343,19 @@ def test_the_menu_of_a_plus_stays_in_the_window(qtbot, panel):
     right_of_window = panel.window().mapToGlobal(QPoint(panel.window().width(), 0)).x()
     assert left + width == right_of_window, "it would have left it"
     assert place_under(button, 4).x() == button.mapToGlobal(QPoint(0, 0)).x(), "a narrow one has its left edges in line"
+
+
+def test_the_tab_key_goes_down_the_panel_and_rows_are_read_aloud(document, panel):
+    job = document.job
+    document.change_job("Change diameter", with_tool(job, 1, replace(job.tools[0], diameter=8.0)))
+    QApplication.processEvents()
+    stop, seen = panel.tools.add_button, []
+    while len(seen) < 9:
+        if stop.isVisible() and stop.focusPolicy() & Qt.FocusPolicy.TabFocus:
+            QApplication.sendEvent(stop, QFocusEvent(QEvent.Type.FocusIn))
+            seen.append(stop.accessibleName())
+        stop = stop.nextInFocusChain()
+    rows = [each for each in seen if each.startswith("T")]
+    assert seen[1:3] == rows[:2] and rows[0].startswith("T1, Flat 8 mm"), seen
+    assert seen[3] == "Add an operation"
+    assert [each.split(", ")[0] for each in seen[4:8]] == ["Pocket", "Pocket on or off", "Rest", "Rest on or off"]

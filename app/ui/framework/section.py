@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QFrame, QLabel, QWidget
 
 from .boxes import h_box, v_box
@@ -92,7 +92,7 @@ class ListRow(QWidget):
             wide: index of the one that takes all the room there is; -1 = none.
         """
         super().__init__()
-        self._pressed_at = 0.0
+        self._pressed_at, self._read = 0.0, ""
         self.setProperty("row", "true")
         self.setProperty("chosen", "false")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -103,6 +103,24 @@ class ListRow(QWidget):
             line.addWidget(widget, 1 if at == wide else 0)
             if at == stretch_after:
                 line.addStretch(1)
+
+    @property
+    def stops(self) -> list[QWidget]:
+        """The row and what in it the Tab key reaches, in this order."""
+        inner = (child for child in self.findChildren(QWidget) if child.focusPolicy() & Qt.FocusPolicy.TabFocus)
+        return [self, *inner]
+
+    def focusInEvent(self, event: QFocusEvent) -> None:  # noqa: N802 (Qt's name)
+        """Be read aloud as it reads now, in the window's language."""
+        self._read_aloud()
+        super().focusInEvent(event)
+
+    def _read_aloud(self) -> None:
+        """Have the row's words for its name, unless it was given one."""
+        if self.accessibleName() == self._read:
+            words = (label.text() for label in self.findChildren(QLabel) if not label.isHidden())
+            self._read = ", ".join(filter(None, words))
+            self.setAccessibleName(self._read)
 
     def set_chosen(self, chosen: bool) -> None:
         """Show whether this row's properties are the ones below."""

@@ -54,13 +54,22 @@ class ListSection(Themed, PanelSection):
         self._rows = {}
 
     def add_row(self, subject: Subject, row: ListRow) -> None:
-        """Put a row at the end."""
+        """Put a row at the end; the Tab key comes to it after what stands above."""
+        self.rows.addWidget(row)
+        for before, after in pairwise([*self._last_stop(), *row.stops]):
+            QWidget.setTabOrder(before, after)
         self._rows[subject] = row
         row.clicked.connect(lambda: self.chosen.emit(subject))
         row.removed.connect(lambda: self.removed.emit(subject))
         row.stepped.connect(lambda way: self._step(subject, way))
-        self.rows.addWidget(row)
         theme_children(row, self._theme)
+
+    def _last_stop(self) -> list[QWidget]:
+        """Return what the Tab key comes to last so far: of the last row, else of the heading."""
+        if self._rows:
+            return list(self._rows.values())[-1].stops[-1:]
+        buttons = self.findChildren(IconButton, options=Qt.FindChildOption.FindDirectChildrenOnly)
+        return list[QWidget](buttons[-1:])
 
     def show_chosen(self, subject: Subject) -> None:
         """Mark the row whose properties are shown."""
@@ -92,7 +101,6 @@ class JobSection(ListSection):
             label.setFixedWidth(56)
             row = ListRow(label, value, stretch_after=1)
             row.setFixedHeight(24)
-            row.setAccessibleName(name)
             self._add_job_row(row)
 
     def _add_job_row(self, row: ListRow) -> None:
