@@ -256,7 +256,7 @@ class DxfWalker:
             x, y, _ = entity.dxf.location
             content.points.append(LayeredPoint((float(x), float(y)), entity.dxf.layer))
         elif kind == "ATTDEF" and self._open and entity.is_const and entity.is_invisible:
-            content.left_out["ATTDEF (invisible)"] += 1
+            content.left_out[LeftOutSort("ATTDEF", LeftOutReason.INVISIBLE)] += 1
         else:
             self._draw(entity, kind, content)
 
@@ -346,7 +346,7 @@ class DxfWalker:
             return
         copies = _places(insert)
         if not copies:
-            content.left_out["INSERT (damaged)"] += 1
+            content.left_out[LeftOutSort("INSERT", LeftOutReason.DAMAGED)] += 1
             return
         content.points += [
             LayeredPoint(place.point(at), insert.dxf.layer if layer == "0" else layer)
