@@ -122,11 +122,13 @@ def test_the_menu_at_the_mouse_selects_what_lies_there_and_offers_what_can_be_do
     assert "Select chain" in names
     assert wiring.window_.actions_["tool_move"] in wiring.context_menu.menu.actions()
     wiring.context_menu.menu.hide()
+    qtbot.mouseRelease(canvas, RIGHT, pos=at)
 
 
 def test_right_with_a_tool_in_hand_opens_no_menu(wiring, qtbot):
     canvas = wiring.window_.canvas
     wiring.window_.actions_["tool_line"].trigger()
     qtbot.mousePress(canvas, RIGHT, pos=canvas.rect().center())
+    qtbot.mouseRelease(canvas, RIGHT, pos=canvas.rect().center())
     assert canvas.tool is CanvasTool.SELECT
     assert wiring.context_menu.menu is None or not wiring.context_menu.menu.isVisible()
