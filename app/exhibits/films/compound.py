@@ -208,34 +208,16 @@ class _CompoundSteps:
 
     def topmost(self) -> FilmStep:
         """Return (f): the topmost points, and where they pass from surface to surface."""
-        sketch, found = StepDrawing(), self.surface.boundaries
-        for curve in self._curves():
-            sketch.line(self._flat(curve.points), FAINT, FINE)
-        for run in self.surface.runs:
-            if run.plane == self.plane:
-                flat = self._flat(run.points)
-                for k, owner in enumerate(run.owner.tolist()):
-                    sketch.line(flat[k : k + 2], self._colour(owner), BOLD)
+        sketch, found = self._topmost_runs(), self.surface.boundaries
+        gaps = {k: self._gap(k) for k in self.between.tolist()}
+        here = [k for k in gaps if found.plane[k] == self.plane]
         rows: list[tuple[str, ...]] = [("boundary point", "kind", "x", "y", "z", "apart in z, mm")]
-        apart = []
-        for k in self.between.tolist():
-            gap = self._gap(k)
-            if gap is not None:
-                apart.append(gap)
-            if found.plane[k] != self.plane:
-                continue
+        rows += [self._boundary_row(k, gaps[k]) for k in here]
+        for k in here:
             place = self._flat(found.place[k][None])
-            name = f"CR{found.before[k] + 1}{found.after[k] + 1}"
             sketch.dots(place, RED, 1.1)
-            sketch.word(name, place[0], RED)
-            rows.append(
-                (
-                    name,
-                    BoundaryKind(int(found.kind[k])).name.lower(),
-                    *(f"{x:.4f}" for x in found.place[k]),
-                    "-" if gap is None else f"{gap:.2g}",
-                )
-            )
+            sketch.word(self._boundary_name(k), place[0], RED)
+        apart = [gap for gap in gaps.values() if gap is not None]
         worst = max(apart, default=0.0)
         return FilmStep(
             "(f)",
@@ -252,6 +234,28 @@ class _CompoundSteps:
             ),
             tuple(rows),
         )
+
+    def _topmost_runs(self) -> StepDrawing:
+        """Return the picture of the section curves, and over them of what is kept of each."""
+        sketch = StepDrawing()
+        for curve in self._curves():
+            sketch.line(self._flat(curve.points), FAINT, FINE)
+        for run in self.surface.runs:
+            if run.plane == self.plane:
+                flat = self._flat(run.points)
+                for k, owner in enumerate(run.owner.tolist()):
+                    sketch.line(flat[k : k + 2], self._colour(owner), BOLD)
+        return sketch
+
+    def _boundary_name(self, k: int) -> str:
+        found = self.surface.boundaries
+        return f"CR{found.before[k] + 1}{found.after[k] + 1}"
+
+    def _boundary_row(self, k: int, gap: float | None) -> tuple[str, ...]:
+        """Return what the table says of a boundary point; `gap`: between both heights there, mm."""
+        found = self.surface.boundaries
+        kind, place = BoundaryKind(int(found.kind[k])).name.lower(), (f"{x:.4f}" for x in found.place[k])
+        return (self._boundary_name(k), kind, *place, "-" if gap is None else f"{gap:.2g}")
 
     def _gap(self, k: int) -> float | None:
         """Return how far apart in Z two surfaces are at a crossing, by a formula of our own; None where it has none."""

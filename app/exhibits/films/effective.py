@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,6 +30,8 @@ _CHORD = 1e-5
 """mm; a curve's picture, and what is measured of it, keep to it as near: less than what is told of it."""
 _SHOWN = 6
 """Ranges that a picture of a place shows."""
+_TABLED, _PLACES = 40, 2001
+"""Trials in the table of S115, and places that the correction curve is drawn by."""
 
 
 @dataclass(frozen=True)
@@ -118,6 +119,45 @@ def _smoothed(name: str, data: bytes, options: EffectiveFilmOptions, effective: 
     return smooth(name, data, SmoothOptions(options.tolerance, effective=method))
 
 
+def _trial_row(trial: RangeTrial) -> tuple[str, str, str, str]:
+    return str(trial.first), str(trial.last), f"{trial.off:.6f}", "yes" if trial.within else "no"
+
+
+@dataclass(frozen=True, eq=False)
+class _CorrectedRange:
+    """The range that the correction is shown on.
+
+    Attributes:
+        first, last: its ends, by number. chosen: effective points about it, by number.
+        made: what the correction makes of all points.
+        curve, piece: places along the curve through the chosen ones, (m, 3), mm, all and those between its ends.
+    """
+
+    first: int
+    last: int
+    chosen: NDArray[np.int64]
+    made: Correction
+    curve: Floats
+    piece: Floats
+
+    @staticmethod
+    def of(points: Floats, chosen: NDArray[np.int64], ends: NDArray[np.int64], made: Correction) -> _CorrectedRange:
+        """Return it; its curve is the cubic spline through the chosen points by their chord lengths."""
+        from scipy.interpolate import CubicSpline
+
+        first, last = ends.tolist()
+        along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points[chosen], axis=0), axis=1))])
+        at = np.linspace(0.0, along[-1], _PLACES)
+        begin, end = (float(along[int(np.flatnonzero(chosen == number)[0])]) for number in (first, last))
+        curve = CubicSpline(along, points[chosen])
+        return _CorrectedRange(first, last, chosen, made, curve(at), curve(at[(at >= begin) & (at <= end)]))
+
+    @property
+    def inner(self) -> NDArray[np.int64]:
+        """The points between its ends, by number."""
+        return np.arange(self.first + 1, self.last)
+
+
 class _EffectiveSteps:
     """One path, and what is known of it."""
 
@@ -149,26 +189,13 @@ class _EffectiveSteps:
         return sketch
 
     def ranges(self) -> list[FilmStep]:
-        """Return steps S111 to S117."""
-        trials, n = self.trials, len(self.points)
-        first = trials[0]
+        """Return steps S111 to S117, in the order in which they are done first."""
+        return [*self._widened(), self._tested(), *self._found()]
+
+    def _widened(self) -> list[FilmStep]:
+        """Return the steps that make a range longer: S111, S112, S114."""
+        trials, first = self.trials, self.trials[0]
         wide = next((each for each in trials if each.within and each.last > each.first + 1), first)
-        failed = next((each for each in trials if not each.within), trials[-1])
-        follow = next((each for each in trials if each.first > 0), trials[-1])
-        same = [tuple(row) for row in self.found.ranges.tolist()] == self.by_definition
-        table = (
-            ("i", "k", "off the segment, mm", "within epsilon"),
-            *(
-                (str(each.first), str(each.last), f"{each.off:.6f}", "yes" if each.within else "no")
-                for each in trials[:40]
-            ),
-        )
-        counts = (
-            FilmFigure("ranges", len(self.by_definition)),
-            FilmFigure("effective points", len(self.effective)),
-            FilmFigure("invalid points", n - len(self.effective)),
-        )
-        loop = len(trials)
         return [
             FilmStep(
                 "S111",
@@ -176,7 +203,7 @@ class _EffectiveSteps:
                 "Of the points in their order the first two are looked at: Pi and Pk.",
                 "",
                 self._place(first).page(),
-                (FilmFigure("points", n),),
+                (FilmFigure("points", len(self.points)),),
             ),
             FilmStep(
                 "S112",
@@ -184,7 +211,7 @@ class _EffectiveSteps:
                 "While points are left that are in no range, the one looked at is made longer; else it is the last.",
                 "",
                 self._place(wide).page(),
-                (FilmFigure("times asked", loop + 1),),
+                (FilmFigure("times asked", len(trials) + 1),),
             ),
             FilmStep(
                 "S114",
@@ -194,19 +221,36 @@ class _EffectiveSteps:
                 self._place(wide).page(),
                 (FilmFigure("times widened", sum(each.within for each in trials)),),
             ),
-            FilmStep(
-                "S115",
-                "All within epsilon?",
-                "Every point between is to lie within epsilon of the segment from Pi to Pk.",
-                "Distance is that to the segment, not to its line. A corner ends a range, too.",
-                self._place(failed).page(),
-                (
-                    FilmFigure("epsilon", self.options.epsilon, "mm"),
-                    FilmFigure("off here", failed.off, "mm"),
-                    FilmFigure("largest that was within", max((t.off for t in trials if t.within), default=0.0), "mm"),
-                ),
-                table,
+        ]
+
+    def _tested(self) -> FilmStep:
+        """Return S115, on the first range that has become too long."""
+        failed = next((each for each in self.trials if not each.within), self.trials[-1])
+        within = max((each.off for each in self.trials if each.within), default=0.0)
+        return FilmStep(
+            "S115",
+            "All within epsilon?",
+            "Every point between is to lie within epsilon of the segment from Pi to Pk.",
+            "Distance is that to the segment, not to its line. A corner ends a range, too.",
+            self._place(failed).page(),
+            (
+                FilmFigure("epsilon", self.options.epsilon, "mm"),
+                FilmFigure("off here", failed.off, "mm"),
+                FilmFigure("largest that was within", within, "mm"),
             ),
+            (("i", "k", "off the segment, mm", "within epsilon"), *map(_trial_row, self.trials[:_TABLED])),
+        )
+
+    def _found(self) -> list[FilmStep]:
+        """Return the steps that end a range: S116, S117, and S113, the last one."""
+        follow = next((each for each in self.trials if each.first > 0), self.trials[-1])
+        same = [tuple(row) for row in self.found.ranges.tolist()] == self.by_definition
+        counts = (
+            FilmFigure("ranges", len(self.by_definition)),
+            FilmFigure("effective points", len(self.effective)),
+            FilmFigure("invalid points", len(self.points) - len(self.effective)),
+        )
+        return [
             FilmStep(
                 "S116",
                 "A range is found",
@@ -259,68 +303,77 @@ class _EffectiveSteps:
     def correction(self) -> list[FilmStep]:
         """Return steps S21 to S23 on one range, and what they come to on all."""
         gap = self._gap()
-        chosen = self.effective[max(gap - _BEFORE, 0) : gap + 1 + _AFTER]
-        curve, at = _correction_curve(self.points[chosen])
-        first, last = self.found.ranges[gap].tolist()
-        through = self._corrected(CorrectionCurve.THROUGH)
-        near = self._corrected(CorrectionCurve.NEAR)
-        inner = np.arange(first + 1, last)
-        moved = float(through.moved[inner].max(initial=0.0))
-        off = float(distances_to_polyline(through.places[inner], curve(at)).max()) if len(inner) else 0.0
-        look = self._path(int(chosen[0]), int(chosen[-1]))
-        look.dots(self.points[chosen], GREEN, 1.1)
-        for number in (first, last):
-            look.word("P(i-3)" if number == first else "P(i)", self.points[number], GREEN)
-        with_curve = self._path(int(chosen[0]), int(chosen[-1]))
-        with_curve.line(curve(at), PURPLE, BOLD)
-        with_curve.dots(self.points[chosen], GREEN, 1.0)
-        close = StepDrawing()
-        close.line(self.points[first : last + 1], FAINT, FINE)
-        close.line(curve(at[(at >= self._along(chosen, first)) & (at <= self._along(chosen, last))]), PURPLE, LINE)
-        close.dots(self.points[inner], AMBER, 0.8, hollow=True)
-        close.dots(through.places[inner], AMBER, 0.8)
-        close.dots(self.points[[first, last]], GREEN, 1.0)
-        for number in inner.tolist():
-            close.line(np.vstack([self.points[number], through.places[number]]), AMBER, FINE, DOTTED)
-        return [
-            FilmStep(
-                "S21",
-                "Choose effective points",
-                "About an effective point so many effective ones before and after it are chosen: in the example two "
-                "and three, which picks P(i-6), P(i-4), P(i-3), P(i), P(i+1) and P(i+3).",
-                "",
-                look.page(),
-                (FilmFigure("chosen", len(chosen)), FilmFigure("of effective", len(self.effective))),
-            ),
-            FilmStep(
-                "S22",
-                "The correction curve",
-                "A smooth curve goes through these, or near them.",
-                "Through: the cubic spline by chord lengths, its outer two pieces one cubic. Near: the one cubic of "
-                "least squares.",
-                with_curve.page(),
-                (FilmFigure("points it goes by", len(chosen)),),
-            ),
-            FilmStep(
-                "S23",
-                "Move the points",
-                "Effective ends move to the curve, always; invalid points only if they are within a share of an end, "
-                "or move less than a limit. The others are left out.",
-                "An end that two ranges share takes the mean of both moves: with curves through the ends that is none, "
-                f"with curves near them up to {near.moved[self.effective].max():.6f} mm here.",
-                close.page(),
-                (
-                    FilmFigure("largest move in this range", moved, "mm"),
-                    FilmFigure("moved points off the curve", off, "mm"),
-                    FilmFigure("largest move of all", float(through.moved.max()), "mm"),
-                    FilmFigure("corrected points", int(np.sum(through.state == PointState.CORRECTED))),
-                ),
-            ),
-        ]
+        shown = _CorrectedRange.of(
+            self.points,
+            self.effective[max(gap - _BEFORE, 0) : gap + 1 + _AFTER],
+            self.found.ranges[gap],
+            self._corrected(CorrectionCurve.THROUGH),
+        )
+        return [self._choice(shown), self._curve(shown), self._moves(shown)]
 
-    def _along(self, chosen: np.ndarray, number: int) -> float:
-        sizes = np.linalg.norm(np.diff(self.points[chosen], axis=0), axis=1)
-        return float(np.concatenate([[0.0], np.cumsum(sizes)])[int(np.flatnonzero(chosen == number)[0])])
+    def _about(self, shown: _CorrectedRange) -> StepDrawing:
+        return self._path(int(shown.chosen[0]), int(shown.chosen[-1]))
+
+    def _choice(self, shown: _CorrectedRange) -> FilmStep:
+        sketch = self._about(shown)
+        sketch.dots(self.points[shown.chosen], GREEN, 1.1)
+        for name, number in (("P(i-3)", shown.first), ("P(i)", shown.last)):
+            sketch.word(name, self.points[number], GREEN)
+        return FilmStep(
+            "S21",
+            "Choose effective points",
+            "About an effective point so many effective ones before and after it are chosen: in the example two "
+            "and three, which picks P(i-6), P(i-4), P(i-3), P(i), P(i+1) and P(i+3).",
+            "",
+            sketch.page(),
+            (FilmFigure("chosen", len(shown.chosen)), FilmFigure("of effective", len(self.effective))),
+        )
+
+    def _curve(self, shown: _CorrectedRange) -> FilmStep:
+        sketch = self._about(shown)
+        sketch.line(shown.curve, PURPLE, BOLD)
+        sketch.dots(self.points[shown.chosen], GREEN, 1.0)
+        return FilmStep(
+            "S22",
+            "The correction curve",
+            "A smooth curve goes through these, or near them.",
+            "Through: the cubic spline by chord lengths, its outer two pieces one cubic. Near: the one cubic of "
+            "least squares.",
+            sketch.page(),
+            (FilmFigure("points it goes by", len(shown.chosen)),),
+        )
+
+    def _moves(self, shown: _CorrectedRange) -> FilmStep:
+        inner, made = shown.inner, shown.made
+        moved = float(made.moved[inner].max(initial=0.0))
+        off = float(distances_to_polyline(made.places[inner], shown.curve).max()) if len(inner) else 0.0
+        near = self._corrected(CorrectionCurve.NEAR)
+        return FilmStep(
+            "S23",
+            "Move the points",
+            "Effective ends move to the curve, always; invalid points only if they are within a share of an end, "
+            "or move less than a limit. The others are left out.",
+            "An end that two ranges share takes the mean of both moves: with curves through the ends that is none, "
+            f"with curves near them up to {near.moved[self.effective].max():.6f} mm here.",
+            self._moved_points(shown).page(),
+            (
+                FilmFigure("largest move in this range", moved, "mm"),
+                FilmFigure("moved points off the curve", off, "mm"),
+                FilmFigure("largest move of all", float(made.moved.max()), "mm"),
+                FilmFigure("corrected points", int(np.sum(made.state == PointState.CORRECTED))),
+            ),
+        )
+
+    def _moved_points(self, shown: _CorrectedRange) -> StepDrawing:
+        sketch, inner, places = StepDrawing(), shown.inner, shown.made.places
+        sketch.line(self.points[shown.first : shown.last + 1], FAINT, FINE)
+        sketch.line(shown.piece, PURPLE, LINE)
+        sketch.dots(self.points[inner], AMBER, 0.8, hollow=True)
+        sketch.dots(places[inner], AMBER, 0.8)
+        sketch.dots(self.points[[shown.first, shown.last]], GREEN, 1.0)
+        for number in inner.tolist():
+            sketch.line(np.vstack([self.points[number], places[number]]), AMBER, FINE, DOTTED)
+        return sketch
 
     def _corrected(self, curve: CorrectionCurve) -> Correction:
         options = CorrectionOptions(curve=curve, move=CorrectionMove.NEAREST, before=_BEFORE, after=_AFTER)
@@ -361,14 +414,6 @@ def _exaggeration(curves: list[Floats], points: Floats) -> float:
     """Return how many times larger the way from facets to curves is drawn, so that it is seen."""
     off = max((float(distances_to_polyline(places, points).max()) for places in curves), default=0.0)
     return max(1.0, float(np.round(_OFF_SEEN * np.ptp(points, axis=0).max() / max(off, 1e-9))))
-
-
-def _correction_curve(points: Floats) -> tuple[Callable[[Floats], Floats], Floats]:
-    """Return the cubic spline through points by their chord lengths, and places to draw it by."""
-    from scipy.interpolate import CubicSpline
-
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    return CubicSpline(along, points), np.linspace(0.0, along[-1], 2001)
 
 
 def _curve_near(done: SmoothedProgram, points: Floats) -> Floats | None:

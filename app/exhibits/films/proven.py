@@ -252,19 +252,9 @@ class _ProvenSteps:
         cuts, held = intervals_in_cylinder(seen.curve, axis, radius, (low, high))
         length = float(np.linalg.norm(axis.end - axis.start))
         scale = self._exaggeration(length)
-        z, r = _about(seen.curve.at(np.linspace(low, high, 400)), axis)
         at = _about(seen.curve.at(np.array(cuts)), axis) if cuts else (np.zeros(0), np.zeros(0))
-        pictures = []
-        for only_outside in (False, True):
-            sketch = StepDrawing()
-            sketch.area(np.array([[0, 0], [length, 0], [length, radius], [0, radius]]) * [1, scale])
-            sketch.line(np.array([[0, radius], [length, radius]]) * [1, scale], BLUE, FINE)
-            sketch.line(np.array([[0, 0], [length, 0]]), FAINT, LINE)
-            out = np.ma.masked_where(r <= radius, r) if only_outside else r
-            for part in _unmasked(z, out):
-                sketch.line(part * [1, scale], RED if only_outside else GREEN, BOLD if only_outside else LINE)
-            sketch.dots(np.column_stack(at) * [1, scale], AMBER, 1.1)
-            pictures.append(sketch.page())
+        course = _about(seen.curve.at(np.linspace(low, high, 400)), axis)
+        pictures = [self._crossing(length, course, np.column_stack(at), only).page() for only in (False, True)]
         left = (high - low) - sum(y - x for x, y in held)
         rows = (("from", "to", "in the cylinder"), *((f"{x:.6f}", f"{y:.6f}", "yes") for x, y in held))
         return [
@@ -291,6 +281,23 @@ class _ProvenSteps:
             ),
         ]
 
+    def _crossing(self, length: float, course: tuple[Floats, Floats], cuts: Floats, only_outside: bool) -> StepDrawing:
+        """Return the picture of a curve over a cylinder.
+
+        Args:
+            length: of the axis, mm. course: z and r of the curve, mm. cuts: (m, 2) the same of its crossings.
+            only_outside: draw only what is not in the cylinder.
+        """
+        sketch, radius, scale, (z, r) = StepDrawing(), self.profile.radius, self._exaggeration(length), course
+        sketch.area(np.array([[0, 0], [length, 0], [length, radius], [0, radius]]) * [1, scale])
+        sketch.line(np.array([[0, radius], [length, radius]]) * [1, scale], BLUE, FINE)
+        sketch.line(np.array([[0, 0], [length, 0]]), FAINT, LINE)
+        out = np.ma.masked_where(r <= radius, r) if only_outside else r
+        for part in _unmasked(z, out):
+            sketch.line(part * [1, scale], RED if only_outside else GREEN, BOLD if only_outside else LINE)
+        sketch.dots(cuts * [1, scale], AMBER, 1.1)
+        return sketch
+
     def _witness(self, chord: int) -> SurfaceWitness | None:
         """Return the interval of a chord's stretch whose way by the surface is the narrowest; None if it is outside."""
         feet = self._feet()
@@ -308,36 +315,8 @@ class _ProvenSteps:
         a, b = self.points[chord], self.points[chord + 1]
         length = float(np.linalg.norm(b - a))
         scale = self._exaggeration(length)
-        plane = _SectionPlane.through(ChordAxis(a, b), seen.x)
-        span = float(np.linalg.norm(seen.q - seen.p))
-        half, width = seen.length / 2, math.sqrt(max(seen.length**2 - span**2, 0.0)) / 2
-        angle = np.linspace(0, 2 * math.pi, 200)
-        middle, way = (seen.p + seen.q) / 2, (seen.q - seen.p) / max(span, 1e-300)
-        side = np.cross(np.cross(way, seen.x - middle), way)
-        side /= max(float(np.linalg.norm(side)), 1e-300)
-        rim = middle + half * np.cos(angle)[:, None] * way + width * np.sin(angle)[:, None] * side
-        z, r = self._outline()
-        pictures = []
-        for with_way in (False, True):
-            sketch = StepDrawing()
-            both = np.concatenate([r, -r[::-1]]) * scale
-            sketch.area(np.column_stack([np.concatenate([z, z[::-1]]) * length, both]), AREA)
-            sketch.line(np.array([[0, 0], [length, 0]]), FAINT, LINE)
-            sketch.line(plane.seen(rim) * [1, scale], AMBER, LINE)
-            feet = self._feet()
-            if feet is not None:
-                places = self.final.at(np.linspace(feet[chord], feet[chord + 1], 300))
-                sketch.line(plane.seen(places) * [1, scale], GREEN, BOLD)
-            ends = plane.seen(np.vstack([seen.p, seen.q])) * [1, scale]
-            sketch.dots(ends, BLUE, 1.0)
-            for name, place in zip("PQ", ends, strict=True):
-                sketch.word(name, place, BLUE)
-            if with_way:
-                x = plane.seen(seen.x[None]) * [1, scale]
-                sketch.line(np.vstack([ends[:1], x, ends[1:]]), RED, LINE, DASHED)
-                sketch.dots(x, RED, 1.1)
-                sketch.word("X", x[0], RED)
-            pictures.append(sketch.page())
+        section = _SpheroidSection.of(ChordAxis(a, b), seen)
+        pictures = [self._section(chord, section, with_way).page() for with_way in (False, True)]
         return [
             FilmStep(
                 "figure 7",
@@ -348,9 +327,9 @@ class _ProvenSteps:
                 pictures[0],
                 (
                     FilmFigure("chord", chord),
-                    FilmFigure("P to Q", span, "mm"),
+                    FilmFigure("P to Q", section.span, "mm"),
                     FilmFigure("curve, at most", seen.length, "mm"),
-                    FilmFigure("half width of the spheroid", width, "mm"),
+                    FilmFigure("half width of the spheroid", section.half_width, "mm"),
                 ),
             ),
             FilmStep(
@@ -370,6 +349,29 @@ class _ProvenSteps:
                 ),
             ),
         ]
+
+    def _section(self, chord: int, section: _SpheroidSection, with_way: bool) -> StepDrawing:
+        """Return the picture of a spheroid in the region of a chord, with the way by its surface or without."""
+        length = float(np.linalg.norm(self.points[chord + 1] - self.points[chord]))
+        sketch, plane, scale, (z, r) = StepDrawing(), section.plane, self._exaggeration(length), self._outline()
+        both = np.concatenate([r, -r[::-1]]) * scale
+        sketch.area(np.column_stack([np.concatenate([z, z[::-1]]) * length, both]), AREA)
+        sketch.line(np.array([[0, 0], [length, 0]]), FAINT, LINE)
+        sketch.line(plane.seen(section.rim) * [1, scale], AMBER, LINE)
+        feet = self._feet()
+        if feet is not None:
+            places = self.final.at(np.linspace(feet[chord], feet[chord + 1], 300))
+            sketch.line(plane.seen(places) * [1, scale], GREEN, BOLD)
+        ends = plane.seen(np.vstack([section.witness.p, section.witness.q])) * [1, scale]
+        sketch.dots(ends, BLUE, 1.0)
+        for name, place in zip("PQ", ends, strict=True):
+            sketch.word(name, place, BLUE)
+        if with_way:
+            x = plane.seen(section.witness.x[None]) * [1, scale]
+            sketch.line(np.vstack([ends[:1], x, ends[1:]]), RED, LINE, DASHED)
+            sketch.dots(x, RED, 1.1)
+            sketch.word("X", x[0], RED)
+        return sketch
 
     def result(self) -> FilmStep:
         """Return the end of figure 4."""
@@ -544,6 +546,34 @@ class _SectionPlane(NamedTuple):
     def seen(self, places: Floats) -> Floats:
         """Return places (n, 3) as seen along the axis and square to it, (n, 2) mm."""
         return np.column_stack([(places - self.origin) @ self.along, (places - self.origin) @ self.across])
+
+
+class _SpheroidSection(NamedTuple):
+    """A spheroid as the plane through the axis and the nearest way's place X cuts it.
+
+    Attributes:
+        witness: the interval whose spheroid it is. plane: that it is seen in.
+        span, half_width: from P to Q, and of the spheroid square to that, mm. rim: (m, 3) of the spheroid, mm.
+    """
+
+    witness: SurfaceWitness
+    plane: _SectionPlane
+    span: float
+    half_width: float
+    rim: Floats
+
+    @staticmethod
+    def of(axis: ChordAxis, witness: SurfaceWitness) -> _SpheroidSection:
+        """Return it; a spheroid with strings of length l has half axes l / 2 and sqrt(l^2 - |PQ|^2) / 2."""
+        p, q = witness.p, witness.q
+        span = float(np.linalg.norm(q - p))
+        half, width = witness.length / 2, math.sqrt(max(witness.length**2 - span**2, 0.0)) / 2
+        angle = np.linspace(0, 2 * math.pi, 200)
+        middle, way = (p + q) / 2, (q - p) / max(span, 1e-300)
+        side = np.cross(np.cross(way, witness.x - middle), way)
+        side /= max(float(np.linalg.norm(side)), 1e-300)
+        rim = middle + half * np.cos(angle)[:, None] * way + width * np.sin(angle)[:, None] * side
+        return _SpheroidSection(witness, _SectionPlane.through(axis, witness.x), span, width, rim)
 
 
 def _unmasked(z: Floats, r: Floats) -> list[Floats]:
