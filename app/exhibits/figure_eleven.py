@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -425,46 +425,59 @@ def why_slower(figure: FigureEleven) -> Iterator[str]:
 
 def _lines(figure: FigureEleven) -> Iterator[str]:
     """Yield the lines of the table."""
-    options, renderer = figure.options, figure.renderer
-    drawn = (
-        f"drawn by {renderer} ({'software' if is_software(renderer) else 'hardware'})" if renderer else "nothing drawn"
-    )
-    yield (
-        f"Figure 11: {options.cells} x {options.cells} cells of {SIZE / options.cells:.4g} mm, best of "
-        f"{options.repeat}, {WORKERS} threads; {drawn}"
-    )
-    columns = [f"{way.value:>12}" for way in HeightMethod] + [
-        f"{slower.value + '/' + faster.value:>18}" for slower, faster in _RATIOS
-    ]
-    yield f"{'':2}{'moves':>8}{'radius':>8}" + "".join(columns)
-    for row in figure.rows:
-        times = "".join(f"{row.seconds[way]:>10.3f} s" if way in row.seconds else f"{'-':>12}" for way in HeightMethod)
-        ratios = "".join(
-            f"{ratio:>17.1f}x" if (ratio := row.ratio(*pair)) is not None else f"{'-':>18}" for pair in _RATIOS
-        )
-        yield f"{row.name[:_NAME]:2}{row.program.moves:>8,}{row.program.radius:>5g} mm{times}{ratios}"
-    yield "Polygons of the published way, and how far its facets are at most inside the surface:"
-    yield f"{'':2}{'whole spheres':>15}{'half left away':>16}{'wedges':>14}{'half left away':>16}{'error':>13}"
-    for row in figure.rows:
-        counts = row.polygons
-        yield (
-            f"{row.name:2}{counts.spheres:>15,}{counts.spheres_down:>16,}{counts.wedges:>14,}{counts.drawn:>16,}"
-            f"{row.error:>10.5f} "
-            ""
-            ""
-            "mm"
-        )
+    yield _heading(figure)
+    yield from _times(figure.rows)
+    yield from _polygons(figure.rows)
     yield "How far heights are at most from those of the engine of record (cells on walls may fall to either side):"
     for row in figure.rows:
         yield f"{row.name:2}" + ", ".join(f"{way.value} {found.largest:.2g} mm" for way, found in row.apart.items())
     for row in figure.rows:
-        for each in row.trials:
-            yield (
-                f"{row.name[:_NAME]:2} facets of {each.facet:g} mm ({each.pitches:.3g} w): {each.polygons:,} polygons, "
-                f"{each.seconds:.3f} s, {each.apart:.2g} mm from the engine of record, stated {each.error:.2g} mm"
-            )
+        yield from (_trial_line(row.name, each) for each in row.trials)
     yield from (f"{way.value}: {text}" for way, text in WAYS.items())
     yield from why_slower(figure)
     if figure.fault:
         yield figure.fault
     yield PRINTED
+
+
+def _heading(figure: FigureEleven) -> str:
+    options, renderer = figure.options, figure.renderer
+    drawn = (
+        f"drawn by {renderer} ({'software' if is_software(renderer) else 'hardware'})" if renderer else "nothing drawn"
+    )
+    return (
+        f"Figure 11: {options.cells} x {options.cells} cells of {SIZE / options.cells:.4g} mm, best of "
+        f"{options.repeat}, {WORKERS} threads; {drawn}"
+    )
+
+
+def _times(rows: Iterable[FigureRow]) -> Iterator[str]:
+    """Yield what each way takes, and how many times what another one does."""
+    columns = [f"{way.value:>12}" for way in HeightMethod] + [
+        f"{slower.value + '/' + faster.value:>18}" for slower, faster in _RATIOS
+    ]
+    yield f"{'':2}{'moves':>8}{'radius':>8}" + "".join(columns)
+    for row in rows:
+        times = "".join(f"{row.seconds[way]:>10.3f} s" if way in row.seconds else f"{'-':>12}" for way in HeightMethod)
+        ratios = "".join(
+            f"{ratio:>17.1f}x" if (ratio := row.ratio(*pair)) is not None else f"{'-':>18}" for pair in _RATIOS
+        )
+        yield f"{row.name[:_NAME]:2}{row.program.moves:>8,}{row.program.radius:>5g} mm{times}{ratios}"
+
+
+def _polygons(rows: Iterable[FigureRow]) -> Iterator[str]:
+    yield "Polygons of the published way, and how far its facets are at most inside the surface:"
+    yield f"{'':2}{'whole spheres':>15}{'half left away':>16}{'wedges':>14}{'half left away':>16}{'error':>13}"
+    for row in rows:
+        counts = row.polygons
+        yield (
+            f"{row.name:2}{counts.spheres:>15,}{counts.spheres_down:>16,}{counts.wedges:>14,}{counts.drawn:>16,}"
+            f"{row.error:>10.5f} mm"
+        )
+
+
+def _trial_line(name: str, trial: FacetTrial) -> str:
+    return (
+        f"{name[:_NAME]:2} facets of {trial.facet:g} mm ({trial.pitches:.3g} w): {trial.polygons:,} polygons, "
+        f"{trial.seconds:.3f} s, {trial.apart:.2g} mm from the engine of record, stated {trial.error:.2g} mm"
+    )

@@ -4,7 +4,7 @@ itself.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 from typing import NamedTuple
@@ -296,13 +296,7 @@ def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], re
     made, lines = machined_regions(parts), followed_lines(job, parts)
     regions = made.regions
     if not regions and not lines:
-        assert request.against is not None
-        name = request.against[0]
-        said = " ".join(finding.text for finding in parts.findings[:3])
-        raise InputError(
-            f"{name}: there is no closed contour to compare with; choose other layers, or join loose ends: "
-            f"{option('join-tolerance')}. {said}".rstrip()
-        )
+        raise _nothing_to_compare_with(request, parts.findings)
     proven = header.path_tolerance if request.tolerance is None else None
     tolerance = TOLERANCE if request.tolerance is None else request.tolerance
     tabs, dog_bones = _on_purpose(programs)
@@ -332,6 +326,16 @@ def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], re
         *unmachined_findings(machining_areas, regions),
     )
     return _PartRead(part, found)
+
+
+def _nothing_to_compare_with(request: SetupRequest, findings: Sequence[Finding]) -> InputError:
+    """Return the error of a drawing without contours, with what its first findings say."""
+    assert request.against is not None
+    said = " ".join(finding.text for finding in findings[:3])
+    return InputError(
+        f"{request.against[0]}: there is no closed contour to compare with; choose other layers, or join loose ends: "
+        f"{option('join-tolerance')}. {said}".rstrip()
+    )
 
 
 def _drawing(
