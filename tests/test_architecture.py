@@ -191,6 +191,15 @@ def test_the_page_of_the_house_names_files_that_are_there() -> None:
     assert named_files("see `geometry/nowhere.py`") == {"geometry/nowhere.py"}
 
 
+def test_the_pages_of_the_house_name_classes_and_functions_that_are_there() -> None:
+    files = (*FILES, *(ROOT / "tests").rglob("*.py"))
+    known = {path.stem for path in files} | set(re.findall(r"\w+", " ".join(path.read_text("utf-8") for path in files)))
+    spelled = r"[A-Z][a-z]+(?:[A-Z]\w*)+|[a-z]+(?:_[a-z0-9]+)+"
+    named = {name for quoted in re.findall("`([^`\n]+)`", PAGE) for name in re.findall(rf"^(?:{spelled})$", quoted)}
+    assert len(named) > 80
+    assert not named - known
+
+
 def test_the_page_of_the_house_lists_its_other_pages() -> None:
     listed = re.findall(r"`house/(\w+)\.md`", PAGES[0].read_text("utf-8"))
     assert sorted(listed) == [path.stem for path in PAGES[1:]]
