@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -354,13 +355,23 @@ def _rank(keys: NDArray[np.int64]) -> NDArray[np.int64]:
     return ranks
 
 
-def is_clear(field: DistanceField, a: np.ndarray, b: np.ndarray, distance: float) -> bool:
-    """Tell whether the straight way from a to b stays at least `distance` - 1 um from the drawing.
+class KeptWalls(NamedTuple):
+    """Walls that straight ways keep off.
 
-    Distance changes by no more than the length gone, so a step of (measured - needed) cannot pass a wall unseen.
+    Attributes:
+        field: distances from them. distance: that is kept, mm.
     """
-    way = np.array([*a, *b], np.float64)
-    return bool(kernels.stays_clear(field.rows, field.order, field.nodes, way, distance, tolerances.LEVEL))
+
+    field: DistanceField
+    distance: float
+
+    def is_clear(self, a: np.ndarray, b: np.ndarray) -> bool:
+        """Tell whether the straight way from a to b stays at least `distance` - 1 um from the walls.
+
+        Distance changes by no more than the length gone, so a step of (measured - needed) cannot pass a wall unseen.
+        """
+        way, field = np.array([*a, *b], np.float64), self.field
+        return bool(kernels.stays_clear(field.rows, field.order, field.nodes, way, self.distance, tolerances.LEVEL))
 
 
 # Pieces of closed paths: places on them, and the rows from one place to another.

@@ -26,13 +26,13 @@ from ..leads.contour_path import headings_at, left_of
 from .bridge import (
     BridgeForest,
     Edge,
+    KeptWalls,
     RingBridge,
     RingEdges,
     RingField,
     RingPlace,
     along,
     inward_bridges,
-    is_clear,
     joined,
     level_bridges,
     nearest_on,
@@ -90,7 +90,9 @@ def link(
     lines = _lines_out(tree.roots(depth), _NumberedRings(rings, depth), levels, field)
     bridges = [*(bridge for line in lines.values() for bridge in line), *bridges]
     tree = _grown(_SeparateRings(known, BridgeForest(len(rings)), areas), bridges, levels, field)
-    return _strokes(WalkedTree(rings, depth, tree, filling.detours, (field, levels[0].distance), step), options, lines)
+    return _strokes(
+        WalkedTree(rings, depth, tree, filling.detours, KeptWalls(field, levels[0].distance), step), options, lines
+    )
 
 
 def _grown(
@@ -135,10 +137,12 @@ def link_by_proof(
     tree = BridgeForest(len(rings))
     if levels:
         apart = _SeparateRings(RingEdges(rings), tree, sum(ring.area > 0 for ring in levels[0].rings))
-        _join(range(len(rings)), apart, (field, levels[0].distance), (spacing, _TRIED))
+        _join(range(len(rings)), apart, KeptWalls(field, levels[0].distance), spacing, _TRIED)
     depth = [float(k) for k, level in enumerate(levels) for _ in level.rings]
     return _strokes(
-        WalkedTree(rings, depth, tree, (), (field, levels[0].distance if levels else 0.0)), LinkOptions(direction), {}
+        WalkedTree(rings, depth, tree, (), KeptWalls(field, levels[0].distance if levels else 0.0)),
+        LinkOptions(direction),
+        {},
     )
 
 
@@ -190,24 +194,25 @@ def _join_across(levels: Sequence[OffsetLevel], apart: _SeparateRings, field: Di
         if all(there.ring >= len(depth) or depth[there.ring] <= depth[k] for _, there, _ in apart.tree.neighbours[k])
     ]
     for some in (tops, range(len(levels[0].rings)), range(len(apart.edges.rings))):
-        _join(some, apart, (field, levels[0].distance), (levels[0].distance / 4, None))
+        _join(some, apart, KeptWalls(field, levels[0].distance), levels[0].distance / 4)
 
 
 def _join(
-    some: Sequence[int], apart: _SeparateRings, clear: tuple[DistanceField, float], spacing: tuple[float, int | None]
+    some: Sequence[int], apart: _SeparateRings, walls: KeptWalls, spacing: float, tried: int | None = None
 ) -> None:
     """Join groups of rings by the shortest bridges between some of them that are clear, until there are no more than
     areas.
 
     Args:
-        clear: distances from the walls, and which of them bridges keep, mm.
-        spacing: between points that bridges may begin at, mm; bridges between two rings that are tried, None = all.
+        walls: that bridges keep off.
+        spacing: between points that bridges may begin at, mm.
+        tried: bridges between two rings that are looked at; None = all.
     """
     too_many = apart.too_many
     if too_many <= 0 or len(some) < 2:
         return
-    for bridge, (a, b) in level_bridges(apart.edges, some, apart.tree.group, *spacing):
-        if is_clear(clear[0], a, b, clear[1]):
+    for bridge, (a, b) in level_bridges(apart.edges, some, apart.tree.group, spacing, tried):
+        if walls.is_clear(a, b):
             apart.tree.add(bridge)
             too_many -= 1
             if too_many == 0:
@@ -231,7 +236,7 @@ class WalkedTree:
         depth: (n,) how far inside each is: number of its level.
         tree: bridges between them.
         trips: from places of rings and back.
-        walls: distances that are kept, and how much, mm.
+        walls: that all ways keep off.
         step: between levels no farther apart than the tool's radius, mm; 0 = farther: every ring is walked whole.
     """
 
@@ -239,7 +244,7 @@ class WalkedTree:
     depth: Sequence[float]
     tree: BridgeForest
     trips: Sequence[Detour]
-    walls: tuple[DistanceField, float]
+    walls: KeptWalls
     step: float = 0.0
 
 
@@ -343,9 +348,7 @@ class TreeWalk:
         )
         along = min((gone, other), key=lambda rows: path_length(rows))
         again = path_length(along)
-        if away <= min(again + length, ahead) + LEVEL and is_clear(
-            self._walked.walls[0], start, end, self._walked.walls[1]
-        ):
+        if away <= min(again + length, ahead) + LEVEL and self._walked.walls.is_clear(start, end):
             return straight(start, end), place
         if again > ahead:
             return None
@@ -431,7 +434,7 @@ class TreeWalk:
             taken = [a for a, b, _ in walked.tree.neighbours[there.ring] if b.ring != here.ring]
         rows = walked.rings[outer.ring].rows
         apex = point_of(walked.rings[inner.ring].rows, inner)
-        left = left_out(rows, outer, apex, room_beside(rows, outer, taken), (*walked.walls, walked.step))
+        left = left_out(rows, outer, apex, room_beside(rows, outer, taken), walked)
         return (left, none) if outer is here else (none, left)
 
     def _forward(self, ring: int, came_from: RingPlace | None, after: Edge | None, main: bool) -> bool:
@@ -471,7 +474,7 @@ Floats = NDArray[np.float64]
 
 
 def left_out(
-    rows: Rows, place: RingPlace, apex: Floats, room: tuple[float, float], keep: tuple[DistanceField, float, float]
+    rows: Rows, place: RingPlace, apex: Floats, room: tuple[float, float], walked: WalkedTree
 ) -> tuple[float, float]:
     """Return how much of a ring before and after a place slants to a point of the ring inside it leave out, in rows.
 
@@ -480,17 +483,16 @@ def left_out(
         place: where the bridge to the inner ring begins.
         apex: (2,) where it ends.
         room: before and after the place that may be left out, mm.
-        keep: distances from the walls, how much of it is kept, and the step between levels, mm.
+        walked: whose walls are kept off, and whose step it is between levels.
     """
-    field, least, step = keep
-    at, found = place.row + place.fraction, [0.0, 0.0]
+    step, at, found = walked.step, place.row + place.fraction, [0.0, 0.0]
     for side, sign in enumerate((-1.0, 1.0)):
         for share in _LONGEST:
             if share * step > room[side]:
                 continue
             end = along(rows, at, sign * share * step)
             start = point_at(rows, end)
-            if covers(start, apex, span(rows, *sorted((at, end))), step) and is_clear(field, start, apex, least):
+            if covers(start, apex, span(rows, *sorted((at, end))), step) and walked.walls.is_clear(start, apex):
                 found[side] = abs(end - at)
                 break
     return found[0], found[1]

@@ -32,7 +32,7 @@ from ...geometry.outlines import Outlines
 from ...geometry.primitives import Indices, Rows, lengths, path_length, points_at, reversed_rows, samples
 from ..coverage import uncut_kernels
 from . import runs_kernels
-from .bridge import RingField, RingPlace, is_clear, part_of, straight
+from .bridge import KeptWalls, RingField, RingPlace, part_of, straight
 
 TOUCH = 1e-6
 """mm by which a point may be farther from a ring than the tool's radius and still counts as cut by it."""
@@ -123,13 +123,13 @@ def fill(
         radius: of the tool, mm.
     """
     halves = halves[: len(levels)]
-    clear = (field, levels[0].distance if levels else 0.0)
+    walls = KeptWalls(field, levels[0].distance if levels else 0.0)
     numbers = accumulate((len(level.rings) for level in levels), initial=0)
     sides = [
         RingField.of(level.rings, first) if level.rings else None for level, first in zip(levels, numbers, strict=False)
     ]
     spaces = [
-        _Space((outer, inner), (level, half), clear, radius)
+        _Space((outer, inner), (level, half), walls, radius)
         for outer, inner, level, half in zip(sides, [*sides[1:], None], [*levels[1:], None], halves, strict=True)
     ]
     gaps = [space.gaps() for space in spaces]
@@ -217,12 +217,12 @@ class _Space:
         self,
         sides: tuple[RingField | None, RingField | None],
         levels: tuple[OffsetLevel | None, OffsetLevel],
-        clear: tuple[DistanceField, float],
+        walls: KeptWalls,
         radius: float,
     ) -> None:
         self._inner, self._sides = sides[1], [side for side in sides if side is not None]
         self._next, self._half = levels
-        self._walls, self._radius = clear, radius
+        self._walls, self._radius = walls, radius
 
     def gaps(self) -> _Gaps:
         """Return all gaps between the two levels; those of one group come near one another."""
@@ -257,7 +257,7 @@ class _Space:
         """
         if self._next is None or self._inner is None:
             return np.zeros(0, np.int64), np.zeros((0, 2))
-        beside, walls, path = DistanceField.of(gaps.outlines.rows), self._walls[0], self._inner.field
+        beside, walls, path = DistanceField.of(gaps.outlines.rows), self._walls.field, self._inner.field
         radii = np.full(len(path.rows), self._radius)
         found, count = runs_kernels.squares_beyond(
             walls.rows,
@@ -363,7 +363,7 @@ class _Space:
             (length, *tip), start = ways[way], starts[way // 2]
             if not np.isfinite(length):
                 return None
-            if length > 0 and is_clear(self._walls[0], start, np.array(tip), self._walls[1]):
+            if length > 0 and self._walls.is_clear(start, np.array(tip)):
                 side, rows, parts = sides[way // 6]
                 probe = way // 2 % 3
                 out, back = straight(start, np.array(tip)), straight(np.array(tip), start)
@@ -418,7 +418,7 @@ class _Space:
         return best
 
     def _clear(self, row: Rows) -> bool:
-        return is_clear(self._walls[0], row[:2], row[2:4], self._walls[1])
+        return self._walls.is_clear(row[:2], row[2:4])
 
 
 def _different(cells: Indices) -> Indices:
