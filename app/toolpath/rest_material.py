@@ -250,7 +250,7 @@ def _grid(bounds: tuple[float, float, float, float], last: float) -> tuple[Float
 
 def core_cells(ground: CutGround, reach: CentreReach, found: RestSquares) -> Floats:
     """Return the centres (n, 2) of the cells that hold all metal left where the cutter's centre may be."""
-    return _cells(ground, reach, (found.core, found.half), _core(reach))
+    return _cells(ground, reach, found.core, found.half, _core(reach))
 
 
 def rim_cells(ground: CutGround, reach: CentreReach, found: RestSquares, cutting: Rows) -> Floats:
@@ -263,7 +263,7 @@ def rim_cells(ground: CutGround, reach: CentreReach, found: RestSquares, cutting
         return np.zeros((0, 2))
     rule = _rim(reach, cutting)
     near = rule.bound.nearest(found.rim, reach.radius + found.half * math.sqrt(2))[1] >= 0
-    return _cells(ground, reach, (found.rim[near], found.half), rule)
+    return _cells(ground, reach, found.rim[near], found.half, rule)
 
 
 def left_of(
@@ -271,8 +271,8 @@ def left_of(
 ) -> tuple[Floats, Floats]:
     """Return which cells of the core and of the rim still hold metal when more is cut; args as `rim_cells`."""
     core, rim = cells
-    left = _cells(ground, reach, (core, reach.cell), _core(reach))
-    return left, _cells(ground, reach, (rim, reach.cell), _rim(reach, cutting)) if len(rim) else rim
+    left = _cells(ground, reach, core, reach.cell, _core(reach))
+    return left, _cells(ground, reach, rim, reach.cell, _rim(reach, cutting)) if len(rim) else rim
 
 
 @dataclass(frozen=True, eq=False)
@@ -292,9 +292,11 @@ def _rim(reach: CentreReach, cutting: Rows) -> _Rule:
     return _Rule(DistanceField.of(cutting), reach.radius, -1.0)
 
 
-def _cells(ground: CutGround, reach: CentreReach, squares: tuple[Floats, float], rule: _Rule) -> Floats:
-    """Return the cells of squares (centres (n, 2), half side) in which metal is left."""
-    (centres, half), each = squares, round(squares[1] / reach.cell) ** 2
+def _cells(ground: CutGround, reach: CentreReach, centres: Floats, half: float, rule: _Rule) -> Floats:
+    """Return the cells, their centres (m, 2), in which metal is left, of squares with centres (n, 2) and half a side,
+    mm.
+    """
+    each = round(half / reach.cell) ** 2
     centres, out = np.ascontiguousarray(centres), np.empty((len(centres) * each, 2))
 
     def look(band: slice) -> Floats:
