@@ -69,14 +69,14 @@ def sweep(*folders: Path) -> None:
     for folder in folders:
         with suppress(OSError), os.scandir(folder) as found:
             for entry in found:
-                left = _LEFT.fullmatch(entry.name)
-                if left is not None:
-                    with suppress(OSError):
-                        _sweep_one(entry, left["owner"])
+                with suppress(OSError):
+                    _sweep_one(entry)
 
 
-def _sweep_one(entry: os.DirEntry[str], owner: str | None) -> None:
-    if not _is_abandoned(owner, entry.stat(follow_symlinks=False).st_mtime):
+def _sweep_one(entry: os.DirEntry[str]) -> None:
+    left = _LEFT.fullmatch(entry.name)
+    owner = None if left is None else left["owner"]
+    if left is None or not _is_abandoned(owner, entry.stat(follow_symlinks=False).st_mtime):
         return
     if entry.is_file(follow_symlinks=False):
         os.unlink(entry.path)

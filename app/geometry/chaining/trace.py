@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -161,30 +161,53 @@ def _bridges(at: dict[int, list[int]]) -> set[int]:
     """Return the pieces that lie on no loop: Tarjan (1974), "A note on finding the bridges of a graph", without
     recursion.
     """
-    node_of = {end: node for node, ends in at.items() for end in ends}
-    order: dict[int, int] = {}
-    low: dict[int, int] = {}
-    bridges: set[int] = set()
-    for root in at:
-        if root in order:
-            continue
-        order[root] = low[root] = len(order)
-        stack = [(root, -1, iter(at[root]))]
+    search = _BridgeSearch(at)
+    return {piece for root in at if root not in search.order for piece in search.bridges_from(root)}
+
+
+class _BridgeSearch:
+    """A walk through a graph, deep first.
+
+    Attributes:
+        order: when each node was reached. low: the earliest node that is reached from it and those behind it, but for
+            the way that it was reached by.
+    """
+
+    def __init__(self, at: dict[int, list[int]]) -> None:
+        self._at = at
+        self._node_of = {end: node for node, ends in at.items() for end in ends}
+        self.order: dict[int, int] = {}
+        self.low: dict[int, int] = {}
+
+    def bridges_from(self, root: int) -> Iterator[int]:
+        """Yield the bridges among all that hangs together with a node that was not reached before."""
+        stack = [self._reached(root, -1)]
         while stack:
             node, came, ends = stack[-1]
             end = next(ends, None)
             if end is None:
                 stack.pop()
-                if stack:
-                    parent = stack[-1][0]
-                    low[parent] = min(low[parent], low[node])
-                    if low[node] > order[parent]:
-                        bridges.add(came)
+                if stack and self._returned(node, stack[-1].node):
+                    yield came
             elif end // 2 != came:
-                other = node_of[end ^ 1]
-                if other in order:
-                    low[node] = min(low[node], order[other])
-                else:
-                    order[other] = low[other] = len(order)
-                    stack.append((other, end // 2, iter(at[other])))
-    return bridges
+                other = self._node_of[end ^ 1]
+                if other not in self.order:
+                    stack.append(self._reached(other, end // 2))
+                self.low[node] = min(self.low[node], self.order[other])
+
+    def _reached(self, node: int, came: int) -> _ReachedNode:
+        self.order[node] = self.low[node] = len(self.order)
+        return _ReachedNode(node, came, iter(self._at[node]))
+
+    def _returned(self, node: int, parent: int) -> bool:
+        """Take over what is reached from a node; tell whether nothing before it is: what leads to it is a bridge."""
+        self.low[parent] = min(self.low[parent], self.low[node])
+        return self.low[node] > self.order[parent]
+
+
+class _ReachedNode(NamedTuple):
+    """A node, the piece by which it was reached (-1: none), and the ends there that were not looked at yet."""
+
+    node: int
+    came: int
+    ends: Iterator[int]
