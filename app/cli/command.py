@@ -60,7 +60,7 @@ class CliCommand:
         return "\n".join((self.epilog.rstrip(), "", "Examples:", *(f"  {example}" for example in self.examples)))
 
     def parser(self) -> OptionParser:
-        """Return its parser."""
+        """Return what reads the words behind its name, and says its help."""
         return OptionParser(prog=f"hitofude {self.name}", load=lambda: self)
 
     def arguments(self, argv: Sequence[str]) -> argparse.Namespace:

@@ -89,7 +89,7 @@ class PlaneShape(_CheckedShape):
 
 @dataclass(frozen=True)
 class SphereShape(_CheckedShape):
-    """A sphere."""
+    """A whole sphere, centre and radius in mm; its poles lie along Z."""
 
     kind: ClassVar[str] = "sphere"
     centre: Point3

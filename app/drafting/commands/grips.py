@@ -59,7 +59,7 @@ def grips(curve: Curve) -> tuple[Grip, ...]:
 
 
 def note_grips(shape: Shape) -> tuple[Grip, ...]:
-    """Return the grips of a note."""
+    """Return where a mark, a guide or a dimension is held: its place, and points that it is led through."""
     if isinstance(shape, Mark):
         return (Grip(shape.at, GripKind.PLACE),)
     if isinstance(shape, Guide):

@@ -75,7 +75,7 @@ class TracedPolyline:
 
 @dataclass(frozen=True, slots=True)
 class FilledPolygon:
-    """A filled polygon."""
+    """An area inside a polygon, in the colour of a pen and without an outline."""
 
     pen: Pen
     corners: tuple[Point, ...]

@@ -60,7 +60,7 @@ def off(place, first, a, second, b):
 
 @kernel(f"{_V}({_TABLE}, int64)", counts=False)
 def row_of(table, k):
-    """Return a row."""
+    """Return row k of a table (n, 3): a place, or a direction."""
     return table[k, 0], table[k, 1], table[k, 2]
 
 

@@ -79,12 +79,12 @@ def torus(shape: TorusShape) -> BsplineSurface:
 
 
 def cylinder(shape: CylinderShape) -> BsplineSurface:
-    """Return a cylinder."""
+    """Return a cylinder, or what a part of the turn leaves of it, without its ends."""
     return _cone(np.array(shape.start), np.array(shape.end), (shape.radius, shape.radius), shape.turn_deg)
 
 
 def cone(shape: ConeShape) -> BsplineSurface:
-    """Return a cone or a frustum."""
+    """Return a cone or a frustum, or what a part of the turn leaves of it, without its ends."""
     return _cone(np.array(shape.start), np.array(shape.end), (shape.start_radius, shape.end_radius), shape.turn_deg)
 
 

@@ -131,7 +131,7 @@ class BoundaryPoints:
 
     @staticmethod
     def none() -> BoundaryPoints:
-        """Return none."""
+        """Return those of a compound whose surfaces meet nowhere."""
         number, place, at = np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 2))
         return BoundaryPoints(number, number, number, place, place, at, at, np.zeros(0, np.uint8))
 

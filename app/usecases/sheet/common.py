@@ -106,7 +106,7 @@ class ToolUse:
 
 
 def tool_table(uses: Sequence[ToolUse]) -> SheetTable:
-    """Return the table of tools."""
+    """Return a row a tool, in their order: what it is and how it is held, rpm, feeds, minutes."""
     return SheetTable("Tools", TOOL_COLUMNS, tuple(map(_tool_row, uses)))
 
 

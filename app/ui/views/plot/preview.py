@@ -117,7 +117,7 @@ class PlotPreview(QWidget):
         self._grabbed = event.position() - self._shift
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Move it."""
+        """Draw the sheet along with the mouse, where it is larger than its frame."""
         if self._grabbed is not None and self._zoom > 1:
             self._shift = event.position() - self._grabbed
             self._renew()
