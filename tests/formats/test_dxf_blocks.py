@@ -249,3 +249,20 @@ def test_nesting_has_a_limit() -> None:
     document.modelspace().add_blockref("B200", (0, 0))
     with pytest.raises(InputError, match="nested deeper than 64 levels"):
         read(document)
+
+
+@pytest.mark.parametrize("again", ["B", "b"])
+@pytest.mark.parametrize("version", ["AC1009", "AC1015"])
+def test_a_block_that_is_defined_again_is_the_first_one_and_told(version: str, again: str) -> None:
+    def block(name: str, radius: str) -> list[str]:
+        circle = ["0", "CIRCLE", "8", "0", "10", "0", "20", "0", "40", radius]
+        return ["0", "BLOCK", "8", "0", "2", name, "70", "0", "10", "0", "20", "0", *circle, "0", "ENDBLK", "8", "0"]
+
+    head = ["0", "SECTION", "2", "HEADER", "9", "$ACADVER", "1", version, "9", "$INSUNITS", "70", "4", "0", "ENDSEC"]
+    blocks = ["0", "SECTION", "2", "BLOCKS", *block("B", "5"), *block(again, "7"), *block("C", "1"), "0", "ENDSEC"]
+    inserts = [tag for name in "BC" for tag in ("0", "INSERT", "8", "0", "2", name, "10", "0", "20", "0")]
+    text = [*head, *blocks, "0", "SECTION", "2", "ENTITIES", *inserts, "0", "ENDSEC", "0", "EOF", ""]
+    drawing = read_dxf("\n".join(text).encode(), "blocks.dxf")
+    assert [entity.curve for entity in drawing.part.entities] == [Circle((0, 0), 5), Circle((0, 0), 1)]
+    (found,) = drawing.findings
+    assert found.counts and found.text.startswith("The DXF is damaged; 1 fault was repaired")

@@ -17,6 +17,7 @@ from ...core.errors import InputError
 from ..drawing_account import MOST_CURVES
 from . import subclass_marks
 from .numbers import NO_COMMAS, DecimalCommas, with_points
+from .repeated_blocks import without_repeated
 from .splines import MOST_POINTS, too_many
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
@@ -84,13 +85,13 @@ def load(data: bytes, name: str) -> LoadedDocument:
     _refuse_others(data, name)
     data = _with_one_section(data)
     try:
-        return LoadedDocument(_probed(_load_sound(data)), unended)
+        return _load_sound(data, unended)
     except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
         reason = fault
     commas = DecimalCommas(data) if data.startswith(_BINARY) else with_points(data, name)
     if commas.count:
         try:
-            return LoadedDocument(_probed(_load_sound(commas.data)), 0, replace(commas, data=b""))
+            return replace(_load_sound(commas.data, 0), commas=replace(commas, data=b""))
         except Exception as fault:  # it has other faults too
             data, reason = commas.data, fault
     try:
@@ -190,7 +191,8 @@ def _refuse_endless_curves(data: bytes, name: str) -> None:
                 raise InputError(f"{name}:{line}: {too_many(max(kinds.values()), most, what)}")
 
 
-def _load_sound(data: bytes) -> Any:
+def _load_sound(data: bytes, repaired: int) -> LoadedDocument:
+    """Return the document of a file in which so many faults were repaired before, and blocks that are there twice."""
     load_ezdxf()
     from ezdxf.lldxf.encoding import decode_dxf_unicode
     from ezdxf.lldxf.loader import load_dxf_structure
@@ -204,7 +206,9 @@ def _load_sound(data: bytes) -> Any:
     else:
         text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
         tags = ascii_tags_loader(io.StringIO(text, newline=None))
-    return _document(load_dxf_structure(tag_compiler(iter(tags))))
+    sections = load_dxf_structure(tag_compiler(iter(tags)))
+    repeated = without_repeated(sections)
+    return LoadedDocument(_probed(_document(sections)), repaired + repeated)
 
 
 def _load_damaged(data: bytes) -> tuple[Any, int]:
@@ -214,13 +218,14 @@ def _load_damaged(data: bytes) -> tuple[Any, int]:
     from ezdxf.recover import Recover
 
     found = Recover.run(io.BytesIO(data))
+    repeated = without_repeated(found.section_dict)
     subclass_marks.put_in(found.section_dict)
     unreadable = subclass_marks.without_unreadable(found.section_dict)
     document = _document(found.section_dict)
     auditor = Auditor(document)
     auditor.run()
     told = len(found.errors) + len(found.fixes)
-    return document, unreadable + told + len(auditor.errors) + len(auditor.fixes)
+    return document, repeated + unreadable + told + len(auditor.errors) + len(auditor.fixes)
 
 
 def _document(sections: Any) -> Any:
