@@ -90,18 +90,7 @@ class SmoothContext:
 
     def corners(self, points: Floats) -> NDArray[np.int64]:
         """Return the numbers of points that are kept exactly, the first and the last one among them."""
-        return corners(points, self.options.corner, REACH * self._crumb)
-
-    @property
-    def _crumb(self) -> float:
-        """How long a leg may be that makes no corner, by REACH, mm: what the curve may round off.
-
-        Of the tolerance method D has that only to leave facets; it stays nearer to its points than that.
-        """
-        method, widest = self.options.effective, self.options.widest
-        if method is None:
-            return widest
-        return min(widest, max(method.choose.epsilon, method.nearness_for(self.coarsest_digit)))
+        return corners(points, self.options.corner, REACH * self.options.rounds)
 
     @cached_property
     def states_across(self) -> dict[int, NDArray[np.uint8]]:

@@ -80,9 +80,18 @@ class SmoothOptions:
         return max(self.tolerance, self.middle or 0.0, self.profile.widest if self.profile is not None else 0.0)
 
     @property
+    def rounds(self) -> float:
+        """By how much the curve may round off what is no corner, mm.
+
+        Of the tolerance method D has that only to leave facets; it stays nearer to its points than that.
+        """
+        method = self.effective
+        return self.widest if method is None else min(self.widest, max(method.choose.epsilon, method.nearness or 0.0))
+
+    @property
     def least_leg(self) -> float:
         """Bends above `corner` whose legs are both so long or longer are kept exactly, whatever is beside them, mm."""
-        return LEAST_LEG * REACH * self.widest
+        return LEAST_LEG * REACH * self.rounds
 
     def __post_init__(self) -> None:
         if self.profile is not None and (self.middle is not None or self.tolerance != self.profile.radius):
