@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-import numpy as np
-
 from ..core.errors import ParameterError
-from .curves import Arc, Circle, Point, Primitive
+from .curves import Arc, Circle, Line, Point, Primitive
 from .job import Job, OriginXY, OriginZ
 from .part import Contour, Region
 
@@ -45,11 +43,9 @@ def extent(contours: Iterable[Contour]) -> tuple[float, float, float, float] | N
 
 def _box(contour: Contour) -> tuple[float, float, float, float]:
     if "box" not in contour.kept:
-        points = np.array([point for each in _wide(contour.primitives) for point in _extreme_points(each)])
-        ends = np.array([(each.start, each.end) for each in contour.primitives]).reshape(-1, 2)
-        both = np.concatenate([points.reshape(-1, 2), ends])
-        (x0, y0), (x1, y1) = both.min(axis=0).tolist(), both.max(axis=0).tolist()
-        contour.kept["box"] = x0, y0, x1, y1
+        points = [point for each in contour.primitives for point in _extreme_points(each)]
+        x, y = zip(*points, strict=True)
+        contour.kept["box"] = min(x), min(y), max(x), max(y)
     box: tuple[float, float, float, float] = contour.kept["box"]
     return box
 
@@ -101,30 +97,25 @@ def work_origin(job: Job, box: StockBox) -> tuple[float, float, float]:
     return (x, y, 0.0 if job.origin_z is OriginZ.TOP else box.z0)
 
 
-def _extreme_points(primitive: Primitive) -> Iterator[Point]:
-    """Yield points of a primitive that hold its extent: its ends, and where an arc passes a quadrant."""
-    yield primitive.start
-    yield primitive.end
-    if isinstance(primitive, (Arc, Circle)):
-        cx, cy = primitive.centre
-        yield from (
-            (cx + primitive.radius * ux, cy + primitive.radius * uy)
-            for ux, uy in QUADRANTS
-            if isinstance(primitive, Circle) or _passes(primitive, math.atan2(uy, ux))
-        )
+def _extreme_points(primitive: Primitive) -> list[Point]:
+    """Return points of a primitive that hold its extent: its ends, and where an arc passes a quadrant."""
+    ends = [primitive.start, primitive.end]
+    if isinstance(primitive, Line) or (isinstance(primitive, Arc) and _within_quadrant(primitive)):
+        return ends
+    (cx, cy), radius = primitive.centre, primitive.radius
+    return ends + [
+        (cx + radius * ux, cy + radius * uy)
+        for ux, uy in QUADRANTS
+        if isinstance(primitive, Circle) or _passes(primitive, math.atan2(uy, ux))
+    ]
 
 
-def _wide(primitives: Sequence[Primitive]) -> list[Primitive]:
-    """Return circles, and the arcs that may pass a quadrant: hardly any of the short ones of a fitted curve does."""
-    found: list[Primitive] = [each for each in primitives if isinstance(each, Circle)]
-    arcs = [each for each in primitives if isinstance(each, Arc)]
-    if not arcs:
-        return found
-    places = np.array([(each.start, each.end, each.centre) for each in arcs])
-    a, b = places[:, 0] - places[:, 2], places[:, 1] - places[:, 2]
-    turn = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) * np.where([each.ccw for each in arcs], 1.0, -1.0)
-    within = (a * b > 0).all(axis=1) & (turn > 0)
-    return found + [arcs[k] for k in np.flatnonzero(~within).tolist()]
+def _within_quadrant(arc: Arc) -> bool:
+    """Tell whether an arc passes no quadrant for sure: hardly any of the short ones of a fitted curve does."""
+    (x0, y0), (x1, y1), (cx, cy) = arc.start, arc.end, arc.centre
+    ax, ay, bx, by = x0 - cx, y0 - cy, x1 - cx, y1 - cy
+    turn = ax * by - ay * bx
+    return ax * bx > 0 and ay * by > 0 and (turn if arc.ccw else -turn) > 0
 
 
 def _passes(arc: Arc, angle: float) -> bool:

@@ -97,9 +97,7 @@ def _about_outlines(entities: Sequence[Entity], contours: Sequence[Contour]) -> 
     curves = [each.curve for each in entities if each.id in requested]
     plain = [Contour((curve,)) for curve in curves if isinstance(curve, Line | Circle | Arc) and not _is_nothing(curve)]
     bent = [_places(curve) for curve in curves if isinstance(curve, Ellipse | Spline)]
-    drawn = even_odd(
-        plain, (), np.concatenate([np.zeros((0, 4)), *(np.hstack([places[:-1], places[1:]]) for places in bent)])
-    )
+    drawn = even_odd(plain, (), _chords(bent))
     made = even_odd(contours)
     moved = float(Outlines.of(contours).lengths @ np.array([contour.deviation for contour in contours]))
     starts = [contour.primitives[0].start[0] for contour in contours] + [
@@ -108,6 +106,18 @@ def _about_outlines(entities: Sequence[Entity], contours: Sequence[Contour]) -> 
     wide = max(starts) - min(starts)
     spare = moved + drawn.loose * wide + drawn.length * 2 * _CHORD * bool(bent)
     return differing(drawn, made.area, contours, spare)
+
+
+def _chords(ways: Sequence[Floats]) -> Floats:
+    """Return the chords (m, 4) from place to place of ways (n, 2)."""
+    ways = [way for way in ways if len(way)]
+    if not ways:
+        return np.zeros((0, 4))
+    places, ends = np.concatenate(ways), np.cumsum([len(way) for way in ways])
+    before_last = np.ones(len(places), np.bool_)
+    before_last[ends - 1] = False
+    begin = np.flatnonzero(before_last)
+    return np.hstack([places[begin], places[begin + 1]])
 
 
 def drawn_as(curve: Curve) -> tuple[Primitive, ...]:

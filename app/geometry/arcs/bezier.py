@@ -5,6 +5,7 @@ samples.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 
@@ -126,9 +127,24 @@ def pieces_of(curve: Ellipse | Spline) -> BezierCurve:
     """Return the same curve, exactly, as Bézier pieces in its direction of travel; pieces that stand still are left
     out.
     """
+    if isinstance(curve, Spline) and not curve.weights and _is_one_piece(curve.knots, curve.degree):
+        return _of_control_points(curve)
     pieces = _of_ellipse(curve) if isinstance(curve, Ellipse) else _of_spline(curve)
     extent = np.ptp(pieces.polygon, axis=1).max(axis=1)
     return BezierCurve(pieces.control[extent > _STILL])
+
+
+def _is_one_piece(knots: Sequence[float] | Floats, degree: int) -> bool:
+    """Tell whether a B-spline is a Bézier piece already, as letters' curves are."""
+    return len(knots) == 2 * degree + 2 and bool(knots[0] == knots[degree] < knots[degree + 1] == knots[-1])
+
+
+def _of_control_points(curve: Spline) -> BezierCurve:
+    """A page of letters has tens of thousands of such pieces, for each of which arrays take ten times as long."""
+    x, y = zip(*curve.control_points, strict=True)
+    if max(max(x) - min(x), max(y) - min(y)) <= _STILL:
+        return BezierCurve(np.zeros((0, len(x), 3)))
+    return BezierCurve(np.array([[(px, py, 1.0) for px, py in curve.control_points]]))
 
 
 def _of_ellipse(curve: Ellipse) -> BezierCurve:
@@ -170,8 +186,8 @@ def cut_at_knots(points: Floats, knots: Floats, degree: int) -> Floats:
         (spans, p + 1, d) control points.
     """
     p = degree
-    if len(points) == p + 1 and knots[0] == knots[p] < knots[p + 1] == knots[-1]:
-        return points[None].astype(np.float64)  # it is one already, as letters' curves are
+    if _is_one_piece(knots, p):
+        return points[None].astype(np.float64)
     spans = np.flatnonzero(np.diff(knots[p : len(points) + 1]) > 1e-12 * max(1e-300, knots[-1] - knots[0])) + p
     result = np.empty((len(spans), p + 1, points.shape[1]))
     kernels.blossoms(np.ascontiguousarray(points, np.float64), np.ascontiguousarray(knots, np.float64), spans, result)

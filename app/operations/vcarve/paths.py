@@ -15,7 +15,7 @@ from ...geometry.buffer import buffered
 from ...geometry.distance import DistanceField
 from ...geometry.medial_axis.axis import MedialAxis, medial_axes
 from ...geometry.offset.offset import Ring, offset_levels
-from ...geometry.primitives import CX, TURN, Primitives, R, Rows, sample, within_half_turn
+from ...geometry.primitives import CX, Primitives, R, Rows, sample, within_half_turn
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import Purpose
@@ -221,13 +221,16 @@ def _beyond_flat(ring: Ring, field: DistanceField | None, flat: float) -> Iterat
 
 def _round_ones(primitives: Primitives) -> list[Floats]:
     """Return the disc of each region that is one: its medial axis is a point."""
-    found = []
-    for number in np.unique(primitives.region):
-        rows = primitives.rows[primitives.region == number]
-        alike = np.ptp(rows[:, CX : R + 1], axis=0).max() < _SAME
-        if (rows[:, TURN] > 0).all() and alike:
-            found.append(rows[0, CX : R + 1].copy())
-    return found
+    numbers, group = np.unique(primitives.region, return_inverse=True)
+    order = np.argsort(group, kind="stable")
+    rows = primitives.rows[order]
+    firsts = np.searchsorted(group[order], np.arange(len(numbers)))
+    if not len(numbers):
+        return []
+    least, most = (bound.reduceat(rows[:, CX:], firsts) for bound in (np.minimum, np.maximum))
+    # columns: centre, radius, turn
+    alike = ((most - least)[:, :3].max(axis=1) < _SAME) & (least[:, 3] > 0)
+    return [rows[first, CX : R + 1].copy() for first in firsts[alike].tolist()]
 
 
 @dataclass(eq=False)
