@@ -262,6 +262,34 @@ def test_what_stands_between_roughed_and_finished_is_as_wide_as_asked_for(side: 
         assert cut[0].distance(cut[1]) >= 4.0 - 2e-3
 
 
+def narrowest(program: Program, look: float) -> list[float]:
+    """Return how far apart what the cutter cuts to the floor before and behind each tab is, within a distance, mm."""
+    low = (program.moves.kind != 0) & (np.maximum(program.moves.start, program.moves.end)[:, 2] < -3.9)
+    paths = shapely.MultiLineString([sample_row(row) for row in move_rows(program.moves)[low]])
+    found = []
+    for tab in program.tabs:
+        near = paths.intersection(shapely.Point(tab.x, tab.y).buffer((tab.width + tab.diameter) / 2 + look))
+        cut = sorted(shapely.get_parts(near.buffer(tab.diameter / 2, 64)), key=lambda each: -each.area)
+        found.append(cut[0].distance(cut[1]) if len(cut) > 1 else 0.0)
+    return found
+
+
+@pytest.mark.parametrize("finish_width", [0.0, 0.3])
+@pytest.mark.parametrize("beside", [2.6, 4.0])
+@pytest.mark.parametrize("angle", [40.0, 60.0, 80.0])
+def test_a_tab_beside_an_acute_corner_is_as_wide_as_asked_for(angle: float, beside: float, finish_width: float) -> None:
+    turn, around = np.radians(angle), 1.5 / np.tan(np.radians(angle) / 2)  # where the path of 3 mm has its corner
+    wedge = polygon_contour([(0, 0), (60, 0), (60 * float(np.cos(turn)), 60 * float(np.sin(turn)))])
+    operation = replace(
+        outside(tabs=Tabs(places=((around + beside, 0.0),), width=2.0), finish_width=finish_width),
+        side=Side.INSIDE,
+        cut=CutParameters(2, depth=4.0, stepdown=4.0 if not finish_width else 2.0, entry=PLUNGE),
+    )
+    program = compute(contour_job([wedge], operation))
+    assert len(program.tabs) == 1 and not about(program, "narrower")
+    assert min(narrowest(program, 3.0)) >= 2.0 - 2e-3
+
+
 @settings(max_examples=examples(8), deadline=None)
 @given(st.floats(2.0, 30.0), st.integers(1, 6), st.floats(0.5, 12), st.floats(0.5, 8))
 def test_a_tab_on_a_bend_is_as_wide_as_asked_for_or_told(

@@ -30,6 +30,7 @@ from ...toolpath.leads.lead import LeadContext, PathWithLeads, lead_findings, ov
 from ...toolpath.leads.tab import (
     TabShape,
     by_hand,
+    ends_of,
     far_tab_findings,
     narrow_tab_findings,
     spans_of,
@@ -284,19 +285,19 @@ def _rough(
 ) -> _ContourStrokes:
     """Return the paths that leave the finish width, with their tabs where the finish path has its own."""
     width = work.operation.finish_width
-    shape = replace(TabShape.of(work.operation, work.tool), finish_width=width)
+    shape = TabShape.of(work.operation, work.tool)
+    finished = ends_of(finish.runs, finish.tabs, shape)
+    shape = replace(shape, finished=finished)
     tabs: list[list[float]] = [[] for _ in paths]
-    middles = [
-        run.path.points(np.array(places)) for run, places in zip(finish.runs, finish.tabs, strict=True) if places
-    ]
-    if middles and paths:
-        points = np.concatenate(middles)
-        near = [path.nearest(points) for path in paths]
+    if len(finished.middles) and paths:
+        near = [path.nearest(finished.middles) for path in paths]
         for k, owner in enumerate(np.argmin(np.array([far for _, far in near]), axis=0).tolist()):
             if near[owner][1][k] <= _FAR * width:
                 tabs[owner].append(float(near[owner][0][k]))
     taken = [spans_of(path, places, shape) for path, places in zip(paths, tabs, strict=True)]
     made = runs(paths, taken, work.around(distance), _beginnings(paths, finish, _FAR * width))
+    if not narrow_tab_findings(finish.runs, finish.tabs, replace(shape, finished=None)):  # told already
+        work.context.findings.extend(narrow_tab_findings(made, tabs, shape))
     extras = StrokeExtras(shape, ways)
     return _ContourStrokes(
         made,

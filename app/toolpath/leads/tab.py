@@ -32,6 +32,9 @@ _AT_CORNER = 0.5
 _FINE = 16
 """Places to the least distance between tabs, among which the nearest to the even one is taken."""
 
+_NEAR = 2.0
+"""Least distances between tabs from the even places, within which is looked first."""
+
 _ROUNDING = 1e-9
 """mm along a path: places that differ by no more are one."""
 
@@ -50,11 +53,51 @@ _LONGEST = 3.0
 _ROUNDS = 100
 """Ways over a tab that are tried, each longer than the one before by what the metal lacks."""
 
+_LOOKS = 65
+"""Places of a path beside a tab that are held against the tab's other end."""
+
 _SHORT = 1e-6
 """mm by which metal may be narrower than asked for."""
 
+_TOLD = 1e-3
+"""mm by which metal may be narrower than asked for before that is told: the path is looked at in places."""
+
 _FAR = 5.0
 """Tool diameters; a place by hand that is farther than this from every path is told."""
+
+
+class TabEnds(NamedTuple):
+    """Where paths end before tabs and go on behind them, and as much of them as may come nearer to the other end.
+
+    Attributes:
+        middles: (k, 2) of the tabs, mm.
+        before, after: (k, n, 2) points of the path away from each end, the end itself first, mm.
+    """
+
+    middles: Floats
+    before: Floats
+    after: Floats
+
+    def nearest(self, points: Floats) -> TabEnds:
+        """Return for each of points (m, 2) the ends of the tab whose middle is nearest to it."""
+        same = np.argmin(_far(points[:, None], self.middles), axis=1)
+        return TabEnds(self.middles[same], self.before[same], self.after[same])
+
+    def apart(self, other: TabEnds) -> Floats:
+        """Return how far what is before each tab (m,) is from what is behind it on another path, or on this one, mm.
+
+        One of the two nearest places is an end: a path goes away from its own, but past an acute corner it comes back
+        to the other.
+        """
+        ahead = np.minimum(_far(self.before[:, :1], other.after), _far(other.after[:, :1], self.before))
+        found: Floats = ahead.min(axis=1)
+        return found
+
+
+def _far(a: Floats, b: Floats) -> Floats:
+    """Return the distances of points (..., 2), mm."""
+    found: Floats = np.hypot(a[..., 0] - b[..., 0], a[..., 1] - b[..., 1])
+    return found
 
 
 @dataclass(frozen=True)
@@ -65,14 +108,15 @@ class TabShape:
         tabs: what was asked for.
         tool: the cutter.
         top: height of their tops, mm, <= -0.001.
-        finish_width: what a path leaves for one nearer to the wall, mm: at a bend the ends of both lie otherwise, and
-            the metal between one's and the other's is to be as wide as asked for, too.
+        finished: of a path that leaves metal for one nearer to the wall, the ends of that one's ways over the same
+            tabs: at a bend the ends of both lie otherwise, and the metal between one's and the other's is to be as
+            wide as asked for, too; None: there is no such path.
     """
 
     tabs: Tabs
     tool: Tool
     top: float
-    finish_width: float = 0.0
+    finished: TabEnds | None = None
 
     @staticmethod
     def of(operation: ContourOperation, tool: Tool) -> TabShape:
@@ -89,16 +133,16 @@ class TabShape:
     def halves(self, path: ContourPath, places: Floats) -> Floats:
         """Return how far before and behind each middle (m,) a path goes over a tab there, mm.
 
-        What stands is as wide as the cutter's two places at its ends are apart, less its diameter. A bend brings these
-        nearer to one another than they are along the path, so the way over the tab is made longer until the metal is
-        as wide as asked for; where no way is, the widest is taken.
+        What stands is as wide as what the cutter's centre goes along before and behind it is apart, less its diameter.
+        A bend brings the two ends nearer to one another than they are along the path, and behind an acute corner the
+        path comes back to the end before it, so the way over the tab is made longer until the metal is as wide as
+        asked for; where no way is, the widest is taken.
         """
         found = np.full(len(places), self.half)
         short = self.tabs.width - self._metal(path, places, found)
         bent = np.flatnonzero(short > _SHORT)
         if len(bent):
-            wanted = self.tabs.width + np.minimum(short[bent], 2 * self.finish_width)
-            found[bent] = self._longer(path, places[bent], wanted)
+            found[bent] = self._longer(path, places[bent])
         return found
 
     def metal(self, path: ContourPath, places: Floats) -> Floats:
@@ -109,23 +153,39 @@ class TabShape:
         """Return what stands (m,) between the ends of ways over tabs, mm; on an open path that a way leaves the metal
         goes on.
         """
-        low, high = places - halves, places + halves
-        apart: Floats = np.hypot(*(path.points(high) - path.points(low)).T)
-        beyond = (low <= 0) | (high >= path.length)
+        ends = self.ends(path, places, halves)
+        apart = ends.apart(ends)
+        if self.finished is not None and len(self.finished.middles):
+            finished = self.finished.nearest(ends.middles)
+            apart = np.minimum(apart, np.minimum(ends.apart(finished), finished.apart(ends)))
+        beyond = (places <= halves) | (places + halves >= path.length)
         metal: Floats = np.where(beyond & (not path.closed), np.inf, apart - self.tool.diameter)
         return metal
 
-    def _longer(self, path: ContourPath, places: Floats, wanted: Floats) -> Floats:
-        """Return the shortest ways (m,) that leave metal as wide as wanted (m,), half of each, mm; else those that
-        leave the widest.
+    def ends(self, path: ContourPath, places: Floats, halves: Floats) -> TabEnds:
+        """Return the ends of ways over tabs, with as much of the path beside them as the ends can be apart, and no more
+        than its half in all: what is beyond lies on the other side of what is cut out.
         """
-        most = min(_LONGEST * self.half, (path.length - self.tool.diameter) / 2)
+        most = np.clip(path.length / 2 - 2 * halves, 0.0, 2 * halves)
+        on = most[:, None] * np.linspace(0.0, 1.0, _LOOKS)
+        low, high = (places - halves)[:, None] - on, (places + halves)[:, None] + on
+        shape = (len(places), _LOOKS, 2)
+        return TabEnds(
+            path.points(places), path.points(low.ravel()).reshape(shape), path.points(high.ravel()).reshape(shape)
+        )
+
+    def _longer(self, path: ContourPath, places: Floats) -> Floats:
+        """Return the shortest ways (m,) that leave metal as wide as asked for, half of each, mm; else those that leave
+        the widest.
+        """
+        longest = _LONGEST * self.half * (1 if self.finished is None else 2)  # keeps off what is longer itself
+        most = min(longest, (path.length - self.tool.diameter) / 2)
         half = np.full(len(places), self.half)
         best, widest = half, np.full(len(places), -np.inf)
         for _ in range(_ROUNDS):
             metal = self._metal(path, places, half)
             best, widest = np.where(metal > widest, half, best), np.maximum(metal, widest)
-            short = wanted - metal
+            short = self.tabs.width - metal
             unfinished = (short > _SHORT / 2) & (half < most)
             if not unfinished.any():
                 break
@@ -202,6 +262,11 @@ def spread(run: PathWithLeads, own: Sequence[float], shape: TabShape, around: Le
     good = np.concatenate([good % path.length, even[_in_spans(even, spans, path.length)] % path.length])
     good = good[(good - first) % path.length <= free + _ROUNDING]
     room = _Room(path, shape, first - half, first + free + half)
+    near = good[(_apart(good[:, None], even, path.length) <= _NEAR * apart).any(axis=1)]
+    made = _nearest_to(even, room.fitting(near), own, room)  # what is farther takes long to look at
+    places = np.array(made)
+    if len(made) == count and room.wide(places).all() and (_apart(places, even, path.length) <= _NEAR * apart).all():
+        return made
     return _nearest_to(even, room.fitting(good), own, room)
 
 
@@ -222,8 +287,16 @@ class _Room(NamedTuple):
         inside = (before >= halves - _ROUNDING) & (before + halves <= self.stop - self.start + _ROUNDING)
         places = places[inside]
         metal = self.shape.metal(self.path, places)
-        wide = metal >= self.shape.tabs.width - _SHORT
+        wide = self._is_wide(metal)
         return places[wide if wide.any() else metal > _SHORT]
+
+    def wide(self, places: Floats) -> NDArray[np.bool_]:
+        """Return which tabs with these middles (m,) are as wide as asked for."""
+        return self._is_wide(self.shape.metal(self.path, places))
+
+    def _is_wide(self, metal: Floats) -> NDArray[np.bool_]:
+        found: NDArray[np.bool_] = metal >= self.shape.tabs.width - _TOLD
+        return found
 
 
 def _nearest_to(even: Floats, good: Floats, own: Sequence[float], room: _Room) -> list[float]:
@@ -250,8 +323,8 @@ def goes_round(path: ContourPath) -> bool:
     return path.closed or path.area != 0
 
 
-def _apart(places: Floats, other: float, length: float) -> Floats:
-    """Return how far places are from another one along a closed path, mm."""
+def _apart(places: Floats, other: float | Floats, length: float) -> Floats:
+    """Return how far places are from another one, or others, along a closed path, mm."""
     return np.abs((places - other + length / 2) % length - length / 2)
 
 
@@ -319,7 +392,7 @@ def narrow_tab_findings(
     for run, places in zip(made, tabs, strict=True):
         where = np.array(places, dtype=np.float64)
         metal, points = shape.metal(run.path, where), run.path.points(where)
-        short = metal < shape.tabs.width - _SHORT
+        short = metal < shape.tabs.width - _TOLD
         narrow += [(wide, x, y) for wide, (x, y) in zip(metal[short].tolist(), points[short].tolist(), strict=True)]
     if not narrow:
         return []
@@ -392,6 +465,15 @@ def far_tab_findings(paths: Sequence[ContourPath], shape: TabShape, shifts: Sequ
             )
             findings.append(Finding(FindingKind.LEFT_OUT, text, px, py, amount=float(far[worst])))
     return findings
+
+
+def ends_of(runs: Sequence[PathWithLeads], tabs: Sequence[Sequence[float]], shape: TabShape) -> TabEnds:
+    """Return the ends of the ways over all tabs, mm along each path."""
+    found = [TabEnds(np.zeros((0, 2)), np.zeros((0, _LOOKS, 2)), np.zeros((0, _LOOKS, 2)))]
+    for run, places in zip(runs, tabs, strict=True):
+        where = np.array(places, dtype=np.float64)
+        found.append(shape.ends(run.path, where, shape.halves(run.path, where)))
+    return TabEnds(*(np.concatenate(each) for each in zip(*found, strict=True)))
 
 
 def spans_of(path: ContourPath, places: Sequence[float], shape: TabShape) -> list[tuple[float, float]]:
