@@ -35,7 +35,13 @@ def _listed(words: Iterable[str], last: str) -> str:
 
 def place_mm(value: float) -> str:
     """Return a coordinate, mm: in micrometres, and in six digits where it is so far away that these say nothing."""
-    return f"{value:.3f}" if abs(value) < 1e12 else f"{value:.6g}"
+    text = f"{value:.3f}" if abs(value) < 1e12 else f"{value:.6g}"
+    return "0.000" if text == "-0.000" else text
+
+
+def in_plane(x: float, y: float) -> str:
+    """Return a place in the plane, mm: "(12.500, -3.000)"."""
+    return f"({place_mm(x)}, {place_mm(y)})"
 
 
 def trimmed(value: float, digits: int) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from ..core import tolerances
 from ..core.errors import InputError
 from ..core.options import option
-from ..core.wording import place_mm
+from ..core.wording import in_plane
 from ..geometry.affine import Affine, transformed
 from ..geometry.chaining.pieces import FARTHEST, straightened, within_reach
 from ..geometry.sample import bounds, bounds_of_all
@@ -201,16 +201,16 @@ def placement_findings(found: UsableCurves) -> Iterator[Finding]:
     if found.moved is not None:
         x, y = found.moved
         yield remark(
-            f"The drawing was moved by ({place_mm(x)}, {place_mm(y)}) mm, so that its lower left corner is zero.",
+            f"The drawing was moved by {in_plane(x, y)} mm, so that its lower left corner is zero.",
             math.hypot(x, y),
         )
     if found.far:
         (x, y), layer = found.far[0]
         what = "1 curve lies" if len(found.far) == 1 else f"{len(found.far)} curves lie"
         where = (
-            f"at ({place_mm(x)}, {place_mm(y)}) on layer {layer}"
+            f"at {in_plane(x, y)} on layer {layer}"
             if len(found.far) == 1
-            else f"the first at ({place_mm(x)}, {place_mm(y)}) on layer {layer}"
+            else f"the first at {in_plane(x, y)} on layer {layer}"
         )
         todo = moving() if found.moved is None else "delete what lies so far away, or check the units"
         yield Finding(
@@ -290,7 +290,7 @@ def without_length(places: list[Point | None]) -> Iterator[Finding]:
     if places:
         known = [p for p in places if p is not None and all(map(math.isfinite, p))]
         x, y = known[0] if known else (None, None)
-        where = f", the first at ({place_mm(known[0][0])}, {place_mm(known[0][1])})" if known else ""
+        where = f", the first at {in_plane(known[0][0], known[0][1])}" if known else ""
         what = "1 entity has" if len(places) == 1 else f"{len(places)} entities have"
         yield Finding(
             FindingKind.TINY_ENTITY, f"{what} no length{where}; left out.", x, y, False, (), float(len(places))

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ..core.errors import InputError
-from ..core.wording import place_mm
+from ..core.wording import in_plane
 from ..geometry.chaining.pieces import FARTHEST
 from ..model.curves import Point
 from ..model.part import Units
@@ -106,10 +106,6 @@ def _scaled(size: Size, factor: float) -> Size:
     return size[0] * factor, size[1] * factor
 
 
-def _place(x: float, y: float) -> str:
-    return f"({place_mm(x)}, {place_mm(y)})"
-
-
 def far_question(first: Point, reading: ReadingOptions, units: Units) -> ReadingQuestion:
     """Ask what to do with a drawing all of which lies beyond 1 km.
 
@@ -125,12 +121,12 @@ def far_question(first: Point, reading: ReadingOptions, units: Units) -> Reading
                 ReadingChoice(
                     f"Take it as {UNIT_WORDS[other]}",
                     reading.in_units(other),
-                    f"it then begins at ({place_mm(x)}, {place_mm(y)}) mm",
+                    f"it then begins at {in_plane(x, y)} mm",
                 )
             )
     away = math.hypot(*first) / 1e6
     return ReadingQuestion(
-        f"All of it stands more than 1 km from zero: its first curve, at {_place(*first)} mm, {away:,.1f} km away.",
+        f"All of it stands more than 1 km from zero: its first curve, at {in_plane(*first)} mm, {away:,.1f} km away.",
         tuple(choices),
     )
 

@@ -13,7 +13,7 @@ import shapely
 from ..core.beside import BesideWork, beside
 from ..core.effort import Reckoning, announce
 from ..core.progress import NO_PROGRESS, Progress
-from ..core.wording import counted
+from ..core.wording import counted, in_plane
 from ..geometry.outlines import nested
 from ..model.finding import Finding, FindingKind, worst_first
 from ..model.job import Job
@@ -159,7 +159,7 @@ def under_clamps(job: Job, parts: DrawnContours, regions: Sequence[Region]) -> l
         return []
     x, y = shapely.get_coordinates(shapely.point_on_surface(lost))[0].tolist()
     text = (
-        f"{lost.area:.1f} mm2 of what is to be cleared lies under clamps, at ({x:.3f}, {y:.3f}) for one, and stays; "
+        f"{lost.area:.1f} mm2 of what is to be cleared lies under clamps, at {in_plane(x, y)} for one, and stays; "
         "clear it in another set-up."
     )
     return [Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(lost.area))]

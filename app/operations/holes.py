@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.errors import ParameterError
 from ..core.progress import Progress
-from ..core.wording import trimmed
+from ..core.wording import in_plane, trimmed
 from ..model.finding import Finding, FindingKind
 from ..model.hole_operations import HoleOperation, TapOperation, ThreadOperation
 from ..model.job import Job
@@ -202,9 +202,9 @@ def no_thread_findings(
         what = f"more than the pitch diameter of {thread.value}, {thread.pitch_diameter:.3f} mm"
         advice = f"less than half of each tooth would stand; drill {thread.tap_drill:g} mm instead"
         text = (
-            f"The hole at ({x:.3f}, {y:.3f}) is made {made:.3f} mm wide before it is threaded, {what}: {advice}."
+            f"The hole at {in_plane(x, y)} is made {made:.3f} mm wide before it is threaded, {what}: {advice}."
             if len(wide) == 1
-            else f"{len(wide)} holes are made too wide before they are threaded, the first, at ({x:.3f}, {y:.3f}), "
+            else f"{len(wide)} holes are made too wide before they are threaded, the first, at {in_plane(x, y)}, "
             f"{made:.3f} mm, {what}: {advice}."
         )
         yield Finding(FindingKind.ENGAGEMENT, text, x, y, amount=float(len(wide)))

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..core.wording import in_plane
 from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import OffsetLevel
 from ..model.finding import Finding, FindingKind
@@ -40,7 +41,7 @@ class BitmapCheck:
             return []
         x, y = self.place
         text = (
-            f"The contour path differs from the bitmap fill in {self.wrong} pixels, first at ({x:.3f}, {y:.3f}). "
+            f"The contour path differs from the bitmap fill in {self.wrong} pixels, first at {in_plane(x, y)}. "
             "Do not machine this; please report the drawing."
         )
         return [Finding(FindingKind.TOLERANCE, text, x, y, amount=float(self.wrong))]

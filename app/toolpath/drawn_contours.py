@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ..core import tolerances
 from ..core.errors import ParameterError
 from ..core.options import option
+from ..core.wording import in_plane
 from ..geometry.as_circle import as_circle
 from ..geometry.chaining.chain import ChainingResult, chain
 from ..geometry.even_odd import even_odd
@@ -161,7 +162,7 @@ def clamps_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
     findings = [
         Finding(
             FindingKind.OPEN_CONTOUR,
-            f"An outline of keep-out layer '{contour.layer}' is open at ({x:.3f}, {y:.3f}), "
+            f"An outline of keep-out layer '{contour.layer}' is open at {in_plane(x, y)}, "
             "so it keeps nothing out; close it.",
             x,
             y,
@@ -236,7 +237,7 @@ def _under_clamps(contours: Sequence[Contour], clamps: Sequence[Region]) -> list
         x, y = whole[0].primitives[0].start
         what = "The contour that begins" if len(whole) == 1 else f"{len(whole)} contours, of which the first begins"
         text = (
-            f"{what} at ({x:.3f}, {y:.3f}) {'lies' if len(whole) == 1 else 'lie'} wholly under clamps, and nothing "
+            f"{what} at {in_plane(x, y)} {'lies' if len(whole) == 1 else 'lie'} wholly under clamps, and nothing "
             "is machined there."
         )
         ids = tuple(dict.fromkeys(number for contour in whole for number in contour.entity_ids))
@@ -423,13 +424,15 @@ def _usable(operation: Operation, found: SelectedCurves) -> bool:
 def _about(operation: Operation, selector: Selector, drawn: DrawnContours, job: Job) -> Finding:
     who = f"{operation.WORD.capitalize()} T{operation.cut.tool} asks for {selector.text}"
     found = selected(drawn, (selector,))
-    x, y = (found.closed or found.open)[0].primitives[0].start if found.closed or found.open else (None, None)
-    ids = tuple(number for each in (*found.closed, *found.open) for number in each.entity_ids)
+    named = [*found.closed, *found.open]
+    x, y = named[0].primitives[0].start if named else (None, None)
+    ids = tuple(number for each in named for number in each.entity_ids)
     if found.closed:
         why = "which is no circle to drill"
     elif found.open:
         on = Side.ON not in _not_taken(operation)
-        why = f"which is open, beginning at ({x:.3f}, {y:.3f}): close it{', or follow it with side = on' if on else ''}"
+        begins = in_plane(*found.open[0].primitives[0].start)
+        why = f"which is open, beginning at {begins}: close it{', or follow it with side = on' if on else ''}"
     else:
         why = f"and there is none; {_there(selector, drawn, job)}"
     return Finding(FindingKind.LEFT_OUT, f"{who}, {why}.", x, y, entity_ids=ids)

@@ -13,6 +13,7 @@ import shapely
 from numpy.typing import NDArray
 
 from ..core.pool import in_bands
+from ..core.wording import in_plane
 from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ..geometry.outlines import Outlines, polygons
@@ -102,7 +103,7 @@ def too_small(regions: Sequence[Region], level: OffsetLevel, tool: Tool, least: 
     findings = []
     for region, (x, y, diameter) in zip(small, largest_discs(small).tolist(), strict=True):
         text = (
-            f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small: its largest disc is about {diameter:.3f} mm, "
+            f"Region {region.number} at {in_plane(x, y)} is too small: its largest disc is about {diameter:.3f} mm, "
             f"and {need.text}. Use a smaller tool for it."
         )
         counts = diameter < least or 0 < need.width <= least + 1e-9
@@ -173,7 +174,7 @@ def necks(level: OffsetLevel, primitives: Primitives, field: DistanceField, tool
     for a, b, region in pairs[:_TELL]:
         (x, y), room = _narrowest(*_at_the_neck(a, b, outlines), field)
         width = min(2 * room, need.width - _NARROWER)
-        text = f"Region {region} has a neck at ({x:.3f}, {y:.3f}), about {width:.3f} mm wide; {need.text}."
+        text = f"Region {region} has a neck at {in_plane(x, y)}, about {width:.3f} mm wide; {need.text}."
         findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, float(x), float(y), counts=False, amount=width))
     if len(pairs) > _TELL:
         x, y = (float(value) for value in (pairs[_TELL][0] + pairs[_TELL][1]) / 2)

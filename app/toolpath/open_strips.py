@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..core.errors import GeometryError
 from ..core.tolerances import WELD
+from ..core.wording import in_plane
 from ..geometry.primitives import contour_rows, sample
 from ..model.curves import Line, Primitive, reversed_curve
 from ..model.operation import SideStrip
@@ -111,6 +112,6 @@ def _beyond(sides: Sequence[shapely.Polygon], points: Floats) -> Iterator[Floats
 def _too_near(line: Contour, strip: SideStrip, what: str) -> GeometryError:
     x, y = line.primitives[0].start
     return GeometryError(
-        f"The open line that begins at ({x:.3f}, {y:.3f}) comes within {strip.reach:.3f} mm of {what}, so its edge "
+        f"The open line that begins at {in_plane(x, y)} comes within {strip.reach:.3f} mm of {what}, so its edge "
         "cannot be told from that; close the line, or give each an operation of its own."
     )

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..core.options import option
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
-from ..core.wording import together
+from ..core.wording import in_plane, together
 from ..model.finding import Finding, FindingKind
 from ..model.motion import MotionKind, Motions
 from ..model.motion_path import reach
@@ -312,7 +312,7 @@ def _below_table(stage: ProgramStage) -> Iterator[Finding]:
     motions = "A motion goes" if len(below) == 1 else f"{len(below)} motions, the first in {stage.where(first)}, go"
     text = (
         f"{motions} below the stock's underside, Z {floor:.3f}, where the table "
-        f"is{'' if len(below) == 1 else ', the deepest'} {depth:.3f} mm at ({x:.3f}, {y:.3f}), {stage.where(row)}; "
+        f"is{'' if len(below) == 1 else ', the deepest'} {depth:.3f} mm at {in_plane(x, y)}, {stage.where(row)}; "
         "put something under the stock, or cut less deep."
     )
     yield stage.finding(FindingKind.BELOW_TABLE, text, row, (x, y), depth)

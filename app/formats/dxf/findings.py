@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ...core.options import option
-from ...core.wording import place_mm, together
+from ...core.wording import in_plane, together
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
 from .blocks import BrokenLine, DrawnCurves, DxfContent, HiddenInsert, WidePolyline
@@ -44,7 +44,7 @@ def negative_radius_findings(content: DxfContent, size: float) -> Iterator[Findi
         )
         text = (
             f"{what} missing from the part{'' if count == 1 else ', the first'}: {radius:g} mm round "
-            f"({place_mm(x)}, {place_mm(y)}) on layer {first.layer}; draw it again."
+            f"{in_plane(x, y)} on layer {first.layer}; draw it again."
         )
         yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(count))
 
@@ -54,7 +54,7 @@ def about_unread(content: DxfContent, size: float) -> Iterator[Finding]:
     for sort in dict.fromkeys(each.sort for each in content.unread):
         alike = [each for each in content.unread if each.sort == sort]
         x, y = alike[0].at[0] * size, alike[0].at[1] * size
-        count, where = len(alike), f"at ({place_mm(x)}, {place_mm(y)}) on layer {alike[0].layer}"
+        count, where = len(alike), f"at {in_plane(x, y)} on layer {alike[0].layer}"
         text = (
             f"1 {sort.said} {where} is not read."
             if count == 1
@@ -87,7 +87,7 @@ def band_findings(bands: Sequence[WidePolyline], size: float) -> Iterator[Findin
         )
         yield Finding(
             FindingKind.ASSUMED,
-            f"{what} at ({place_mm(x)}, {place_mm(y)}); {read} read. {do}.",
+            f"{what} at {in_plane(x, y)}; {read} read. {do}.",
             x,
             y,
             counts=False,
@@ -107,9 +107,9 @@ def broken_line_findings(lines: Sequence[BrokenLine], size: float) -> Iterator[F
         kinds, count = together(list(dict.fromkeys(each.line_type for each in alike))), len(alike)
         x, y = alike[0].at[0] * size, alike[0].at[1] * size
         what = (
-            f"1 curve on layer {layer} at ({place_mm(x)}, {place_mm(y)}) is"
+            f"1 curve on layer {layer} at {in_plane(x, y)} is"
             if count == 1
-            else f"{count} curves on layer {layer}, the first at ({place_mm(x)}, {place_mm(y)}), are"
+            else f"{count} curves on layer {layer}, the first at {in_plane(x, y)}, are"
         )
         text = (
             f"{what} drawn in line type {kinds}, as centre lines and hidden edges are, and read like any other; what "
@@ -154,7 +154,7 @@ def _hidden(inserts: list[HiddenInsert], size: float) -> Finding:
     named = ", ".join(list(blocks)[:_NAMED]) + (f" and {len(blocks) - _NAMED} more" if len(blocks) > _NAMED else "")
     at = next((each.at for each in inserts if each.at is not None), None)
     first = "" if len(inserts) == 1 else "the first "
-    where = f", {first}at ({place_mm(at[0] * size)}, {place_mm(at[1] * size)})," if at is not None else ""
+    where = f", {first}at {in_plane(at[0] * size, at[1] * size)}," if at is not None else ""
     what = f"Block {named} is" if len(inserts) == 1 else f"{len(inserts)} blocks ({named}) are"
     requested = " ".join(option("layer", each) for each in list(dict.fromkeys((layer, *curves)))[: _NAMED + 1])
     lost = "1 curve is" if len(curves) == 1 else f"{len(curves)} curves are"
@@ -193,9 +193,7 @@ def text_findings(texts: Sequence[TextCurves], size: float) -> Iterator[Finding]
         rest = f" and {len(letters) - _LETTERS} more" if len(letters) > _LETTERS else ""
         x, y = short[0].at[0] * size, short[0].at[1] * size
         where = (
-            f"the text at ({place_mm(x)}, {place_mm(y)})"
-            if len(short) == 1
-            else f"{len(short)} texts, the first at ({place_mm(x)}, {place_mm(y)})"
+            f"the text at {in_plane(x, y)}" if len(short) == 1 else f"{len(short)} texts, the first at {in_plane(x, y)}"
         )
         yield Finding(
             FindingKind.LEFT_OUT,
@@ -214,7 +212,7 @@ def _assumed_places(texts: Sequence[TextCurves], size: float) -> Iterator[Findin
         what = "The text" if len(texts) == 1 else f"{len(texts)} texts, the first"
         runs = "runs" if len(texts) == 1 else "run"
         yield remark(
-            f"{what} at ({place_mm(x)}, {place_mm(y)}) on layer {texts[0].layer} {runs} downwards in columns; its "
+            f"{what} at {in_plane(x, y)} on layer {texts[0].layer} {runs} downwards in columns; its "
             "lines are broken where a column ends, and other programs may break them elsewhere. Compare it with the "
             "drawing, or explode it there.",
             float(len(texts)),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...core.wording import place_mm, together
+from ...core.wording import in_plane, together
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
 from .strokes import BroadOutline
@@ -81,10 +81,10 @@ def _broad(alike: list[BroadOutline]) -> Finding:
     least, most = min(each.width for each in alike), max(each.width for each in alike)
     wide = f"{most:.4g}" if most - least < 1e-3 * most else f"{least:.4g} to {most:.4g}"
     text = (
-        f"1 outline on layer {layer} at ({place_mm(x)}, {place_mm(y)}) is drawn {wide} mm wide; its middle line is "
+        f"1 outline on layer {layer} at {in_plane(x, y)} is drawn {wide} mm wide; its middle line is "
         "read. Turn the outline into a path where its borders are meant."
         if count == 1
-        else f"{count} outlines on layer {layer}, the first at ({place_mm(x)}, {place_mm(y)}), are drawn {wide} mm "
+        else f"{count} outlines on layer {layer}, the first at {in_plane(x, y)}, are drawn {wide} mm "
         "wide; their middle lines are read. Turn the outlines into paths where their borders are meant."
     )
     return Finding(FindingKind.ASSUMED, text, x, y, counts=False, amount=float(count), layer=layer)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...core import tolerances
 from ...core.options import option
-from ...core.wording import trimmed
+from ...core.wording import in_plane, trimmed
 from ...model.curves import Circle, Line, Point, Primitive
 from ...model.finding import Finding, FindingKind
 from ...model.job import LARGEST_JOIN
@@ -36,7 +36,7 @@ _MANY = 4
 
 def at(point: Point) -> str:
     """Return a place as text, mm."""
-    return f"({point[0]:.3f}, {point[1]:.3f})".replace("-0.000", "0.000")
+    return in_plane(*point)
 
 
 def size_of(contour: Contour) -> str:

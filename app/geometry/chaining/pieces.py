@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...core.errors import GeometryError
+from ...core.wording import in_plane
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Primitive, Spline, reversed_curve
 from ...model.finding import Finding, FindingKind
 from ...model.part import Contour, Entity
@@ -115,7 +116,7 @@ def pieces_from(entities: Sequence[Entity]) -> PiecesOfEntities:
             findings.append(
                 Finding(
                     FindingKind.TINY_ENTITY,
-                    f"Entity {entity.id} at ({x:.3f}, {y:.3f}) has no length; it is left out.",
+                    f"Entity {entity.id} at {in_plane(x, y)} has no length; it is left out.",
                     x,
                     y,
                     False,

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import GeometryError
 from ...core.progress import NO_PROGRESS, Progress
+from ...core.wording import in_plane
 from ..distance import DistanceField
 from ..offset import offset_kernels
 from ..primitives import CX, TURN, X0, X1, Y0, Y1, Indices, Primitives, R, Rows, boxes, signed_area
@@ -245,6 +246,6 @@ def _prove_radii(axis: MedialAxis) -> None:
 def _unproven(axis: MedialAxis, at: Floats | None = None) -> GeometryError:
     x, y = (axis.rows[0, :2] + axis.middle if at is None else at).tolist()
     return GeometryError(
-        f"The medial axis of region {axis.region} is not proven right near ({x:.3f}, {y:.3f}); look there for edges "
+        f"The medial axis of region {axis.region} is not proven right near {in_plane(x, y)}; look there for edges "
         "that cross or lie on one another, and mend them."
     )

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ...core.progress import Progress
+from ...core.wording import in_plane
 from ...geometry.offset.offset import OffsetLevel
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
@@ -107,13 +108,13 @@ def _left(parts: Sequence[ConnectedPath], operation: Operation) -> list[Finding]
     for stop in [stop for part in parts for stop in part.stops][:_TOLD]:
         x, y = stop.place
         text = (
-            f"At ({x:.3f}, {y:.3f}) the area is {stop.width:.3f} mm wide, too narrow for T{operation.cut.tool} to keep "
+            f"At {in_plane(x, y)} the area is {stop.width:.3f} mm wide, too narrow for T{operation.cut.tool} to keep "
             f"to {angle}; use a smaller tool there, or a larger angle."
         )
         found.append(Finding(FindingKind.NECK_TOO_NARROW, text, x, y, amount=stop.width))
     for x, y in [place for part in parts for place in part.unproven][:_TOLD]:
         text = (
-            f"The way along the wall at ({x:.3f}, {y:.3f}) cannot be proven to keep to {angle}, and is left out; "
+            f"The way along the wall at {in_plane(x, y)} cannot be proven to keep to {angle}, and is left out; "
             "let a contour operation follow it."
         )
         found.append(Finding(FindingKind.ENGAGEMENT, text, x, y))

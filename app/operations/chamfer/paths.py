@@ -19,6 +19,7 @@ import numpy as np
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
+from ...core.wording import in_plane
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Ring, offset_levels
 from ...geometry.primitives import CX, TURN, R, contour_rows, lengths, points_at, reversed_rows, within_half_turn
@@ -228,9 +229,7 @@ def _stopped_short(lost: Sequence[tuple[float, float, float]], tool: Tool, cone:
     if lost:
         x, y, _ = max(lost, key=lambda each: each[2])
         length = sum(each[2] for each in lost)
-        short = (
-            f"T{tool.number} {tool.label} stops short of {length:.3f} mm of the edges, at ({x:.3f}, {y:.3f}) for one"
-        )
+        short = f"T{tool.number} {tool.label} stops short of {length:.3f} mm of the edges, at {in_plane(x, y)} for one"
         text = (
             f"{short}: a wall that is not chamfered, or a clamp, is nearer than the {cone.top:.3f} mm that the ball "
             "reaches; take a narrower chamfer or a smaller ball."

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
+from ...core.wording import in_plane
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ...geometry.primitives import TURN, R, Rows, lengths, points_at, reversed_rows
@@ -156,7 +157,7 @@ def _check_arcs(work: _ContourJob) -> None:
         row = rows[small[np.argmin(rows[small, R])]]
         x, y = points_at(row[None], np.array([0.5]))[0]
         raise ParameterError(
-            f"The contour has an inner arc of radius {row[R]:.4g} mm at ({x:.3f}, {y:.3f}), in which a control cannot "
+            f"The contour has an inner arc of radius {row[R]:.4g} mm at {in_plane(x, y)}, in which a control cannot "
             f"offset it by up to {least:.4g} mm (the radius of T{work.tool.number}, stock to leave and wear range); "
             'take a smaller tool or wear_range, or compensation = "computer".'
         )

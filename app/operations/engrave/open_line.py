@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...core.progress import Progress
+from ...core.wording import in_plane
 from ...geometry.distance import DistanceField
 from ...geometry.primitives import Rows, contour_rows, lengths, points_at, reversed_rows, signed_area
 from ...model.finding import Finding, FindingKind
@@ -170,7 +171,7 @@ def _told(cut_off: list[_CutOffPart], tool: Tool) -> list[Finding]:
         Finding(
             FindingKind.LEFT_OUT,
             f"A keep-out area cuts {length:.3f} mm of a line off from T{tool.number} {tool.label} at "
-            f"({x:.3f}, {y:.3f}); move the clamp and cut the rest.",
+            f"{in_plane(x, y)}; move the clamp and cut the rest.",
             x,
             y,
             amount=length,

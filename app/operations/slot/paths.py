@@ -12,6 +12,7 @@ import shapely
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
+from ...core.wording import in_plane
 from ...geometry.offset.offset import OffsetLevel
 from ...geometry.primitives import contour_rows, sample
 from ...model.entry import Lead, LeadKind
@@ -120,7 +121,7 @@ def _under_clamps(areas: MachiningAreas, operation: SlotOperation, tool: Tool) -
     if held.area > _CHORD:
         x, y = shapely.get_coordinates(shapely.point_on_surface(held))[0].tolist()
         text = (
-            f"{held.area:.1f} mm2 of the slots lies under clamps, at ({x:.3f}, {y:.3f}) for one, and stays; move the "
+            f"{held.area:.1f} mm2 of the slots lies under clamps, at {in_plane(x, y)} for one, and stays; move the "
             "clamp and cut the rest."
         )
         yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(held.area))

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import GeometryError
+from ...core.wording import in_plane
 from ...geometry.medial_axis.axis import MedialAxis
 
 Floats = NDArray[np.float64]
@@ -101,7 +102,7 @@ def branches(axis: MedialAxis) -> list[AxisBranch]:
     if len(waiting):
         x, y = axis.discs(_LOOKED)[name[0], 4, :2].tolist()
         raise GeometryError(
-            f"The medial axis of region {axis.region} bends more near ({x:.3f}, {y:.3f}) than a path of straight moves "
+            f"The medial axis of region {axis.region} bends more near {in_plane(x, y)} than a path of straight moves "
             "can follow; look there for edges that cross or lie on one another, and mend them."
         )
     piece, begin, ends = np.concatenate(names), np.concatenate(begins), np.concatenate(chords)

@@ -11,6 +11,7 @@ import shapely
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
+from ...core.wording import in_plane
 from ...geometry.buffer import buffered
 from ...geometry.distance import DistanceField
 from ...geometry.medial_axis.axis import MedialAxis, medial_axes
@@ -204,7 +205,7 @@ def _ridges(corners: CarvedPass, tool: Tool, flat: Tool) -> Iterator[Finding]:
         x, y = corners.rings[0].rows[0, :2].tolist()
         text = (
             f"T{tool.number} {tool.label} goes over what T{flat.number} {flat.label} does not reach of the floor, and "
-            f"leaves ridges of up to {RIDGE:g} mm there, the first at ({x:.3f}, {y:.3f}); a narrower flat tool leaves "
+            f"leaves ridges of up to {RIDGE:g} mm there, the first at {in_plane(x, y)}; a narrower flat tool leaves "
             "fewer."
         )
         yield Finding(FindingKind.RIDGE, text, x, y, counts=False, amount=RIDGE)
@@ -315,7 +316,7 @@ def _too_wide(job: Job, operation: Operation, cone: VCutter, rings: Sequence[Rin
     for floor in sorted(floors, key=lambda each: -each.area)[:_TOLD]:
         x, y = shapely.get_coordinates(shapely.point_on_surface(floor))[0].tolist()
         text = (
-            f"At ({x:.3f}, {y:.3f}) the area is wider than T{tool.number} {tool.label} at its greatest depth, "
+            f"At {in_plane(x, y)} the area is wider than T{tool.number} {tool.label} at its greatest depth, "
             f"{cut.depth:g} mm: {floor.area:.3f} mm2 of floor are left to a flat tool; name one as its flat_tool, or "
             f"clear them first by a pocket operation of the same depth with {wide:.4f} mm of stock to leave."
         )

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ...core.errors import GeometryError
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
+from ...core.wording import in_plane
 from ...model.tool import Tool
 from ..cutter_contact.drop_cutter import shape_of
 from ..patches.facets import SurfaceFacets, surface_parameters
@@ -238,7 +239,7 @@ class Follower:
                 return found
             if count == follow_kernels.NO_PROOF or room > 1 << 24:
                 x, y = line[:2] + line[4] * line[2:4]
-                raise GeometryError(f"the pass from ({x:.3f}, {y:.3f}) could not be proven; make its tolerance larger.")
+                raise GeometryError(f"the pass from {in_plane(x, y)} could not be proven; make its tolerance larger.")
             room *= 4
 
 

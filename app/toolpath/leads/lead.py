@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core.wording import together
+from ...core.wording import in_plane, together
 from ...geometry.distance import DistanceField
 from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, R, Rows, points_at, turns
 from ...model.entry import Lead, LeadKind
@@ -405,7 +405,7 @@ def lead_findings(made: Sequence[PathWithLeads], around: LeadContext) -> list[Fi
     ]
     text = (
         f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, "
-        f"{together(said)}, because walls and clamps leave no room for more; the first is at ({x:.3f}, {y:.3f})."
+        f"{together(said)}, because walls and clamps leave no room for more; the first is at {in_plane(x, y)}."
     )
     return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(none) + len(other)))]
 
@@ -420,6 +420,6 @@ def overlap_findings(made: Sequence[PathWithLeads], around: LeadContext) -> list
     text = (
         f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, "
         f"{len(short)} {'goes' if len(short) == 1 else 'go'} on over the beginning by half the length, less than the "
-        f"{requested:g} mm asked for; the first is at ({x:.3f}, {y:.3f})."
+        f"{requested:g} mm asked for; the first is at {in_plane(x, y)}."
     )
     return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(short)))]

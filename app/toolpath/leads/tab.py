@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.wording import in_plane
 from ...geometry.distance import DistanceField
 from ...geometry.primitives import points_at
 from ...model.contour_operation import ContourOperation
@@ -221,7 +222,7 @@ def by_hand(
             continue
         x, y = places[k].tolist()
         text = (
-            f"The tab by hand at ({x:.3f}, {y:.3f}) is left out: the path of T{shape.tool.number} {shape.tool.label} "
+            f"The tab by hand at {in_plane(x, y)} is left out: the path of T{shape.tool.number} {shape.tool.label} "
             f"nearest to it is {paths[path].length:.3f} mm long, and it takes more than {least:.3f} mm."
         )
         reported.append(
@@ -401,7 +402,7 @@ def narrow_tab_findings(
     who = f"1 tab {of} is" if len(narrow) == 1 else f"{len(narrow)} tabs {of} are"
     text = (
         f"{who} narrower than asked for, as the path bends too tightly there: "
-        f"{max(least, 0.0):.3f} mm instead of {shape.tabs.width:g} mm at ({x:.3f}, {y:.3f})."
+        f"{max(least, 0.0):.3f} mm instead of {shape.tabs.width:g} mm at {in_plane(x, y)}."
     )
     return [Finding(FindingKind.LEFT_OUT, text, x, y, counts=least <= 0, amount=max(least, 0.0))]
 
@@ -412,10 +413,10 @@ def _too_few(paths: Sequence[ContourPath], shape: TabShape, loose: bool) -> Find
     what = "no tab though a part comes loose there" if loose else f"fewer than {shape.tabs.count} tabs"
     who = f"of T{shape.tool.number} {shape.tool.label}"
     text = (
-        f"1 path {who} has {what}, because it is too short for them; it begins at ({x:.3f}, {y:.3f})."
+        f"1 path {who} has {what}, because it is too short for them; it begins at {in_plane(x, y)}."
         if len(paths) == 1
         else f"{len(paths)} paths {who} have {what}, because they are too short for them; the first begins at "
-        f"({x:.3f}, {y:.3f})."
+        f"{in_plane(x, y)}."
     )
     return Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=loose, amount=float(len(paths)))
 

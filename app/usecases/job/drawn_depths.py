@@ -9,6 +9,7 @@ from typing import Any
 
 from ...core.errors import InputError
 from ...core.options import option
+from ...core.wording import in_plane
 from ...model.curves import Point
 from ...model.drawn_depths import DepthSource
 from ...model.finding import Finding, FindingKind
@@ -79,8 +80,8 @@ def _shapes(places: list[Point]) -> str:
     """Return how many shapes there are, and where the first begins."""
     x, y = places[0]
     if len(places) == 1:
-        return f"the shape that begins at ({x:.3f}, {y:.3f})"
-    return f"{len(places)} shapes, of which the first begins at ({x:.3f}, {y:.3f})"
+        return f"the shape that begins at {in_plane(x, y)}"
+    return f"{len(places)} shapes, of which the first begins at {in_plane(x, y)}"
 
 
 def _row(each: ToldDepth) -> Json:
@@ -98,14 +99,12 @@ def _findings(read: ToldDepths) -> Iterator[Finding]:
         told, (x, y) = each.told, each.told.at
         what = "Text" if told.source is DepthSource.TEXT else told.source.value.capitalize()
         text = (
-            f"{what} '{' '.join(told.words.split())}' at ({x:.3f}, {y:.3f}) is read as no depth: {each.why}; "
+            f"{what} '{' '.join(told.words.split())}' at {in_plane(x, y)} is read as no depth: {each.why}; "
             "what it is of is cut as deep as the operation says."
         )
         yield Finding(FindingKind.LEFT_OUT, text, x, y, entity_ids=told.curves)
     if read.untold:
-        places = ", ".join(
-            f"({x:.3f}, {y:.3f})" for x, y in (each.primitives[0].start for each in read.untold[:_NAMED])
-        )
+        places = ", ".join(f"{in_plane(x, y)}" for x, y in (each.primitives[0].start for each in read.untold[:_NAMED]))
         more = f" and {len(read.untold) - _NAMED} more" if len(read.untold) > _NAMED else ""
         what = "1 shape tells" if len(read.untold) == 1 else f"{len(read.untold)} shapes tell"
         cut = "is cut" if len(read.untold) == 1 else "are cut"

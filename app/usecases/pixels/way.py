@@ -15,6 +15,7 @@ import numpy as np
 from ...core.effort import announce
 from ...core.errors import ParameterError
 from ...core.progress import NO_PROGRESS, Progress
+from ...core.wording import in_plane
 from ...fitting.corner_smoothing.smooth import CornerSmoothingOptions
 from ...fitting.corner_smoothing.smoothed_path import SmoothedPath
 from ...geometry.distance import DistanceField
@@ -357,7 +358,7 @@ def _without_path(part: BitmapPart, paths: Sequence[OperationPaths], job: Job) -
     for (number, tool_number), counts in missed.items():
         (x, y), tool = boundaries[number].primitives[0].start, job.tool(tool_number)
         text = (
-            f"Region {number}, which begins at ({x:.3f}, {y:.3f}), has no room for T{tool.number} {tool.label} on "
+            f"Region {number}, which begins at {in_plane(x, y)}, has no room for T{tool.number} {tool.label} on "
             f"pixels of {part.frame.pitch:.3g} mm; use a larger bitmap or a smaller tool."
         )
         yield Finding(FindingKind.REGION_TOO_SMALL, text, x, y, counts, boundaries[number].entity_ids)

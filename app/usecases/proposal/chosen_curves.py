@@ -9,6 +9,7 @@ from enum import Enum
 
 from ...core.errors import GeometryError
 from ...core.progress import NO_PROGRESS, Progress
+from ...core.wording import in_plane
 from ...geometry.as_circle import as_circle
 from ...geometry.primitives import contour_rows, lengths
 from ...model.chamfer_operation import ChamferOperation
@@ -176,13 +177,13 @@ def _refusal_of_one(contour: Contour, way: CurvePurpose) -> str:
     x, y = contour.primitives[-1].end
     if not contour.closed:
         return (
-            f"A selected curve is open at ({x:.3f}, {y:.3f}), so it bounds nothing; close it, or choose contour on "
+            f"A selected curve is open at {in_plane(x, y)}, so it bounds nothing; close it, or choose contour on "
             "line, slot or engrave."
         )
     if way in _OF_CIRCLES and as_circle(contour) is None:
         done = {CurvePurpose.DRILL: "drilled", CurvePurpose.BORE: "bored"}.get(way, "countersunk")
         return (
-            f"The selected curve through ({x:.3f}, {y:.3f}) is no circle, so it cannot be {done}; choose pocket "
+            f"The selected curve through {in_plane(x, y)} is no circle, so it cannot be {done}; choose pocket "
             "or contour inside."
         )
     return ""

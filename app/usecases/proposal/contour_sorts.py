@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...core.wording import in_plane
 from ...geometry.as_circle import as_circle
 from ...geometry.outlines import holders
 from ...geometry.primitives import CX, CY, TURN, R, contour_rows, lengths, signed_area, sweeps
@@ -176,7 +177,7 @@ def _closed(line: Contour) -> Contour:
 def _about_gap(line: Contour) -> Finding:
     x, y = line.primitives[-1].end
     text = (
-        f"An outline has a gap of {_gap(line):.3f} mm at ({x:.3f}, {y:.3f}), so no operation is proposed for it; close "
+        f"An outline has a gap of {_gap(line):.3f} mm at {in_plane(x, y)}, so no operation is proposed for it; close "
         "it, or raise the join tolerance."
     )
     return Finding(FindingKind.OPEN_CONTOUR, text, x, y, True, line.entity_ids, _gap(line))

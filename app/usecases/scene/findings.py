@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ...core.tolerances import LEVEL
+from ...core.wording import in_plane
 from ...model.finding import Finding, FindingKind
 from ...model.moves import Purpose
 from ...model.scene import Passes
@@ -73,7 +74,7 @@ def moves_findings(moves: SurfaceMoves, stock: StockBox, tools: Sequence[Tool]) 
         x, y, z = ends[low].tolist()
         text = (
             f"The tool's tip goes {stock.z0 - z:.3f} mm below the stock's underside, Z {stock.z0:.3f}, where the "
-            f"table is, at ({x:.3f}, {y:.3f}); give the passes a floor, floor = {stock.z0:g}, or put something under "
+            f"table is, at {in_plane(x, y)}; give the passes a floor, floor = {stock.z0:g}, or put something under "
             "the stock."
         )
         yield Finding(FindingKind.BELOW_TABLE, text, x, y, amount=stock.z0 - z)
@@ -91,7 +92,7 @@ def floor_findings(moves: SurfaceMoves, passes: Sequence[Passes]) -> Iterator[Fi
             name = each.name or f"with T{each.tool}"
             text = (
                 f"The tool's tip goes {each.floor - z:.3f} mm below the floor of passes {name}, Z {each.floor:.3f}, at "
-                f"({x:.3f}, {y:.3f}); do not use this program, and report this with the scene."
+                f"{in_plane(x, y)}; do not use this program, and report this with the scene."
             )
             yield Finding(FindingKind.GOUGE, text, x, y, amount=each.floor - z)
 
@@ -118,7 +119,7 @@ def _place(facets: SurfaceFacets, stock: StockBox, tools: Sequence[Tool]) -> Ite
     x, y, top = corners[int(np.argmax(corners[:, 2]))].tolist()
     if top <= stock.z0:
         text = (
-            f"The surfaces lie wholly below the stock: they reach up to Z {top:.3f} at ({x:.3f}, {y:.3f}), and its "
+            f"The surfaces lie wholly below the stock: they reach up to Z {top:.3f} at {in_plane(x, y)}, and its "
             f"underside is at Z {stock.z0:.3f}; move them up, or correct the stock's box."
         )
         yield Finding(FindingKind.BEYOND_STOCK, text, x, y, amount=stock.z0 - top)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
+from ...core.wording import in_plane
 from ...model.finding import Finding, FindingKind
 from ...simulation.field.workpiece import Grid, Workpiece
 from ...verify.judgement import places_of
@@ -372,7 +373,7 @@ def left_findings(left: SceneLeft, origin: Floats, angles: Sequence[float]) -> I
         count = "1 place" if left.places == 1 else f"{left.places} places"
         text = (
             f"{left.area_mm2:.3f} mm2 of metal that the same tool reaches is left in {count}, the worst "
-            f"{left.worst_mm:.3f} mm high and {left.wide_mm:.3f} mm wide at ({x:.3f}, {y:.3f}); "
+            f"{left.worst_mm:.3f} mm high and {left.wide_mm:.3f} mm wide at {in_plane(x, y)}; "
             f"{_remedy(left, angles)}."
         )
         yield Finding(FindingKind.LEFT_REACHABLE, text, x, y, amount=left.area_mm2)

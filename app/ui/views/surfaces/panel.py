@@ -16,7 +16,7 @@ from ....model.scene import LineType, Scene
 from ...framework.boxes import put_away, v_box
 from ...framework.dropping import drop
 from ...framework.fields import NumberField
-from ...framework.figures import TIMES
+from ...framework.figures import TIMES, grouped
 from ...framework.icons import IconButton, IconLabel
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch
@@ -271,9 +271,7 @@ class ScenePanel(Themed, SideScroll):
         if box == (0.0,) * 6:
             self.stock.setText("")  # known once the scene has been looked at
             return
-        size = f" {TIMES} ".join(
-            f"{high - low:.3f}".rstrip("0").rstrip(".") for low, high in zip(box[:3], box[3:], strict=True)
-        )
+        size = f" {TIMES} ".join(grouped(high - low) for low, high in zip(box[:3], box[3:], strict=True))
         self.stock.setText(f"{size} mm")
 
     def _fill(self, scene: Scene) -> None:

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ....core.progress import Progress
+from ....core.wording import in_plane
 from ....model.finding import Finding, FindingKind
 from ....model.job import Job
 from ....verify.engaged_angle import CutterPath, EngagementProof, prove_engagement
@@ -64,7 +65,7 @@ class LimitProof:
             x, y, line = each.x + self.origin[0], each.y + self.origin[1], int(self.lines[each.motion])
             text = (
                 f"The engaged angle is proven to be at most {math.degrees(each.angle):.2f} degrees at "
-                f"({x:.3f}, {y:.3f}), NC line {line}, and may be {math.degrees(self.limit):g} degrees at most "
+                f"{in_plane(x, y)}, NC line {line}, and may be {math.degrees(self.limit):g} degrees at most "
                 f"({len(self.proof.above)} motions in all)."
             )
             found.append(Finding(FindingKind.ENGAGEMENT, text, x, y, amount=math.degrees(each.angle), line=line))
