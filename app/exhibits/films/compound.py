@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -26,6 +26,8 @@ from .step_drawing import BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, INK, LINE, RED
 _LINES = {LineType.SOLID: (), LineType.DOTTED: DOTTED, LineType.CHAIN: CHAIN}
 _NET = 9
 """Lines of the net that a surface is drawn as, each way."""
+_TRIANGLES = 400
+"""Of a mesh, that are drawn of it."""
 
 
 def compound_film(name: str, data: bytes, sources: SceneFiles, progress: Progress = NO_PROGRESS) -> TextFilm:
@@ -85,16 +87,21 @@ class _CompoundSteps:
         usual = (LineType.SOLID, LineType.DOTTED, LineType.CHAIN)[max(number, 0) % 3]
         return _LINES[usual if kind is LineType.AUTO else kind]
 
-    def _nets(self) -> StepDrawing:
-        """Return the surfaces as nets of lines, seen from the side and above."""
-        sketch = StepDrawing()
+    def _net_lines(self) -> Iterator[tuple[int, Floats]]:
+        """Yield the surfaces as nets of lines (n, 3), each with its surface's number."""
         for number, built in enumerate(self.computed.built):
             for spline in built.splines:
                 for line in _net(spline):
-                    sketch.line(seen(line), self._colour(number), FINE)
+                    yield number, line
             if built.triangles is not None:
-                for corners in built.triangles[:: max(1, len(built.triangles) // 400)]:
-                    sketch.line(seen(corners[[0, 1, 2, 0]]), self._colour(number), FINE)
+                for corners in built.triangles[:: max(1, len(built.triangles) // _TRIANGLES)]:
+                    yield number, corners[[0, 1, 2, 0]]
+
+    def _nets(self) -> StepDrawing:
+        """Return the surfaces as nets of lines, seen from the side and above."""
+        sketch = StepDrawing()
+        for number, line in self._net_lines():
+            sketch.line(seen(line), self._colour(number), FINE)
         return sketch
 
     def entered(self) -> FilmStep:
@@ -121,7 +128,10 @@ class _CompoundSteps:
         )
 
     def _seen_from_above(self) -> StepDrawing:
+        """Return the surfaces and the stock in the XY plane, in which the lines of the planes lie."""
         sketch = StepDrawing()
+        for number, line in self._net_lines():
+            sketch.line(line, self._colour(number), FINE)
         stock = self.computed.stock
         corners = np.array([[stock.x0, stock.y0], [stock.x1, stock.y0], [stock.x1, stock.y1], [stock.x0, stock.y1]])
         sketch.line(np.vstack([corners, corners[:1]]), FAINT, LINE)
@@ -136,12 +146,20 @@ class _CompoundSteps:
         along = (own[:, :2] - planes.origin) @ np.array(planes.along)
         return np.array([planes.place(plane, float(along.min())), planes.place(plane, float(along.max()))])
 
+    def _add_line(self, sketch: StepDrawing, plane: int, look: tuple[str, float]) -> None:
+        """Draw the line of a plane in a colour and width, and its name at its end."""
+        ends = self._plane_line(plane)
+        sketch.line(ends, *look)
+        if len(ends):
+            sketch.word(f"CL{plane + 1}", ends[-1], look[0])
+
     def planes(self) -> FilmStep:
         """Return (b): one line and a rule give the planes."""
         sketch = self._seen_from_above()
         planes = self.surface.planes
-        for k in range(len(planes.offsets)):
-            sketch.line(self._plane_line(k), BLUE if k == 0 else FAINT, LINE if k == 0 else FINE)
+        for k in range(1, len(planes.offsets)):
+            sketch.line(self._plane_line(k), INK, FINE)
+        self._add_line(sketch, 0, (BLUE, BOLD))
         steps = np.diff(planes.offsets)
         even = float(steps[0]) if len(steps) else 0.0
         return FilmStep(
@@ -162,14 +180,14 @@ class _CompoundSteps:
     def first(self) -> FilmStep:
         """Return (c): i is 1."""
         sketch = self._seen_from_above()
-        sketch.line(self._plane_line(0), BLUE, BOLD)
+        self._add_line(sketch, 0, (BLUE, BOLD))
         return FilmStep("(c)", "Begin with the first", "i becomes 1.", "", sketch.page(), (FilmFigure("i", 1),))
 
     def line(self) -> FilmStep:
         """Return (d): the line CLi of the plane shown."""
         sketch = self._seen_from_above()
-        sketch.line(self._plane_line(0), FAINT, LINE)
-        sketch.line(self._plane_line(self.plane), BLUE, BOLD)
+        self._add_line(sketch, 0, (INK, LINE))
+        self._add_line(sketch, self.plane, (BLUE, BOLD))
         offset = self.surface.planes.offsets[self.plane] - self.surface.planes.offsets[0]
         return FilmStep(
             "(d)",
