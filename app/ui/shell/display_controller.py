@@ -71,6 +71,7 @@ class DisplayController(QObject):
     Attributes:
         view: the one at the front. stages_missing, film_missing: what the stages lack.
         pages: of every view. on_scene: tells whether a scene is worked on at the front rather than the drawing.
+        on_picture: tells whether a picture is looked at that is no part yet.
         writing: the drawing is being written as a text, so that nothing need be said of an empty one.
         opening: name of the file that is being read, "" = none is.
     """
@@ -83,6 +84,7 @@ class DisplayController(QObject):
         self._document, self._computation = window.document, window.computation
         self.view = View.DRAW
         self.on_scene: Callable[[], bool] = lambda: False
+        self.on_picture: Callable[[], bool] = lambda: False
         self.stages_missing, self.film_missing, self.writing, self.opening = NOTHING, NOTHING, False, ""
         self.pages = pages_of(window, self)
         window.take_pages(self.pages)
@@ -227,7 +229,7 @@ class DisplayController(QObject):
         surfaces, open_now = self._window.views.surfaces, not self._window.views.starting
         waits = bool(self.opening)  # both wait for the file that is being read
         actions["export"].setEnabled(waits or (open_now and (surfaces.shown is not None if on_scene else drawn)))
-        actions["compute"].setEnabled(waits or (open_now and (on_scene or drawn)))
+        actions["compute"].setEnabled(waits or (open_now and (on_scene or drawn or self.on_picture())))
 
     def show_opening(self, name: str) -> None:
         """Say that a file is being read, or no longer, "": what is to be done with it can be asked for already."""

@@ -29,6 +29,7 @@ class StagesCoordinator(QObject):
         super().__init__(window)
         self._window, self._display = window, display
         self._stages, self._films, self._pictures = stages, films, pictures
+        display.on_picture = lambda: pictures.preview is not None and display.view is View.STAGES
         stages.changed.connect(self._show_missing)
         films.changed.connect(self._show_missing)
         on_trigger(window.actions_, "stages_again", self._again)

@@ -487,10 +487,15 @@ class WindowController(QObject):
         self.language.lines.run(line)
 
     def compute(self) -> None:
-        """Compute the paths and show them; where a scene is worked on its own, from its file as it is now."""
+        """Compute the paths and show them; where a scene is worked on its own, from its file as it is now; a picture
+        that is looked at becomes the part first.
+        """
         self.window_.notice.dismiss()
         if self._scene.at_front:
             self.scenes.compute()
+            return
+        if self.display_controller.on_picture():
+            self.import_controller.take(self._compute_drawing)
             return
         self.files.open_controller.once_open(self._compute_drawing)
 

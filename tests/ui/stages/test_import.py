@@ -51,6 +51,15 @@ def on_screen(wiring, col, row):
     return pixels.view.to_screen((x, y)).toPoint()
 
 
+def test_compute_takes_the_picture_that_is_looked_at(qtbot, opened):
+    """F5 did nothing, without a word, as nothing was drawn yet."""
+    action = opened.window_.actions_["compute"]
+    assert action.isEnabled() and not opened.document.part.entities
+    action.trigger()
+    qtbot.waitUntil(lambda: opened.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
+    assert opened.import_controller.preview is None and opened.computation.made.report.data["regions"]
+
+
 def test_a_picture_is_shown_as_it_is_read(opened):
     window, panel = opened.window_, opened.window_.import_panel
     assert opened.display_controller.view is View.STAGES and panel.isVisible() and not window.stages_panel.isVisible()

@@ -66,7 +66,7 @@ class ImportController(Controller):
         panel.requested.connect(self._want)
         panel.see_chosen.connect(self._choose_see)
         panel.place_picked.connect(self._go_to)
-        panel.accepted.connect(self._take)
+        panel.accepted.connect(self.take)
         panel.left.connect(self.leave)
         self._view.preview_clicked.connect(self._point)
         self._document.subscribe(self._on_change)
@@ -126,8 +126,8 @@ class ImportController(Controller):
         if reading is not None:
             self.take_from(lambda progress: preview_of(reading, progress), self.show_preview)
 
-    def _take(self) -> None:
-        """Make the picture the part; what is still to be read is read first."""
+    def take(self, then: Callable[[], None] = lambda: None) -> None:
+        """Make the picture the part, and go on; what is still to be read is read first."""
         reading, preview, before = self._panel.reading, self.preview, self._document.job
         if reading is None or preview is None:
             return
@@ -135,7 +135,7 @@ class ImportController(Controller):
         stale = preview.reading is not reading
         self.take_from(
             lambda progress: part_of(preview_of(reading, progress) if stale else preview, before, progress),
-            lambda ready: self._load(ready, preview),
+            lambda ready: self._load(ready, preview, then),
         )
 
     def show_preview(self, preview: PicturePreview) -> None:
@@ -151,7 +151,7 @@ class ImportController(Controller):
         self._show()
         self.shown.emit()
 
-    def _load(self, ready: BitmapJob, preview: PicturePreview) -> None:
+    def _load(self, ready: BitmapJob, preview: PicturePreview, then: Callable[[], None]) -> None:
         path, computation = preview.reading.path, self._workspace.computation
         computation.pixels = (ready.job.part, ready.part)
         self.leave()
@@ -167,6 +167,7 @@ class ImportController(Controller):
             f"{counted(len(ready.part.regions), 'region')} on {frame.cols} by {frame.rows} px.{ambiguities}",
         )
         self.taken.emit(path)
+        then()
 
     def _on_failed(self, answer: JobOutcome) -> None:
         self._say(answer.error or "")
