@@ -15,9 +15,11 @@ def _cubic(at, knots, basis):
     spans = len(knots) - 7
     low, high = knots[3], knots[3 + spans]
     place = min(max(at, low), high)
+    # the last knot is of the last span, in which t is 1 there
     first = min(int((place - low) / (high - low) * spans), spans - 1)
     t = (place - knots[3 + first]) / (knots[4 + first] - knots[3 + first])
     s = 1.0 - t
+    # uniform cubic B-splines in closed form: their sum is 1 at every t
     basis[0] = s * s * s / 6
     basis[1] = (3 * t * t * t - 6 * t * t + 4) / 6
     basis[2] = (3 * s * s * s - 6 * s * s + 4) / 6
@@ -50,6 +52,7 @@ def add_places(places, weights, knots_u, knots_v, off, right):
             for b in range(4):
                 own = weights[k] * along[a] * across[b]
                 right[i + a, j + b] += own * places[k, 2]
+                # both halves of the symmetric matrix: columns are handed on as they are
                 for c in range(4):
                     for d in range(4):
                         off[i + a, j + b, 3 + c - a, 3 + d - b] += own * along[c] * across[d]

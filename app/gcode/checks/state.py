@@ -206,8 +206,9 @@ def _bottoms(moves: Moves, job: Job) -> dict[int, float]:
     place, height = moves.end[lines, :2], moves.end[lines, 2]
     elsewhere = np.hypot(*np.diff(place, axis=0).T) > _SAME
     hole = np.cumsum(np.append(True, elsewhere | (np.diff(moves.operation[lines]) != 0)))
-    lowest = [lines[hole == k][np.argmin(height[hole == k])] for k in np.unique(hole)]
-    return {int(k): seconds[int(moves.operation[k])] for k in lowest}
+    deepest_first = np.lexsort((height, hole))
+    lowest = lines[deepest_first[np.unique(hole[deepest_first], return_index=True)[1]]]
+    return {k: seconds[int(moves.operation[k])] for k in lowest.tolist()}
 
 
 class HolePauses:

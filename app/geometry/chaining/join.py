@@ -75,8 +75,9 @@ def _join_loose(pieces: Sequence[ChainPiece], ends: NDArray[np.float64], joined:
         points = np.flatnonzero(single >= 0)
         left = np.array(sorted(free))
         place, found = all_within(ends[points], ends[left], reach)
+        begins = np.searchsorted(place, np.arange(len(left) + 1)).tolist()
         for k, a in enumerate(left.tolist()):
-            near = [(math.dist(ends[a], ends[b]), int(b)) for b in points[found[place == k]]]
+            near = [(math.dist(ends[a], ends[b]), int(b)) for b in points[found[begins[k] : begins[k + 1]]]]
             allowed = [
                 b
                 for gap, b in sorted(near)

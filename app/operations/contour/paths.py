@@ -329,26 +329,30 @@ def _together(work: _ContourJob, finish: _ContourStrokes, rough: _ContourStrokes
     """
     operation = work.operation
     top = max((run.path.rank for run in finish.runs), default=0) if operation.side is not Side.INSIDE else 0
-    owners = _owners(finish, rough) if rough else []
+    roughed = _by_finish(finish, rough) if rough else [[] for _ in finish.runs]
     stepped = operation.finish_each_pass or work.is_thick
     beside = _beside(finish.runs, rough.runs, operation.finish_width) if rough else [False] * len(finish.runs)
     strokes: list[Stroke] = []
     for k, (run, stroke) in enumerate(zip(finish.runs, finish.strokes, strict=True)):
-        before = [rough.strokes[j] for j, owner in enumerate(owners) if owner == k] if rough else []
         last = replace(stroke, at_floor=beside[k] and not stepped)
-        group = [*before, last, *[replace(stroke, at_floor=True)] * operation.spring_passes]
+        group = [*roughed[k], last, *[replace(stroke, at_floor=True)] * operation.spring_passes]
         rank = top - run.path.rank if operation.side is not Side.INSIDE else 0
         strokes.extend(replace(each, follows=j > 0, rank=rank) for j, each in enumerate(group))
     return strokes
 
 
-def _owners(finish: _ContourStrokes, rough: _ContourStrokes) -> list[int]:
-    """Return for each path that is roughed which finish path it belongs to: the nearest."""
+def _by_finish(finish: _ContourStrokes, rough: _ContourStrokes) -> list[list[Stroke]]:
+    """Return for each finish path the strokes that are roughed for it: those that begin nearest to it."""
+    found: list[list[Stroke]] = [[] for _ in finish.runs]
     if not rough.runs:
-        return []
-    points = np.array([run.path.rows[0, :2] for run in rough.runs])
-    far = np.array([run.path.nearest(points)[1] for run in finish.runs])
-    return [int(k) for k in np.argmin(far, axis=0)]
+        return found
+    paths = [run.path.rows for run in finish.runs]
+    number = np.repeat(np.arange(len(paths)), [len(rows) for rows in paths])
+    begins = np.array([run.path.rows[0, :2] for run in rough.runs])
+    row = DistanceField.of(np.concatenate(paths)).nearest(begins)[1]
+    for stroke, k in zip(rough.strokes, number[row].tolist(), strict=True):
+        found[k].append(stroke)
+    return found
 
 
 def _beside(finish: Sequence[PathWithLeads], rough: Sequence[PathWithLeads], width: float) -> list[bool]:
