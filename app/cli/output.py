@@ -25,7 +25,7 @@ _LAYOUT = "\n\t"
 def _encodable(text: str, stream: TextIO | None) -> str:
     r"""Return a text as a stream can take it: signs that its encoding lacks as \xb2 or \u51fa, as Python writes them.
 
-    A console need not be UTF-8: it is not where `PYTHONIOENCODING` says otherwise, nor on an older Windows.
+    A console need not be UTF-8: PYTHONIOENCODING may say otherwise, and an older Windows does.
     """
     encoding = getattr(stream, "encoding", None) or "utf-8"
     return text.encode(encoding, "backslashreplace").decode(encoding)

@@ -258,4 +258,4 @@ def test_help_names_every_option_and_code() -> None:
     options = "--variant --bitmap --pitch --dpi --threshold --invert --despeckle --ink --report --quiet --overlap"
     assert all(option in text for option in options.split())
     assert "13 free curve" in text and "turns/NN_STEP_rR_tTTT.png" in text
-    assert "stages DRAWING -o DIR" in call("--help").stdout
+    assert "stages [FILE] -o DIR" in call("--help").stdout
