@@ -274,7 +274,7 @@ class Canvas(InteractiveViewport):
             self._underlay.paint(painter, self.view)
             paint_raster(painter, self.view, area, self._look.theme, self.unit)
         paint_display(painter, self.view, area, self.frame, self._look.theme)
-        if self._in_display:
+        if self._in_display and self._mode is CanvasMode.DRAW:  # beside the paths the stock is what counts
             paint_display_marks(painter, self.view, area, self.frame, self._look.theme)
 
     @property
