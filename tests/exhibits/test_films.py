@@ -22,6 +22,7 @@ from app.exhibits.films.dexels import SAMPLE, CutFilmInput, dexel_film, sample_i
 from app.exhibits.films.effective import EffectiveFilmOptions, effective_film, range_trials, ranges_of
 from app.exhibits.films.making import FilmSource, film_files, make_film
 from app.exhibits.films.measures import distances_to_polyline
+from app.exhibits.films.program_input import input_of
 from app.exhibits.films.programs import points_of
 from app.exhibits.films.proven import ChordAxis, intervals_in_cylinder, proven_film, surface_witness
 from app.exhibits.films.step import TEXTS, FilmStep, PublishedText, TextFilm
@@ -30,8 +31,12 @@ from app.fitting.point_curves.effective_points import EffectiveOptions, effectiv
 from app.fitting.point_curves.region_profile import profile_of_formula
 from app.fitting.point_curves.space_curve import SpaceCurve
 from app.geometry.arcs.bezier import elevated
+from app.model.part import Units
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.field.workpiece import Grid
 from app.surfaces.patches.patch import BsplineSurface
+from app.usecases.examine import ExamineOptions
 from tests import raster_program
 
 STEPS = {
@@ -344,6 +349,17 @@ def test_a_program_without_a_ball_has_no_wedges_to_show() -> None:
     given = CutFilmInput("flat", SAMPLE.course(), {1: Cutter(5.0, 5.0, 0.0)}, sample_input().stock)
     with pytest.raises(InputError, match="ball"):
         dexel_film(given)
+
+
+def test_a_program_is_read_as_the_window_reads_it() -> None:
+    """One that names no units was cut in mm, in the stock that had been told for its inches."""
+    text = b"G90 G17\nT1 M6\nG0 X0 Y0 Z.2\nG1 Z-.04 F8\nX2\nX2 Y1\nM2\n"
+    stock = (-3.0, -3.0, -5.0, 54.0, 29.0, 0.0)
+    tools = {1: Tool(1, 3.0, ToolKind.BALL)}
+    inches = FilmSource("a.ngc", text, no_file, ExamineOptions(units=Units.INCH), tools, stock)
+    plain = FilmSource("a.ngc", text, no_file, tools=tools, stock=stock)
+    ends = [float(np.nanmax(input_of(source).course.motions.end[:, 0])) for source in (inches, plain)]
+    assert ends == pytest.approx([50.8, 2.0])
 
 
 def test_passes_over_a_surface_are_seen_from_the_side_and_not_carried_round_their_steps() -> None:

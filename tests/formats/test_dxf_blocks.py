@@ -265,4 +265,4 @@ def test_a_block_that_is_defined_again_is_the_first_one_and_told(version: str, a
     drawing = read_dxf("\n".join(text).encode(), "blocks.dxf")
     assert [entity.curve for entity in drawing.part.entities] == [Circle((0, 0), 5), Circle((0, 0), 1)]
     (found,) = drawing.findings
-    assert found.counts and found.text.startswith("The DXF is damaged; 1 fault was repaired")
+    assert found.counts and found.text.startswith(f"Block '{again}' is defined again")

@@ -39,8 +39,14 @@ def test_damage_is_refused(packed: bytes, told: str) -> None:
         read_drawing("a.svgz", packed)
 
 
+def test_a_file_of_many_members_is_read_in_one_go() -> None:
+    """Each member copied all that was behind it: 90,000 of them took 12 s."""
+    with pytest.raises(InputError, match="the file is empty"):
+        read_drawing("a.svgz", gzip.compress(b" ") * 60_000)
+
+
 @pytest.mark.parametrize("members", [1, 3])
 def test_a_bomb_is_unpacked_no_further_than_what_is_read(monkeypatch: pytest.MonkeyPatch, members: int) -> None:
     monkeypatch.setattr(xml, "MOST_BYTES", 1000)
-    with pytest.raises(InputError, match="the file has 1001 bytes, more than 1000"):
+    with pytest.raises(InputError, match="the file has more than 1000 bytes"):
         read_drawing("a.svgz", gzip.compress(b"<svg>" + b" " * 5000) * members)

@@ -59,6 +59,13 @@ def test_the_list_names_groups_that_the_keys_pass_over(qtbot, manual) -> None:
     assert manual.page == WORK.bases[0]
     qtbot.keyClick(manual.list, Qt.Key.Key_Up)
     assert manual.page == TUTORIALS.bases[-1]
+    qtbot.keyClick(manual.list, Qt.Key.Key_Home)
+    assert manual.page == TUTORIALS.bases[0]
+    qtbot.keyClick(manual.list, Qt.Key.Key_End)
+    assert manual.page == "changelog"
+    for _ in range(6):
+        qtbot.keyClick(manual.list, Qt.Key.Key_PageUp)
+    assert manual.page == TUTORIALS.bases[0]
 
 
 def test_search_goes_on_through_all_pages(qtbot, manual) -> None:

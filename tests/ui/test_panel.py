@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QFocusEvent, QMouseEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QLabel
 
 from app.drafting.document import Document
 from app.gcode.posts import post_titles
@@ -20,6 +20,7 @@ from app.model.part import Part
 from app.model.tool import Tool
 from app.ui.framework import style
 from app.ui.framework.dropping import place_under
+from app.ui.framework.section import ListRow
 from app.ui.framework.side_scroll import WIDTH
 from app.ui.framework.theme import LIGHT, TEXT_PX, text_font
 from app.ui.panels.changes import Subject, SubjectKind, with_tool
@@ -359,3 +360,20 @@ def test_the_tab_key_goes_down_the_panel_and_rows_are_read_aloud(document, panel
     assert seen[1:3] == rows[:2] and rows[0].startswith("T1, Flat 8 mm"), seen
     assert seen[3] == "Add an operation"
     assert [each.split(", ")[0] for each in seen[4:8]] == ["Pocket", "Pocket on or off", "Rest", "Rest on or off"]
+
+
+def test_a_row_is_read_as_it_reads_now_unless_it_was_given_a_name(qtbot):
+    """Whatever a translation has made of the name it had before."""
+    label = QLabel("T1")
+    row, named = ListRow(label), ListRow(QLabel("2 mm"))
+    qtbot.addWidget(row)
+    qtbot.addWidget(named)
+    named.call("Gouge, 2 mm")
+    for each in (row, named):
+        QApplication.sendEvent(each, QFocusEvent(QEvent.Type.FocusIn))
+    assert (row.accessibleName(), named.accessibleName()) == ("T1", "Gouge, 2 mm")
+    row.setAccessibleName("工具 1")
+    label.setText("T2")
+    for each in (row, named):
+        QApplication.sendEvent(each, QFocusEvent(QEvent.Type.FocusIn))
+    assert (row.accessibleName(), named.accessibleName()) == ("T2", "Gouge, 2 mm")

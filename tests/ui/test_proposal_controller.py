@@ -342,7 +342,7 @@ def test_a_word_stands_in_its_area_or_below_one_that_is_small(area, filled, at):
 def test_a_word_covers_no_other_one_and_few_curves() -> None:
     view, word = ViewTransform(scale=10.0, ox=0.0, oy=600.0), QSize(80, 20)
     plate, hole, slot = (10.0, 10.0, 60.0, 40.0), (12.0, 20.0, 15.0, 23.0), (14.0, 25.0, 20.0, 27.0)
-    places = WordPlaces(view, QRect(0, 0, 800, 600), np.array([plate, hole, slot]))
+    places = WordPlaces(view, QRect(0, 0, 800, 600), np.array([plate, hole, slot]).T)
     box = QRectF(hole[0], hole[1], 3.0, 3.0)
     beside = places.take(box, word, filled=True)
     assert beside == QRect(QPoint(157, 374), word), "below and above it lies over the plate's edge"

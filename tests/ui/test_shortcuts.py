@@ -1,5 +1,7 @@
 """Keys: each action's own, no two alike, changed and taken back by the keyboard, and remembered."""
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import Qt
 
@@ -58,6 +60,17 @@ def test_a_new_key_is_recorded_works_and_is_remembered(qtbot, keys: KeysWindow, 
     again = Shortcuts(wiring.window_.actions_, wiring.window_.preferences)
     assert again.is_own("fit")
     assert not again.is_own("new")
+
+
+def test_keys_that_were_chosen_win_over_those_of_the_table(qtbot, wiring) -> None:
+    """Redo has Ctrl+Y too: who had given that to another action had two with one key, and neither of them."""
+    actions, preferences = wiring.window_.actions_, wiring.window_.preferences
+    preferences.keep(replace(preferences.settings, shortcuts=("fit=Ctrl+Y", "new=Ctrl+O", "open=Ctrl+N")))
+    shortcuts = Shortcuts(actions, preferences)
+    assert (actions.key("fit"), actions.key("redo")) == ("Ctrl+Y", "Ctrl+Shift+Z")
+    assert (actions.key("new"), actions.key("open")) == ("Ctrl+O", "Ctrl+N"), "two that changed their keys"
+    assert shortcuts.owner("") is None, "nobody has the key that is none"
+    shortcuts.reset_all()
 
 
 def test_a_key_in_use_is_told_and_taken_only_when_pressed_again(qtbot, keys: KeysWindow, wiring) -> None:

@@ -113,6 +113,10 @@ def test_the_outline_is_the_stock_that_the_program_tells(qtbot, wiring):
     assert display.stock() == stock_box(made.job, made.program.regions, made.program.lines)
     assert window.canvas.around.stock == StockBox(-2.0, -2.0, -10.0, 42.0, 42.0)
     assert window.panel.job.stock.text().startswith("44.000 \u00d7 44.000")
+    document.change_job("Feed", replace(document.job, stock=Stock(margin=3.0, above=0.5)))
+    assert window.canvas.around.stock == StockBox(-3.0, -3.0, -10.0, 43.0, 43.0, 0.5), "the loose line is no part of it"
+    assert window.panel.job.stock.text() == "46.000 \u00d7 46.000 \u00d7 10.500 mm"
+    document.undo()
     document.run("circle 80,10 5")
     assert window.canvas.around.stock == StockBox(-2.0, -2.0, -10.0, 87.0, 72.0)
 
@@ -158,5 +162,5 @@ def test_the_stock_grows_with_copies_and_not_with_clamps(qtbot, document):
     qtbot.addWidget(panel)
     stock = drawn_stock(replace(document.job, copies=Copies(3, 2, 50.0, -60.0)), (0.0, 0.0, 40.0, 40.0))
     assert (stock.x0, stock.y0, stock.x1, stock.y1) == (0.0, -60.0, 140.0, 40.0)
-    panel.show_size((40.0, 40.0), stock.size[:2])
+    panel.show_size((40.0, 40.0), stock.size)
     assert panel.job.stock.text() == "140.000 \u00d7 100.000 \u00d7 10.000 mm"

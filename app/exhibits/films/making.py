@@ -15,6 +15,7 @@ from ...formats.plot.page_png import page_png
 from ...formats.plot.page_svg import page_svg
 from ...formats.scene.toml import sources_of
 from ...model.tool import Tool
+from ...usecases.examine import ExamineOptions
 from .compound import compound_film
 from .dexels import CutFilmInput, dexel_film, sample_input
 from .effective import EffectiveFilmOptions, effective_film
@@ -39,12 +40,14 @@ class FilmSource:
 
     Attributes:
         name, data: of the file. beside: the bytes of a file that it names.
-        tools, stock: B: what else is known of a program, by T number, and the corners of its box, mm.
+        reading: B: how a program is to be read. tools, stock: B: what else is known of it, by T number, and the corners
+            of its box, mm.
     """
 
     name: str
     data: bytes
     beside: Callable[[str], bytes]
+    reading: ExamineOptions = field(default_factory=ExamineOptions)
     tools: Mapping[int, Tool] = field(default_factory=dict)
     stock: tuple[float, float, float, float, float, float] | None = None
 

@@ -7,7 +7,7 @@ from ...simulation.cutter import cutter_of
 from ...usecases.cutting.ready_setup import SetupRequest, setup_of
 from ...usecases.cutting.setup_stock import box_stock
 from ...usecases.cutting.setup_tools import ToolSource
-from ...usecases.examine import ExamineOptions, examine
+from ...usecases.examine import ExaminedProgram, ExamineOptions, examine
 from ...verify.course import course_of
 from .dexels import CutFilmInput
 from .making import FilmSource
@@ -24,7 +24,8 @@ def input_of(source: FilmSource, progress: Progress = NO_PROGRESS) -> CutFilmInp
     """
     tools = (ToolSource("the Cut view", source.tools),) if source.tools else ()
     stock = box_stock(source.stock) if source.stock is not None else None
-    return program_input(source.name, source.data, None, progress, SetupRequest(tools, stock=stock))
+    examined = examine(source.name, source.data, source.reading, progress.part(0.0, 0.8))
+    return _cut_input(examined, None, SetupRequest(tools, stock=stock), progress.part(0.8, 1.0))
 
 
 def program_input(
@@ -44,8 +45,11 @@ def program_input(
         HitofudeError: it cannot be read, or nobody tells what its tools are.
         Cancelled: the job was asked to stop.
     """
-    ready = setup_of(
-        (examine(name, data, ExamineOptions(None), progress.part(0.0, 0.8)),), told, progress.part(0.8, 1.0)
-    )
+    examined = examine(name, data, ExamineOptions(None), progress.part(0.0, 0.8))
+    return _cut_input(examined, facet, told, progress.part(0.8, 1.0))
+
+
+def _cut_input(examined: ExaminedProgram, facet: float | None, told: SetupRequest, progress: Progress) -> CutFilmInput:
+    ready = setup_of((examined,), told, progress)
     cutters = {number: cutter_of(tool) for number, tool in ready.setup.tools.items()}
-    return CutFilmInput(name, course_of(ready.setup.programs[0]).course, cutters, ready.setup.stock, facet)
+    return CutFilmInput(examined.name, course_of(ready.setup.programs[0]).course, cutters, ready.setup.stock, facet)

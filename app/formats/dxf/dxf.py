@@ -57,6 +57,7 @@ from .findings import (
     hidden_insert_findings,
     layer_findings,
     negative_radius_findings,
+    repeated_findings,
     text_findings,
 )
 from .letters import TextCurves
@@ -148,6 +149,7 @@ def read_dxf(
         *_unit_findings(units, unit),
         *comma_findings(loaded.commas),
         *_damage(loaded.repaired),
+        *repeated_findings(loaded.repeated),
         *placement_findings(found),
         *negative_radius_findings(content, unit.size),
         *about_unread(content, unit.size),

@@ -242,3 +242,17 @@ def hatch_findings(drawn: DrawnCurves) -> Iterator[Finding]:
             how = f"{what} read as outlines to machine, but for {drawn.repeated} drawn as curves too"
         out = " ".join(option("skip-type", kind) for kind in drawn.kinds)
         yield remark(f"{how}; leave them out with {out}.", float(new))
+
+
+def repeated_findings(names: tuple[str, ...]) -> Iterator[Finding]:
+    """Count blocks that are defined again under a name that is taken: what they draw is missing."""
+    if names:
+        text = (
+            f"Block '{names[0]}' is defined again under its name; the first one is drawn, as CAD programs do, and what "
+            "the other draws is missing. Give it a name of its own in the CAD program."
+            if len(names) == 1
+            else f"{len(names)} blocks, '{names[0]}' for one, are defined again under their names; the first ones are "
+            "drawn, as CAD programs do, and what the others draw is missing. Give them names of their own in the CAD "
+            "program."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(names)))

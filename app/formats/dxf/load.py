@@ -63,11 +63,13 @@ class LoadedDocument:
 
     Attributes:
         repaired: how many faults in it had to be repaired.
+        repeated: names of blocks that are there once more, which is left out.
         commas: where decimal commas stood, if they did.
     """
 
     document: Any
     repaired: int = 0
+    repeated: tuple[str, ...] = ()
     commas: DecimalCommas = NO_COMMAS
 
 
@@ -95,13 +97,13 @@ def load(data: bytes, name: str) -> LoadedDocument:
         except Exception as fault:  # it has other faults too
             data, reason = commas.data, fault
     try:
-        document, repaired = _load_damaged(data)
-        _probed(document)
+        loaded = _load_damaged(data)
+        _probed(loaded.document)
     except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
         raise InputError(
             f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); save it again from the CAD program."
         ) from error
-    return LoadedDocument(document, max(1, repaired), replace(commas, data=b""))
+    return replace(loaded, repaired=max(1, loaded.repaired), commas=replace(commas, data=b""))
 
 
 def without_byte_order(data: bytes) -> bytes:
@@ -192,7 +194,7 @@ def _refuse_endless_curves(data: bytes, name: str) -> None:
 
 
 def _load_sound(data: bytes, repaired: int) -> LoadedDocument:
-    """Return the document of a file in which so many faults were repaired before, and blocks that are there twice."""
+    """Return the document of a file in which so many faults were repaired before."""
     load_ezdxf()
     from ezdxf.lldxf.encoding import decode_dxf_unicode
     from ezdxf.lldxf.loader import load_dxf_structure
@@ -208,11 +210,11 @@ def _load_sound(data: bytes, repaired: int) -> LoadedDocument:
         tags = ascii_tags_loader(io.StringIO(text, newline=None))
     sections = load_dxf_structure(tag_compiler(iter(tags)))
     repeated = without_repeated(sections)
-    return LoadedDocument(_probed(_document(sections)), repaired + repeated)
+    return LoadedDocument(_probed(_document(sections)), repaired, repeated)
 
 
-def _load_damaged(data: bytes) -> tuple[Any, int]:
-    """Return the document of a damaged file, and how many faults in it were repaired."""
+def _load_damaged(data: bytes) -> LoadedDocument:
+    """Return the document of a damaged file."""
     load_ezdxf()
     from ezdxf.audit import Auditor
     from ezdxf.recover import Recover
@@ -225,7 +227,7 @@ def _load_damaged(data: bytes) -> tuple[Any, int]:
     auditor = Auditor(document)
     auditor.run()
     told = len(found.errors) + len(found.fixes)
-    return document, repeated + unreadable + told + len(auditor.errors) + len(auditor.fixes)
+    return LoadedDocument(document, unreadable + told + len(auditor.errors) + len(auditor.fixes), repeated)
 
 
 def _document(sections: Any) -> Any:

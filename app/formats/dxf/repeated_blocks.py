@@ -12,23 +12,23 @@ _SPACES = ("*model_space", "*paper_space")
 _NAME = 2
 
 
-def without_repeated(sections: dict[str, list[Any]]) -> int:
-    """Take later definitions of a block away, from BLOCK to ENDBLK, and return how many there were.
+def without_repeated(sections: dict[str, list[Any]]) -> tuple[str, ...]:
+    """Take later definitions of a block away, from BLOCK to ENDBLK, and return their names.
 
     Args:
         sections: of a file by name, each the entities of the library, as tags of codes and values.
     """
     entities, known = sections.get("BLOCKS", []), set[str]()
-    kept, repeated, dropping = [], 0, False
+    kept, repeated, dropping = [], list[str](), False
     for tags in entities:
         kind = tags[0].value
         if kind == "BLOCK":
-            name = str(next((tag.value for tag in tags if tag.code == _NAME), "")).casefold()
-            dropping = name in known
-            repeated += dropping
-            known |= {name} if name and not name.startswith(_SPACES) else set()
+            name = str(next((tag.value for tag in tags if tag.code == _NAME), ""))
+            dropping = name.casefold() in known
+            repeated += [name] if dropping else []
+            known |= {name.casefold()} if name and not name.casefold().startswith(_SPACES) else set()
         if not dropping:
             kept.append(tags)
         dropping = dropping and kind != "ENDBLK"
     entities[:] = kept
-    return repeated
+    return tuple(repeated)

@@ -13,8 +13,8 @@ _PART = re.compile(
 """Signs within quotes and addresses end nothing: @import url(https://a.b/c?d;e);"""
 
 _IMPORT = re.compile(r"@import\s+(url\([^)]*\)|\"[^\"]*\"|'[^']*')([^;{}]*)", re.IGNORECASE)
-_NOT_FOR_SHAPES = re.compile(r"font", re.IGNORECASE)
-"""In the address of a sheet that only brings letters, as those of web fonts do."""
+_NOT_FOR_SHAPES = re.compile(r"//fonts?\.|font[^/?#]*(?:[?#].*)?\Z", re.IGNORECASE)
+"""In the address of a sheet that only brings letters, as those of web fonts do: its host, or the end of its path."""
 _NOT_ON_SCREENS = re.compile(r"\s*(?:only\s+)?(?:print|speech)\b", re.IGNORECASE)
 
 _HOLDS_RULES = re.compile(r"@(?:supports|layer|container|scope)\b", re.IGNORECASE)
@@ -54,7 +54,7 @@ def imported(text: str) -> Iterator[str]:
         text: of a style element.
     """
     for each in _IMPORT.finditer(without_comments(text)):
-        if not (_NOT_FOR_SHAPES.search(each[1]) or _NOT_ON_SCREENS.match(each[2])):
+        if not (_NOT_FOR_SHAPES.search(each[1]) or all(map(_NOT_ON_SCREENS.match, each[2].split(",")))):
             yield each[0]
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gzip
+import io
 import re
 import zlib
 from collections.abc import Iterator
@@ -28,8 +30,6 @@ _WRITTEN = ("text", "tspan", "textPath", "a", "flowRoot", "flowPara", "flowSpan"
 _WITH_TEXT = ("style", *_WRITTEN)
 _HEAD = 1 << 16
 _COMPRESSED = b"\x1f\x8b"
-_GZIP = 31
-"""What zlib is told so that it expects a file of gzip, of any window."""
 
 
 @dataclass(slots=True)
@@ -79,7 +79,7 @@ def read_xml(data: bytes, name: str) -> Node:
     if not data.strip():
         raise InputError(f"{name}: the file is empty; export the drawing again.")
     if len(data) > MOST_BYTES:
-        raise InputError(f"{name}: the file has {len(data)} bytes, more than {MOST_BYTES}; save the drawing in parts.")
+        raise InputError(f"{name}: the file has more than {MOST_BYTES} bytes; save the drawing in parts.")
     if b"<" not in data[:_HEAD].replace(b"\0", b""):
         raise InputError(f"{name}: this is not an SVG file, no element begins in it; export the drawing as SVG.")
     _refuse_repeated_entities(data, name)
@@ -88,17 +88,13 @@ def read_xml(data: bytes, name: str) -> Node:
 
 def _unpacked(data: bytes, name: str) -> bytes:
     """Return what a compressed file holds, or a little more than the most bytes where it holds more than those."""
-    unpacked = b""
     try:
-        while data.startswith(_COMPRESSED) and len(unpacked) <= MOST_BYTES:
-            unpacker = zlib.decompressobj(_GZIP)
-            unpacked += unpacker.decompress(data, MOST_BYTES + 1 - len(unpacked))
-            data = unpacker.unused_data
-    except zlib.error:
+        with gzip.GzipFile(fileobj=io.BytesIO(data)) as packed:
+            return packed.read(MOST_BYTES + 1)
+    except EOFError:
+        raise InputError(f"{name}: the compressed SVG is cut short; copy or export it again.") from None
+    except (zlib.error, gzip.BadGzipFile):
         raise InputError(f"{name}: the compressed SVG is damaged; copy or export it again.") from None
-    if not (unpacker.eof or len(unpacked) > MOST_BYTES):
-        raise InputError(f"{name}: the compressed SVG is cut short; copy or export it again.")
-    return unpacked
 
 
 def _refuse_repeated_entities(data: bytes, name: str) -> None:

@@ -92,7 +92,7 @@ class ListRow(QWidget):
             wide: index of the one that takes all the room there is; -1 = none.
         """
         super().__init__()
-        self._pressed_at, self._read = 0.0, ""
+        self._pressed_at, self._named = 0.0, False
         self.setProperty("row", "true")
         self.setProperty("chosen", "false")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -115,12 +115,16 @@ class ListRow(QWidget):
         self._read_aloud()
         super().focusInEvent(event)
 
+    def call(self, name: str) -> None:
+        """Give the row a name for those who have it read aloud, in place of its words."""
+        self._named = True
+        self.setAccessibleName(name)
+
     def _read_aloud(self) -> None:
         """Have the row's words for its name, unless it was given one."""
-        if self.accessibleName() == self._read:
+        if not self._named:
             words = (label.text() for label in self.findChildren(QLabel) if not label.isHidden())
-            self._read = ", ".join(filter(None, words))
-            self.setAccessibleName(self._read)
+            self.setAccessibleName(", ".join(filter(None, words)))
 
     def set_chosen(self, chosen: bool) -> None:
         """Show whether this row's properties are the ones below."""

@@ -101,6 +101,7 @@ class JobSection(ListSection):
             label.setFixedWidth(56)
             row = ListRow(label, value, stretch_after=1)
             row.setFixedHeight(24)
+            row.setAccessibleName(name)
             self._add_job_row(row)
 
     def _add_job_row(self, row: ListRow) -> None:
@@ -115,17 +116,17 @@ class JobSection(ListSection):
         for row in self._rows.values():
             row.set_chosen(subject.kind is SubjectKind.JOB)
 
-    def show_job(self, job: Job, size: tuple[float, float] | None) -> None:
+    def show_job(self, job: Job, size: tuple[float, float, float] | None) -> None:
         """Show the stock's size, mm, and where the work origin is.
 
         Args:
             job: whose stock and origin to show.
-            size: of the stock in the plane, mm, or None while nothing is drawn.
+            size: of the stock, mm, or None while nothing is drawn.
         """
         if size is None:
             self.stock.setText(f"nothing drawn · {job.stock.thickness:.3f} mm thick")
         else:
-            self.stock.setText(f" {TIMES} ".join(grouped(v, 3) for v in (*size, job.stock.thickness)) + " mm")
+            self.stock.setText(f" {TIMES} ".join(grouped(v, 3) for v in size) + " mm")
         self.origin.setText(f"{job.origin_xy.value.capitalize()}, {job.origin_z.value}")
 
 

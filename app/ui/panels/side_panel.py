@@ -41,7 +41,7 @@ class SidePanel(SideScroll):
     def __init__(self, document: Document) -> None:
         super().__init__((0, 4, 0, 8))
         self._document = document
-        self._size: tuple[float, float] | None = None
+        self._size: tuple[float, float, float] | None = None
         self._times = OperationTimes()
         self._strokes: int | None = None
         self.subject = Subject(SubjectKind.OPERATION, 0)
@@ -145,8 +145,8 @@ class SidePanel(SideScroll):
         self._times, self._strokes = times, strokes
         self.refresh()
 
-    def show_size(self, part: tuple[float, float] | None, stock: tuple[float, float] | None) -> None:
-        """Show the stock's size in the plane.
+    def show_size(self, part: tuple[float, float] | None, stock: tuple[float, float, float] | None) -> None:
+        """Show the stock's size.
 
         Args:
             part: size of one part, mm; None while nothing is drawn.

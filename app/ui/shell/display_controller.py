@@ -13,6 +13,7 @@ from ...drafting.document import DocumentChange
 from ...drafting.expressions.words import name_text
 from ...geometry.sample import Box, bounds, union
 from ...model.finding import Finding
+from ...model.job import Job
 from ...model.part import Part
 from ...model.stock_box import StockBox, drawn_stock, stock_box
 from ..framework.catalogue import active_language
@@ -57,6 +58,12 @@ class _Teller:
 def _within(name: str) -> str:
     """Return the name of a change as it stands behind a verb: small in English, elsewhere as it is looked up."""
     return name[0].lower() + name[1:] if active_language() == "en" else name
+
+
+def _same_curves(one: Job, other: Job) -> bool:
+    """Tell whether two jobs lay the same drawing and the same copies into their stock, however they machine it."""
+    laid = ("copies", "keep_out_layers", "layer_names")
+    return one.part is other.part and all(getattr(one, name) == getattr(other, name) for name in laid)
 
 
 START_PROMPT = "Choose a file or a sample, begin a part, or type a line such as  rect 0,0 80,50"
@@ -157,18 +164,18 @@ class DisplayController(QObject):
         self._extent = (part, (), extent)
 
     def stock(self) -> StockBox | None:
-        """Return the stock: once computed, that of the program; before, that round all that is drawn; None when nothing
+        """Return the stock: once computed, round what is machined; before, round all that is drawn; None when nothing
         is.
         """
         job, made, drawn = self._document.job, self._computation.made, self._drawn()
-        if made is not None and self._computation.state is ComputationState.CURRENT and len(made.program.moves):
+        if made is not None and len(made.program.moves) and _same_curves(made.job, job):
             return stock_box(job, made.program.regions, made.program.lines)
         return None if drawn is None else drawn_stock(job, drawn)
 
     def _show_stock(self) -> None:
         """Show where the stock is, and how large."""
         stock = self.stock()
-        self._window.panel.show_size(self.part_size(), None if stock is None else stock.size[:2])
+        self._window.panel.show_size(self.part_size(), None if stock is None else stock.size)
         self._window.canvas.set_stock(stock)
 
     def show_view(self, view: View) -> None:

@@ -494,7 +494,7 @@ class WindowController(QObject):
         if self._scene.at_front:
             self.scenes.compute()
             return
-        if self.display_controller.on_picture():
+        if self.display_controller.on_picture() and not self.display_controller.opening:
             self.import_controller.take(self._compute_drawing)
             return
         self.files.open_controller.once_open(self._compute_drawing)

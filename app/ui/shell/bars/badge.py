@@ -182,7 +182,7 @@ class FindingsList(QFrame):
         buttons += [self._mending(mend) for mend in self._mends(finding)]
         row = ListRow(_above(label, buttons) if buttons else label)
         row.setFixedHeight(label.heightForWidth(_TEXT_PX) + 12 + (_BUTTON_PX if buttons else 0))
-        row.setAccessibleName(label.text())
+        row.call(label.text())
         self.rows.append(row)
         if finding.entity_ids or finding.x is not None:
             row.setCursor(Qt.CursorShape.PointingHandCursor)

@@ -15,13 +15,17 @@ class Shortcuts:
 
     def __init__(self, actions: Actions, preferences: Preferences) -> None:
         self._actions, self._preferences = actions, preferences
-        for name, key in _pairs(preferences.settings.shortcuts).items():
-            if name in self._actions.specs:
-                self._actions.set_key(name, key)
+        kept = {name: key for name, key in _pairs(preferences.settings.shortcuts).items() if name in actions.specs}
+        for name in kept:  # two of them may have changed their keys for one another's
+            self._actions.set_key(name, "")
+        for name, key in kept.items():
+            self._give(name, key)
 
     def owner(self, key: str, but: str = "") -> str | None:
         """Return the name of the action that has a key, other than `but`."""
         wanted = QKeySequence(key)
+        if wanted.isEmpty():
+            return None
         return next(
             (name for name, action in self._actions.by_name.items() if name != but and wanted in action.shortcuts()),
             None,
@@ -29,13 +33,16 @@ class Shortcuts:
 
     def change(self, name: str, key: str) -> None:
         """Give an action its keys, "" = none; whoever had one of them loses that one."""
+        self._give(name, key)
+        self._keep()
+
+    def _give(self, name: str, key: str) -> None:
         for given in QKeySequence.listFromString(key):
             other = self.owner(given.toString(), but=name)
             if other is not None:
                 left = [kept for kept in self._actions[other].shortcuts() if kept != given]
                 self._actions.set_key(other, QKeySequence.listToString(left))
         self._actions.set_key(name, key)
-        self._keep()
 
     def reset(self, name: str) -> None:
         """Give an action its key of the table again."""

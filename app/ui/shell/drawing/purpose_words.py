@@ -70,7 +70,7 @@ class FoundAreas:
 
     Attributes:
         job: whose they are. drawn: its contours. areas: as they are listed.
-        refused: what each cannot become, by the commands' names. boxes: (n, 4) x0, y0, x1, y1 of all contours, mm.
+        refused: what each cannot become, by the commands' names. boxes: (4, n) x0, y0, x1, y1 of all contours, mm.
     """
 
     job: Job
@@ -101,7 +101,8 @@ def found_areas(job: Job, contours: ContourStore, progress: Progress) -> FoundAr
 
 
 def _boxes(contours: Sequence[Contour]) -> NDArray[np.float64]:
-    return np.array([bounds_of_all(each.primitives) for each in contours], float).reshape(-1, 4)
+    boxes = np.array([bounds_of_all(each.primitives) for each in contours], float).reshape(-1, 4)
+    return np.ascontiguousarray(boxes.T)
 
 
 def _placed(job: Job, curves: dict[int, Curve], area: PurposeArea) -> PlacedArea:

@@ -24,6 +24,7 @@ class OwnFilmFiles:
     def of(self, letter: str) -> FilmSource | None:
         """Return the file that is open for a text: the scene for C, else the program; None where there is none."""
         from ....exhibits.films.making import FilmSource
+        from ....usecases.examine import ExamineOptions
 
         if letter == "C":
             scene = self._scene
@@ -34,9 +35,13 @@ class OwnFilmFiles:
         shown = self._nc.shown
         if shown is None:
             return None
-        known = self._cut.known_of(shown.source)
+        source = shown.source
+        if letter != "B":
+            return FilmSource(source.name, source.bytes(), lambda name: _read(Path(name)))
+        reading = ExamineOptions(source.dialect, source.tools, units=source.units)
+        known = self._cut.known_of(source)
         return FilmSource(
-            shown.source.name, shown.source.bytes(), lambda name: _read(Path(name)), known.tools, known.stock
+            source.name, source.bytes(), lambda name: _read(Path(name)), reading, known.tools, known.stock
         )
 
 

@@ -42,6 +42,7 @@ class HelpWindow(QWidget):
         self.search.setAccessibleName("Search the manual")
         self.search.setClearButtonEnabled(True)
         self.search.installEventFilter(self)
+        self.list.installEventFilter(self)
         self.search.textEdited.connect(lambda _: self._on_typed())
         self.list.setAccessibleName("Pages")
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -120,13 +121,18 @@ class HelpWindow(QWidget):
             self._on_typed()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Enter goes on, Shift+Enter back."""
-        if (
-            event.type() == QEvent.Type.KeyPress
-            and isinstance(event, QKeyEvent)
-            and (event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter))
-        ):
+        """In the search Enter goes on, Shift+Enter back; in the list Home goes to the first page, which the heading
+        above it would keep.
+        """
+        if event.type() != QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
+            return super().eventFilter(watched, event)
+        if watched is self.search and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             self.step(back=bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
+            return True
+        on_first_screen = self.list.currentRow() <= self.list.height() // max(self.list.sizeHintForRow(1), 1)
+        to_first = event.key() == Qt.Key.Key_Home or (event.key() == Qt.Key.Key_PageUp and on_first_screen)
+        if watched is self.list and to_first and self.pages:
+            self._turn_to(0)
             return True
         return super().eventFilter(watched, event)
 

@@ -320,7 +320,7 @@ class CutPanel(Themed, QWidget):
         where = Elided(entry.words, role="muted")
         row = ListRow(dot, title, where, stretch_after=-1, wide=1)
         row.setToolTip(f"{entry.sentence}\n{entry.words}".strip())
-        row.setAccessibleName(f"{entry.title}, {entry.words}")
+        row.call(f"{entry.title}, {entry.words}")
         row.clicked.connect(partial(self.choose, entry))
         row.stepped.connect(partial(self._step, entry))
         return row

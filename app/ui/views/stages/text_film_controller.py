@@ -168,7 +168,7 @@ class TextFilmRequest:
     @property
     def _file(self) -> tuple[object, ...]:
         source = self.source
-        return () if source is None else (source.name, source.data, dict(source.tools), source.stock)
+        return () if source is None else (source.name, source.data, source.reading, dict(source.tools), source.stock)
 
 
 @dataclass(frozen=True, slots=True)
