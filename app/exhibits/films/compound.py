@@ -186,7 +186,8 @@ class _CompoundSteps:
     def line(self) -> FilmStep:
         """Return (d): the line CLi of the plane shown."""
         sketch = self._seen_from_above()
-        self._add_line(sketch, 0, (INK, LINE))
+        if self.plane:
+            self._add_line(sketch, 0, (INK, LINE))
         self._add_line(sketch, self.plane, (BLUE, BOLD))
         offset = self.surface.planes.offsets[self.plane] - self.surface.planes.offsets[0]
         return FilmStep(
