@@ -196,9 +196,9 @@ def no_thread_findings(
         depth: to which the thread is cut, mm.
     """
     thread = operation.thread
-    wide = [hole for hole in holes if before.at(hole, depth) > thread.pitch_diameter]
+    wide = [hole for hole in holes if (before.at(hole, depth) or 0.0) > thread.pitch_diameter]
     if wide:
-        x, y, made = wide[0].x, wide[0].y, before.at(wide[0], depth)
+        x, y, made = wide[0].x, wide[0].y, before.at(wide[0], depth) or 0.0
         what = f"more than the pitch diameter of {thread.value}, {thread.pitch_diameter:.3f} mm"
         advice = f"less than half of each tooth would stand; drill {thread.tap_drill:g} mm instead"
         text = (
@@ -230,11 +230,11 @@ class HolesBefore:
                     key = round(hole.x / _HERE), round(hole.y / _HERE)
                     self._made.setdefault(key, []).append((each.made(hole.diameter, tool) - left, depth))
 
-    def at(self, hole: CircleHole, depth: float) -> float:
-        """Return how wide the hole round the centre of a circle is down to a depth, mm; 0: none is as deep."""
+    def at(self, hole: CircleHole, depth: float) -> float | None:
+        """Return how wide the hole round the centre of a circle is down to a depth, mm; None: none is as deep."""
         x, y = round(hole.x / _HERE), round(hole.y / _HERE)
         near = (each for dx in (-1, 0, 1) for dy in (-1, 0, 1) for each in self._made.get((x + dx, y + dy), ()))
-        return max((diameter for diameter, deep in near if deep >= depth - _ROUNDING), default=0.0)
+        return max((diameter for diameter, deep in near if deep >= depth - _ROUNDING), default=None)
 
 
 def _counted(holes: Sequence[CircleHole]) -> str:

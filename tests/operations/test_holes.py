@@ -139,6 +139,14 @@ def test_a_reamer_goes_out_at_feed_and_wants_a_drilled_hole() -> None:
         assert "drill first" in counting(program_of(*undone, ReamOperation(CutParameters(4, 9.0))))
 
 
+def test_a_reamer_that_takes_off_all_of_itself_wants_a_hole_too() -> None:
+    """As narrow as what a reamer takes off at the most, it was fed into solid metal without a word."""
+    fine = Tool(4, 0.4, ToolKind.REAMER)
+    assert "drill first" in counting(
+        program_of(ReamOperation(CutParameters(4, 9.0)), contours=[square(9), circle(0.2, 4, 4)], tools=(fine,))
+    )
+
+
 def test_a_tap_goes_by_the_pitch_and_back_at_the_same_feed() -> None:
     program = program_of(DRILLED, TapOperation(CutParameters(2, 8.0)))
     mine = (program.moves.operation == 1) & (program.moves.kind == MoveKind.LINE)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from itertools import chain, islice, product
@@ -144,6 +144,13 @@ def _assigned(function: ast.AST) -> dict[str, list[ast.expr]]:
     return found
 
 
+_HELPERS: dict[str, Callable[..., str]] = {
+    "option": on_command_line,
+    "in_plane": lambda *_: f"({HOLE}, {HOLE})",
+}
+"""Functions that spell a part of many sentences, with what they make of the texts that they are given."""
+
+
 def texts_of(node: ast.expr, names: dict[str, list[ast.expr]], depth: int = 0) -> list[str]:
     """Return all that an expression of texts can be; what is no text of its own is a `HOLE`."""
     if depth > _DEEPEST:
@@ -154,9 +161,9 @@ def texts_of(node: ast.expr, names: dict[str, list[ast.expr]], depth: int = 0) -
         case ast.JoinedStr(values=values):
             parts = [texts_of(each, names, depth + 1) for each in values]
             return ["".join(each) for each in islice(product(*parts), _MOST_CHOICES)]
-        case ast.Call(func=ast.Name(id="option"), args=[name, *value]):
-            parts = [texts_of(each, names, depth + 1) for each in (name, *value)]
-            return [on_command_line(*each) for each in islice(product(*parts), _MOST_CHOICES)]
+        case ast.Call(func=ast.Name(id=word), args=args) if word in _HELPERS:
+            parts = [texts_of(each, names, depth + 1) for each in args]
+            return [_HELPERS[word](*each) for each in islice(product(*parts), _MOST_CHOICES)]
         case ast.FormattedValue(value=value, format_spec=spec) if spec is None and isinstance(
             value, ast.IfExp | ast.Constant | ast.Name | ast.BinOp | ast.Call
         ):

@@ -16,7 +16,7 @@ def _cubic(at, knots, basis):
     low, high = knots[3], knots[3 + spans]
     place = min(max(at, low), high)
     # the last knot is of the last span, in which t is 1 there
-    first = min(int((place - low) / (high - low) * spans), spans - 1)
+    first = max(0, min(int((place - low) / (high - low) * spans), spans - 1))
     t = (place - knots[3 + first]) / (knots[4 + first] - knots[3 + first])
     s = 1.0 - t
     # uniform cubic B-splines in closed form: their sum is 1 at every t

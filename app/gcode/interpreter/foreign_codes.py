@@ -74,9 +74,9 @@ _BLOCK_TEXT = re.compile(
     rb"^[ \t]*(?:/[ \t]*)?(?:[:o][ \t]*[0-9]|[a-z#][ \t]*[-+.]?[0-9])", re.IGNORECASE | re.MULTILINE
 )
 
-_WHOLE_LENGTH = re.compile(rb"^[^(;\n]*[xyzijr][ \t]*[-+]?[0-9]*[1-9][0-9]*(?![0-9.])", re.IGNORECASE | re.MULTILINE)
+_WHOLE_LENGTH = re.compile(rb"^[^(;\n]*[xyzijr][ \t]*+[-+]?0*+[1-9][0-9]*+(?!\.)", re.IGNORECASE | re.MULTILINE)
 
-_WHOLE_FEED = re.compile(rb"^[^(;\n]*f[ \t]*[0-9]*[1-9][0-9]*(?![0-9.])", re.IGNORECASE | re.MULTILINE)
+_WHOLE_FEED = re.compile(rb"^[^(;\n]*f[ \t]*+0*+[1-9][0-9]*+(?!\.)", re.IGNORECASE | re.MULTILINE)
 
 _FEED_IN_STEPS = re.compile(rb"g[ \t]*(?:20|93|95)(?![0-9.])", re.IGNORECASE)
 """Inch, inverse time, a revolution: where Fanuc takes a feed without a point in steps, and not in mm/min."""
@@ -228,11 +228,14 @@ def _keep_cutter(control: Control, block: Block) -> None:
 def _refuse_lathe(block: Block) -> None:
     """Refuse the largest speed of a lathe's spindle, G50 S or G92 S.
 
+    In a mill's safety line G50 ends scaling, among other codes or beside the M3 that S belongs to.
+
     Raises:
         Fault: the block is one.
     """
     code = next((code for code in block.codes.values() if code in ("G50", "G92")), "")
-    if code and "s" in block.values and not block.has(AXES):
+    alone = len(block.codes) == 1
+    if code and alone and "s" in block.values and not block.has(AXES):
         raise BlockFault(f"{_LATHE}: {code} with S is the largest speed of its spindle.", letter="g")
 
 

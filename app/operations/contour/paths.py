@@ -297,8 +297,9 @@ def _rough(
                 tabs[owner].append(float(near[owner][0][k]))
     taken = [spans_of(path, places, shape) for path, places in zip(paths, tabs, strict=True)]
     made = runs(paths, taken, work.around(distance), _beginnings(paths, finish, _FAR * width))
-    if not narrow_tab_findings(finish.runs, finish.tabs, replace(shape, finished=None)):  # told already
-        work.context.findings.extend(narrow_tab_findings(made, tabs, shape))
+    told = narrow_tab_findings(finish.runs, finish.tabs, replace(shape, finished=None))
+    roughed = narrow_tab_findings(made, tabs, shape)  # of the same tabs, unless nothing of one stands here alone
+    work.context.findings.extend(each for each in roughed if not told or (each.counts and not told[0].counts))
     extras = StrokeExtras(shape, ways)
     return _ContourStrokes(
         made,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ...core.progress import Progress
+from ...core.wording import in_plane
 from ...model.finding import Finding, FindingKind
 from ...model.hole_operations import ReamOperation
 from ...model.moves import Purpose
@@ -33,7 +34,8 @@ def ream(context: OperationContext, index: int, progress: Progress) -> None:
     made = HolesBefore(job, context.areas.drawn, index)
     for hole, label in holes_in_order(context, index, VERB, progress):
         reamed.append(hole)
-        if not 0 <= job.tool(operation.cut.tool).diameter - made.at(hole, -bottom) <= MOST_LEFT:
+        before = made.at(hole, -bottom)
+        if before is None or not 0 <= job.tool(operation.cut.tool).diameter - before <= MOST_LEFT:
             solid.append(hole)
         over_hole(context, (hole.x, hole.y), label)
         builder.straight((hole.x, hole.y, bottom), Purpose.DRILL, label)
@@ -44,7 +46,7 @@ def ream(context: OperationContext, index: int, progress: Progress) -> None:
         first = solid[0]
         text = (
             f"No operation before it drills {'the hole' if len(solid) == 1 else f'{len(solid)} of the holes'} at "
-            f"({first.x:.3f}, {first.y:.3f}) to a little less than T{operation.cut.tool} and as deep; a reamer takes "
+            f"{in_plane(first.x, first.y)} to a little less than T{operation.cut.tool} and as deep; a reamer takes "
             f"off {MOST_LEFT:g} mm of the diameter at the most: drill first."
         )
         context.findings.append(Finding(FindingKind.ENGAGEMENT, text, first.x, first.y, amount=float(len(solid))))

@@ -55,7 +55,7 @@ def tap(context: OperationContext, index: int, progress: Progress) -> None:
     made = HolesBefore(job, context.areas.drawn, index)
     for hole, label in holes_in_order(context, index, VERB, progress):
         holes.append(hole)
-        if made.at(hole, -bottom) < thread.nut_core - 1e-6:
+        if (made.at(hole, -bottom) or 0.0) < thread.nut_core - 1e-6:
             unready.append(hole)
         over_hole(context, (hole.x, hole.y), label)
         tapping = replace(label, plunge_rate=feed)

@@ -113,7 +113,7 @@ def thread(context: OperationContext, index: int, progress: Progress) -> None:
     made = HolesBefore(job, context.areas.drawn, index)
     for hole, label in holes_in_order(context, index, VERB, progress):
         holes.append(hole)
-        if not operation.external and made.at(hole, operation.cut.depth) < operation.core - 1e-3:
+        if not operation.external and (made.at(hole, operation.cut.depth) or 0.0) < operation.core - 1e-3:
             unready.append(hole)
         _cut_thread(context, hole, way, label)
     if unready:

@@ -159,8 +159,16 @@ def test_programs_of_lathes_are_told(dialect: Dialect) -> None:
         turned.replace("Z1.", "Y1. Z1."),
         turned.replace("T0101", "T0101 M06"),
         "G21 G50\nG0 X1. Z1.\nM30\n",
+        "G21 G17 G40 G49 G50 G80 G90 S3000 M3\nG0 X1. Z1.\nM30\n",
+        "G21\nG50 S3000 M3\nG0 X1. Z1.\nM30\n",
     ):
         assert not warnings(milled, dialect)
+
+
+@pytest.mark.parametrize("word", ["F", "X"])
+def test_a_number_of_many_digits_is_looked_at_once(word: str) -> None:
+    """Whole numbers without a point were looked for digit by digit, from each digit on: 8,000 of them took 0.8 s."""
+    assert read_program(f"G21\nG1 {word}{'1' * 150_000}.\nM30\n".encode(), ReadOptions(Dialect.HAAS)).problems
 
 
 def test_plain_lines_that_repeat_cost_little() -> None:
