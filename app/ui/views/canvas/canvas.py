@@ -240,7 +240,7 @@ class Canvas(InteractiveViewport):
             fine = program.count(whole, look.layers) > MANY
             shown = replace(look, theme=theme.faint(_STALE) if look.stale else theme, fine=fine)
             yield from program.steps(painter, self.view, box, shown)
-        self.around.paint_stock(painter, self.view, (area, self.area), theme)
+        self.around.paint_stock(painter, self.view, area, theme)
         if program is None or PathLayers.CLAMP in look.layers:
             self.around.paint_clamps(painter, self.view, box, theme)
         if program is None or PathLayers.PART in look.layers:

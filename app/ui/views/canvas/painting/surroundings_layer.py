@@ -75,16 +75,11 @@ class SurroundingsLayer:
         """Outlines of the keep-out areas, mm."""
         return self._clamps
 
-    def paint_stock(self, painter: QPainter, view: ViewTransform, areas: tuple[QRectF, QRectF], theme: Theme) -> None:
-        """Paint the stock's outline and its size, this above it, or within where there is no room above.
-
-        Args:
-            view: of the canvas. theme: its colours.
-            areas: the rectangle of the screen that is painted, and all that is seen of the drawing.
-        """
+    def paint_stock(self, painter: QPainter, view: ViewTransform, area: QRectF, theme: Theme) -> None:
+        """Paint the stock's outline and above it its size within a screen rectangle."""
         if self.stock is None:
             return
-        stock, (area, seen) = self.stock, areas
+        stock = self.stock
         outline = QRectF(view.to_screen((stock.x0, stock.y1)), view.to_screen((stock.x1, stock.y0)))
         painter.save()
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -94,9 +89,7 @@ class SurroundingsLayer:
         name = tr(f"stock {f' {TIMES} '.join(grouped(each, 3) for each in stock.size)}")
         width = QFontMetricsF(painter.font()).horizontalAdvance(name)
         if width < outline.width():
-            above = outline.top() - seen.top() > _FONT_PX + _GAP_PX
-            line = outline.top() + (-_GAP_PX if above else _GAP_PX + _FONT_PX)
-            painter.drawText(QPointF(outline.right() - width - (0 if above else _GAP_PX), line), name)
+            painter.drawText(QPointF(outline.right() - width, outline.top() - _GAP_PX), name)
         painter.restore()
 
     def paint_clamps(self, painter: QPainter, view: ViewTransform, box: Box, theme: Theme) -> None:
