@@ -254,7 +254,7 @@ class _ProvenSteps:
         scale = self._exaggeration(length)
         at = _about(seen.curve.at(np.array(cuts)), axis) if cuts else (np.zeros(0), np.zeros(0))
         course = _about(seen.curve.at(np.linspace(low, high, 400)), axis)
-        pictures = [self._crossing(length, course, np.column_stack(at), only).page() for only in (False, True)]
+        pictures = [self._crossing(length, np.column_stack(course), np.column_stack(at), only).page() for only in (False, True)]
         left = (high - low) - sum(y - x for x, y in held)
         rows = (("from", "to", "in the cylinder"), *((f"{x:.6f}", f"{y:.6f}", "yes") for x, y in held))
         return [
@@ -281,14 +281,14 @@ class _ProvenSteps:
             ),
         ]
 
-    def _crossing(self, length: float, course: tuple[Floats, Floats], cuts: Floats, only_outside: bool) -> StepDrawing:
+    def _crossing(self, length: float, course: Floats, cuts: Floats, only_outside: bool) -> StepDrawing:
         """Return the picture of a curve over a cylinder.
 
         Args:
-            length: of the axis, mm. course: z and r of the curve, mm. cuts: (m, 2) the same of its crossings.
+            length: of the axis, mm. course: (n, 2) z and r of the curve, mm. cuts: (m, 2) the same of its crossings.
             only_outside: draw only what is not in the cylinder.
         """
-        sketch, radius, scale, (z, r) = StepDrawing(), self.profile.radius, self._exaggeration(length), course
+        sketch, radius, scale, (z, r) = StepDrawing(), self.profile.radius, self._exaggeration(length), course.T
         sketch.area(np.array([[0, 0], [length, 0], [length, radius], [0, radius]]) * [1, scale])
         sketch.line(np.array([[0, radius], [length, radius]]) * [1, scale], BLUE, FINE)
         sketch.line(np.array([[0, 0], [length, 0]]), FAINT, LINE)
