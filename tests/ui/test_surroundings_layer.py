@@ -18,7 +18,7 @@ from app.ui.panels.operation_groups import BY_HAND
 from app.ui.panels.side_panel import SidePanel
 from app.ui.views.canvas.canvas import Canvas
 from app.ui.views.canvas.marker_mode import MarkerMode
-from app.ui.views.canvas.painting.surroundings_layer import DASH_PERIOD, edges_seen
+from app.ui.views.canvas.painting.stock_outline import DASH_PERIOD, edges_seen
 
 
 def square(x: float, y: float, side: float, layer: str, first: int) -> tuple[Entity, ...]:

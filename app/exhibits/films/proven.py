@@ -254,7 +254,9 @@ class _ProvenSteps:
         scale = self._exaggeration(length)
         at = _about(seen.curve.at(np.array(cuts)), axis) if cuts else (np.zeros(0), np.zeros(0))
         course = _about(seen.curve.at(np.linspace(low, high, 400)), axis)
-        pictures = [self._crossing(length, np.column_stack(course), np.column_stack(at), only).page() for only in (False, True)]
+        pictures = [
+            self._crossing(length, np.column_stack(course), np.column_stack(at), only).page() for only in (False, True)
+        ]
         left = (high - low) - sum(y - x for x, y in held)
         rows = (("from", "to", "in the cylinder"), *((f"{x:.6f}", f"{y:.6f}", "yes") for x, y in held))
         return [

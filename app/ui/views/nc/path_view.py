@@ -17,12 +17,13 @@ from ...framework.theme import LIGHT, Theme, text_font
 from ..canvas.looking import LookingAnswers, LookingHand
 from ..canvas.painting import overlay
 from ..canvas.painting.grid import paint_origin, paint_paper, paint_rulers
+from ..canvas.painting.stock_outline import paint_outline
 from ..canvas.view_transform import ViewTransform, fitted
 from ..canvas.viewport import Viewport, ViewportScene
 from .line_marks import Ints
 from .motion_hover import describe_motion, nearest_motion
 from .motion_shapes import ViewSide
-from .painting.motion_layer import MotionColourBy, MotionLayer, MotionPaint, paint_stock
+from .painting.motion_layer import MotionColourBy, MotionLayer, MotionPaint, stock_outline
 from .painting.path_key import KeyCorner, KeyRow, beside_key, cuts_within, key_place, key_size, paint_key
 
 _PICK_PX, _BLEED_PX, _EDGE_PX = 6.0, 8.0, 16.0
@@ -139,7 +140,9 @@ class PathView(Viewport):
         box = self.view.world_box(area.adjusted(-_BLEED_PX, -_BLEED_PX, _BLEED_PX, _BLEED_PX))
         paint_paper(painter, self.view, area, theme, self.unit)
         if self.picture is not None:
-            paint_stock(painter, self.view, self.picture.shapes.program.stock, self.picture.side, theme)
+            outline = stock_outline(self.view, self.picture.shapes.program.stock, self.picture.side)
+            if outline is not None:
+                paint_outline(painter, outline, area, theme)
         self._rest = self._portions(box)
         self._paint_portions(painter, _AT_ONCE_S if self._fresh else math.inf)
         self._fresh = False

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
-
-from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QPainter, QPainterPath, QTransform
 
 from .....core.errors import HitofudeError
@@ -19,15 +17,13 @@ from ..view_transform import ViewTransform
 from .curve_path import chain_path
 from .part_layer import PartLayer
 from .pens import screen_pen
+from .stock_outline import paint_outline
 
 MOST_DRAWN = 60
 """Copies that are drawn curve by curve; of more the boxes are."""
 
 _FAINT, _FILL = 0.4, 0.16
 _WIDTH = 1.25
-_STOCK_WIDTH, _STOCK_DASHES = 1.0, (6.0, 4.0)
-DASH_PERIOD = sum(_STOCK_DASHES)
-"""Of the stock's outline, px."""
 _FONT_PX, _GAP_PX = 11, 6.0
 
 
@@ -82,9 +78,7 @@ class SurroundingsLayer:
         stock = self.stock
         outline = QRectF(view.to_screen((stock.x0, stock.y1)), view.to_screen((stock.x1, stock.y0)))
         painter.save()
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.setPen(screen_pen(painter, theme.muted, _STOCK_WIDTH, _STOCK_DASHES))
-        painter.drawLines(edges_seen(outline, area))
+        paint_outline(painter, outline, area, theme)
         painter.setFont(text_font(_FONT_PX))
         name = tr(f"stock {f' {TIMES} '.join(grouped(each, 3) for each in stock.size)}")
         width = QFontMetricsF(painter.font()).horizontalAdvance(name)
@@ -137,21 +131,3 @@ class SurroundingsLayer:
                     QRectF(moved.to_screen((around[0], around[3])), moved.to_screen((around[2], around[1])))
                 )
         painter.restore()
-
-
-def edges_seen(outline: QRectF, area: QRectF) -> list[QLineF]:
-    """Return what of the edges of an outline may be seen in an area, px.
-
-    Each begins a whole number of dashes from its corner, so that dashes stand still while a picture is moved and
-    painted anew in parts; no line is much longer than the area, however near one looks.
-    """
-
-    def seen(low: float, high: float, first: float, last: float) -> tuple[float, float]:
-        return low + max(math.floor((first - low) / DASH_PERIOD), 0) * DASH_PERIOD, min(high, last)
-
-    left, right = seen(outline.left(), outline.right(), area.left(), area.right())
-    top, bottom = seen(outline.top(), outline.bottom(), area.top(), area.bottom())
-    lines = [QLineF(left, y, right, y) for y in (outline.top(), outline.bottom()) if area.top() <= y <= area.bottom()]
-    lines += [QLineF(x, top, x, bottom) for x in (outline.left(), outline.right()) if area.left() <= x <= area.right()]
-    near = [each for each in lines if each.x2() >= area.left() and each.y2() >= area.top()]
-    return [each for each in near if each.x1() <= each.x2() and each.y1() <= each.y2()]

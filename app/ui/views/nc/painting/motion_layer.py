@@ -11,7 +11,7 @@ from enum import Enum
 
 import numpy as np
 from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtGui import QColor, QPainter
 
 from .....gcode.interpreter.program import StockNote, ToolNote
 from .....geometry.sample import Box
@@ -96,15 +96,14 @@ def _tool_name(number: int, note: ToolNote | None) -> str:
     return " ".join(words)
 
 
-def paint_stock(painter: QPainter, view: ViewTransform, stock: StockNote | None, side: ViewSide, theme: Theme) -> None:
-    """Paint the outline of the stock that the program's comments tell of, where they tell enough of it."""
+def stock_outline(view: ViewTransform, stock: StockNote | None, side: ViewSide) -> QRectF | None:
+    """Return the outline of the stock that a program's comments tell of, px; None where that is not enough."""
     if stock is None:
-        return
+        return None
     low, high = ([corner[axis] for axis in side.value] for corner in (stock.low, stock.high))
-    if all(map(math.isfinite, (*low, *high))):
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.setPen(QPen(theme.muted, 1.0, Qt.PenStyle.DashLine))
-        painter.drawRect(QRectF(view.to_screen((low[0], high[1])), view.to_screen((high[0], low[1]))))
+    if not all(map(math.isfinite, (*low, *high))):
+        return None
+    return QRectF(view.to_screen((low[0], high[1])), view.to_screen((high[0], low[1])))
 
 
 class MotionLayer:
