@@ -262,6 +262,7 @@ def _close_what_stands_over(wiring: WindowController) -> None:
     wiring.tour._ring.hide()
     wiring.tour.number = 0
     wiring.language.help.hide()
+    wiring.language.help.list.clear()  # its rows are numbers of pages, which are none again
     wiring.language.help._laid_out.clear()
     views = wiring.window_.views
     for row in (*views.legend.rows.values(), *views.cut.legend.rows.values()):

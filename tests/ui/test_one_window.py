@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 
+from app.core.settings import ThemeChoice
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View, views
 from app.ui.shell.window_controller import WindowController
@@ -90,7 +91,17 @@ def leave_while_programs_are_read(qtbot, wiring: WindowController, folder: Path)
     wiring.files.open_sample()
 
 
-OPENERS = [open_a_program, open_the_sample_and_its_cut, look_at_every_view_and_page, leave_while_programs_are_read]
+def read_the_manual(qtbot, wiring: WindowController, folder: Path) -> None:
+    wiring.language.help.show_page("sign")
+
+
+OPENERS = [
+    open_a_program,
+    open_the_sample_and_its_cut,
+    look_at_every_view_and_page,
+    leave_while_programs_are_read,
+    read_the_manual,
+]
 
 
 @pytest.mark.parametrize("opener", OPENERS)
@@ -106,6 +117,10 @@ def test_whatever_was_opened_no_widget_tells_of_it_seen_or_not(qtbot, own: OneWi
     assert again is first and own.made == made
     assert not again.nc.foreign and not again.document.part.entities
     assert said_by(again.window_) == before
+    again.window_.set_theme_choice(ThemeChoice.DARK)  # whatever was opened follows
+    again.window_.set_theme_choice(ThemeChoice.LIGHT)
+    own.take_back()
+    assert "\n".join(own.left) == ""
 
 
 def hide_the_menus(wiring: WindowController) -> None:

@@ -86,9 +86,9 @@ class HelpWindow(QWidget):
 
     def _read(self, code: str) -> None:
         """Take the pages of the language that the window speaks."""
+        self.list.clear()  # first, as what its rows say are numbers of the pages that were
         self._code, self.pages = code, pages(code)
         self._laid_out.clear()
-        self.list.clear()
         numbered = enumerate(self.pages)
         for group, members in groupby(numbered, key=lambda each: group_of(each[1].name)):
             self.list.addItem(_heading(group.titles[code]))
