@@ -36,6 +36,7 @@ def examples(page: Path = PAGE) -> list[str]:
     return re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), flags=re.DOTALL)
 
 
+@pytest.mark.exhaustive
 def test_the_examples_run(beside: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "hitofude", hitofude)
     names: dict[str, object] = {}

@@ -162,6 +162,7 @@ def test_a_cluster_writes_the_same_bytes_although_a_worker_is_killed(done: Path,
     assert written(out) == written(done)
 
 
+@pytest.mark.exhaustive
 def test_a_program_of_a_drawing_that_is_broken_now_is_taken_away(tmp_path: Path) -> None:
     parts, out = tmp_path / "parts", tmp_path / "out"
     (part,) = write_drawings(parts, 1)
@@ -172,6 +173,7 @@ def test_a_program_of_a_drawing_that_is_broken_now_is_taken_away(tmp_path: Path)
     assert verdicts(out) == ["refused"]
 
 
+@pytest.mark.exhaustive
 def test_a_list_gives_parts_options_of_their_own(parts: Path, tmp_path: Path) -> None:
     (tmp_path / "job.toml").write_text("[stock]\nthickness = 7\n")
     (tmp_path / "list.toml").write_text(

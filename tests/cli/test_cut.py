@@ -295,6 +295,7 @@ def test_the_published_method_states_its_error(slot: Path, tmp_path: Path) -> No
     assert data["removed_mm3"] == pytest.approx(data["tools"][0]["removed_mm3"], rel=0.01)
 
 
+@pytest.mark.exhaustive
 def test_more_cells_than_memory_holds_are_told_before(slot: Path, tmp_path: Path) -> None:
     """In processes of their own: what another command has left in memory would count as the job's."""
     part = solid(tmp_path / "part.stl", [[0, 0, -10], [50, 20, -1]])

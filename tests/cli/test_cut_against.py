@@ -102,6 +102,7 @@ def test_findings_are_those_of_make(name: str, tmp_path: Path, data: Path) -> No
     assert found["gouge"]["count"] == 0
 
 
+@pytest.mark.exhaustive
 def test_a_file_for_each_tool_needs_them_all(tmp_path: Path, samples: Path) -> None:
     first, second = made(samples / "fig2.dxf", tmp_path, "--post", "grbl")
     against = ("--against", samples / "fig2.dxf")

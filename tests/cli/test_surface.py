@@ -223,6 +223,7 @@ def test_the_samples_are_computed_and_proven(tmp_path: Path, name: str) -> None:
     assert read_program(out.read_bytes()).error is None
 
 
+@pytest.mark.exhaustive
 def test_the_same_scene_is_written_the_same_again(balls: dict[str, Path], tmp_path: Path) -> None:
     other = written(tmp_path)
     for name in ("ngc", "csv", "svg"):

@@ -148,6 +148,7 @@ while compilers().share < 1.0:
     assert set(entries(program)) == {"outer", "inner", "_twice"}
 
 
+@pytest.mark.exhaustive
 def test_what_is_not_usual_waits_for_somebody_who_waits(program: Path) -> None:
     code = "from app.room.outer_kernels import outer; from app.room.inner_kernels import inner; print(inner(1.0))"
     assert run(program, f"{code}; import time; time.sleep(2.0)").stdout.split() == ["2.0"]

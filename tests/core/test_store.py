@@ -99,6 +99,7 @@ def test_a_full_disk_is_said_once_and_stops_nothing(program: Path) -> None:
     assert not list((program / "cache").rglob("*.part"))
 
 
+@pytest.mark.exhaustive
 def test_without_a_cache_folder_it_is_a_folder_of_this_users_own(program: Path) -> None:
     done = run(program, SHORT, XDG_CACHE_HOME="/dev/null/cache")
     assert (done.stdout.split(), done.stderr) == (["4.0"], "")
@@ -210,6 +211,7 @@ def test_a_closed_stderr_is_no_reason_to_fail(program: Path) -> None:
     assert done.stdout.split() == ["4.0"]
 
 
+@pytest.mark.exhaustive
 def test_machine_code_for_plainer_processors_is_read_on_any_that_runs_it(program: Path) -> None:
     """A program that was packed elsewhere brings what every processor of a level runs: nothing is compiled here."""
     levels = plainer_processors("x86_64-unknown-linux-gnu", llvm.get_host_cpu_features())

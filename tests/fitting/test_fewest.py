@@ -99,6 +99,7 @@ def test_small_inputs_take_no_more_than_all_choices_from_point_to_point(seed: in
     assert searched(points, limit, math.pi) <= by_all_choices(points, 0.999 * limit)
 
 
+@pytest.mark.exhaustive
 def test_without_places_beside_the_points_it_finds_what_all_choices_find(monkeypatch: pytest.MonkeyPatch) -> None:
     """It holds arcs to few samples of each chord, so that it may find what is off by a little more: the proof is for
     that.
@@ -130,6 +131,7 @@ def test_bends_keep_to_what_is_asked_and_samples_to_the_tolerance(bend: float) -
     assert cKDTree(made).query(given_[::2])[0].max() <= most
 
 
+@pytest.mark.exhaustive
 def test_a_wider_bend_never_costs_blocks_and_saves_some() -> None:
     counts = [
         len(fit_arcs(wave(4_000), ArcOptions(TOLERANCE, bend=math.radians(bend))).motions) for bend in (0.5, 5.0, 180.0)

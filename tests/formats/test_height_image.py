@@ -104,6 +104,7 @@ def test_what_is_wrong_is_seen_however_small(cells: int) -> None:
     assert np.ptp(clean.reshape(-1, 3), axis=0).max() <= 4
 
 
+@pytest.mark.exhaustive
 def test_it_is_quick() -> None:
     rows = np.random.default_rng(1).normal(-2, 0.01, (1024, 1024)).astype(np.float32)
     image = HeightImage(rows, 0.1, 0.0, -10.0, "p", rows + np.float32(2), rows > -2, 0.01)

@@ -307,6 +307,7 @@ def test_every_single_change_is_caught_or_changes_nothing(mutation: tuple[str, i
     assert harmless, [(a, b) for a, b in zip_longest(file.nc.text.splitlines(), changed.splitlines()) if a != b][:3]
 
 
+@pytest.mark.exhaustive
 def test_checking_fifty_thousand_moves_takes_well_under_a_second() -> None:
     path = Path().into_work(20.0, 0.0)
     for turn in np.linspace(0, 2 * math.pi * 500, 50_001)[1:].tolist():

@@ -325,6 +325,7 @@ def test_points_rounded_anew_and_lines_split_are_no_difference(seed):
     assert sum(run.count for run in found.runs) >= 3000 - 5 * 40
 
 
+@pytest.mark.exhaustive
 def test_200_000_motions_are_compared_in_seconds():
     motions = zigzag(200_000)
     end, start = motions.end.copy(), motions.start.copy()

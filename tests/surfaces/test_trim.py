@@ -65,6 +65,7 @@ def test_the_cutter_rolls_over_the_edge_of_half_a_ball() -> None:
     assert drop(half_ball(), BALL, np.array([[BALL.radius + 1e-3, 0.0]])).height[0] == -math.inf
 
 
+@pytest.mark.exhaustive
 def test_a_path_over_half_a_ball_is_proven_and_ends_where_the_surface_does() -> None:
     follower = Follower(half_ball(), BALL, FollowOptions(0.0, 0.01, 1e-4))
     (run,) = cutter_path(follower, along_x(3.0)).runs

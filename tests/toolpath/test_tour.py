@@ -166,6 +166,7 @@ def test_many_strokes(seed: int, count: int, closed: bool, reversible: bool, how
     check(strokes, (50, 50), random_rules(seed, count, how_many), reversible)
 
 
+@pytest.mark.exhaustive
 def test_the_search_alone_finds_the_shortest_order_of_a_few(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.toolpath.ordering.tour._FEW", 0)
     monkeypatch.setattr("app.toolpath.ordering.tour._BASE", 100_000)

@@ -172,10 +172,15 @@ def test_what_is_worked_out_of_the_rest_is_no_trace(qtbot, own: OneWindow) -> No
 
 
 @pytest.mark.parametrize(
-    "seed", ["1", pytest.param("2", marks=pytest.mark.exhaustive), pytest.param("3", marks=pytest.mark.exhaustive)]
+    ("seed", "module"),
+    [
+        ("1", "test_snap_controller.py"),
+        pytest.param("2", "test_command_line.py", marks=pytest.mark.exhaustive),
+        pytest.param("3", "test_window.py", marks=pytest.mark.exhaustive),
+    ],
 )
-def test_the_tests_of_a_module_pass_in_any_order(seed: str) -> None:
-    command = [sys.executable, "-m", "pytest", "-p", "tests.ui.shuffled", "tests/ui/test_command_line.py"]
+def test_the_tests_of_a_module_pass_in_any_order(seed: str, module: str) -> None:
+    command = [sys.executable, "-m", "pytest", "-p", "tests.ui.shuffled", f"tests/ui/{module}"]
     done = subprocess.run(
         command, cwd=ROOT, env=os.environ | {"HITOFUDE_SEED": seed}, capture_output=True, text=True, timeout=300
     )

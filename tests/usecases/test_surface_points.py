@@ -8,6 +8,7 @@ import math
 from functools import cache
 
 import numpy as np
+import pytest
 
 from app.formats.scene.toml import read_scene, sources_of
 from app.surfaces.sections.compound import (
@@ -124,6 +125,7 @@ def test_hostile_names_ends_and_meshes() -> None:
     ]
 
 
+@pytest.mark.exhaustive
 def test_a_hundred_thousand_points() -> None:
     points = np.random.default_rng(4).normal(size=(100_000, 3))
     compound = CompoundSurface(

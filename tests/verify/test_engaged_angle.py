@@ -144,6 +144,7 @@ def test_hardly_an_arc_can_be_moved() -> None:
     assert len(spoiled) >= 4 and sum(spoiled) >= 0.7 * len(spoiled)
 
 
+@pytest.mark.exhaustive
 def test_rings_are_far_above() -> None:
     job = replace(pocket(), operations=(PocketOperation(CutParameters(1), 1.2),))
     proof = prove_engagement(path_of(compute(job).moves), ANGLE)

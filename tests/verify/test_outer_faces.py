@@ -145,6 +145,7 @@ def test_a_cut_through_the_side_in_which_bodies_touch_is_as_deep_as_in_one_body(
 DEEP = "G21 G90 G94 G17\nT1 M6\nS1000 M3\nG0 Z5\nX0 Y0\nG1 Z-13 F300\nG0 Z5\nM2\n"
 
 
+@pytest.mark.exhaustive
 def test_cut_says_the_same_of_two_bodies_that_touch_and_of_one(tmp_path: Path) -> None:
     (tmp_path / "one.stl").write_bytes(stl(bossed_block()))
     two = np.concatenate([box((-20, -15, -20), (20, 15, -10)), box((-10, -7, -10), (10, 7, 0))]).astype(float)

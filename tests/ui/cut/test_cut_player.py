@@ -50,6 +50,7 @@ def press(page, key, held=NONE):
     QTest.keyClick(page.view, key, held)
 
 
+@pytest.mark.exhaustive
 def test_it_stands_at_its_end_and_shows_no_tool(page):
     player = page.player
     assert player.at_end
@@ -226,6 +227,7 @@ def place_of(picture, row, column):
     return picture.x0 + (column + 0.5) * picture.pitch, picture.y0 + (row + 0.5) * picture.pitch
 
 
+@pytest.mark.exhaustive
 def test_another_cut_is_followed_from_its_end(qtbot, computed, page):
     page.player.go(30)
     settle(qtbot, page)

@@ -150,6 +150,7 @@ def test_recording_is_asked_for_from_any_view_and_one_at_a_time(qtbot, computed,
     assert not (tmp_path / "two.gif").exists()
 
 
+@pytest.mark.exhaustive
 def test_the_end_of_the_window_is_the_end_of_playing(qtbot, computed, page):
     page.player.set_pace(PlaybackPace.MOVES, 40.0)
     page.player.go(0)

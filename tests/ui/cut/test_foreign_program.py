@@ -84,6 +84,7 @@ def test_other_tools_and_back_to_the_jobs_own_cut(qtbot, opened):
     )
 
 
+@pytest.mark.exhaustive
 def test_computing_anew_brings_the_cut_of_the_job_back(qtbot, opened):
     wiring = opened(TOLD + PROGRAM)
     before = wiring.computation.made

@@ -63,6 +63,7 @@ def test_at_rest_the_part_that_is_seen_has_cells_of_its_own(qtbot, zooming, show
     assert view.overlay._pitch == f"cells {1000 * detail.pitch:.0f} µm"
 
 
+@pytest.mark.exhaustive
 def test_farther_in_the_cells_end_at_a_micrometre(qtbot, zooming):
     for factor in (30.0, 30.0):
         zoom(qtbot, zooming, factor)
@@ -79,6 +80,7 @@ def test_zooming_out_shows_the_whole_at_once_and_lets_the_part_go(qtbot, zooming
     assert view.overlay._pitch == f"cells {1000 * shown.picture.pitch:.0f} µm"
 
 
+@pytest.mark.exhaustive
 def test_a_movement_leaves_the_look_that_is_on_its_way(qtbot, zooming):
     view = zooming.parent()
     view.zoom_by(8.0)
@@ -91,6 +93,7 @@ def test_a_movement_leaves_the_look_that_is_on_its_way(qtbot, zooming):
     assert view.model.detail is not None
 
 
+@pytest.mark.exhaustive
 def test_other_colours_reach_the_part_too(qtbot, zooming):
     view = zooming.parent()
     zoom(qtbot, zooming, 8.0)

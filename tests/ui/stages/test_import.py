@@ -253,6 +253,7 @@ def test_an_error_goes_when_the_next_picture_is_good(qtbot, wiring, tmp_path):
     assert not notice.isVisible()
 
 
+@pytest.mark.exhaustive
 def test_a_picture_that_is_drawn_in_says_so_once(qtbot, opened):
     enter(qtbot, opened.window_.import_panel.dpi, "63.5")
     opened.window_.import_panel.take.click()

@@ -320,6 +320,7 @@ def test_both_themes(qtbot, staged):
     assert dark.pixelColor(middle).lightness() < 40 and light.pixelColor(middle).lightness() > 240
 
 
+@pytest.mark.exhaustive
 def test_more_than_30_stages_are_shown_in_a_second(qtbot, staged):
     view = staged.window_.views.stages
     assert view.film.shape == (400, 400)

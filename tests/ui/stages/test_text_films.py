@@ -88,6 +88,7 @@ def test_text_b_shows_wedges_and_tries_several_sizes_of_facets(qtbot, wiring):
     assert "16.83 s" in panel.table.text()
 
 
+@pytest.mark.exhaustive
 def test_a_program_that_does_not_tell_its_tool_is_said_where_and_then_shown(qtbot, wiring, tmp_path):
     """The window has no command line: text B takes the tools that Cut was told."""
     program = tmp_path / "bare.ngc"

@@ -189,6 +189,7 @@ def test_the_inside_of_an_outline_is_tinted_its_holes_are_not(qapp, tmp_path):
     assert image.pixelColor(100, 20).rgb() not in (LIGHT.canvas.rgb(), LIGHT.ink.rgb())
 
 
+@pytest.mark.exhaustive
 def test_of_a_scene_only_what_lies_on_top_is_drawn(qapp):
     image = thumbnail(resource("samples", "die.toml"), QSize(200, 120), LIGHT, NO_PROGRESS)
     rows = [y for y in range(120) if any(image.pixelColor(x, y).rgb() != LIGHT.canvas.rgb() for x in range(200))]

@@ -423,6 +423,7 @@ def test_a_program_of_a_file_in_the_nc_view_keeps_no_scene_from_being_cut(qtbot,
     after_a_program.cut_controller.back()
 
 
+@pytest.mark.exhaustive
 def test_where_a_scene_s_program_is_to_come_title_badge_and_side_are_the_scene_s(after_a_program):
     window, display = after_a_program.window_, after_a_program.display_controller
     display.show_view(View.CUT)

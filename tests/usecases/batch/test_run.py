@@ -63,6 +63,7 @@ def test_a_part_that_hangs_is_ended_and_the_next_is_done() -> None:
     assert time.monotonic() - began < 60
 
 
+@pytest.mark.exhaustive
 def test_a_process_that_dies_between_two_parts_harms_none() -> None:
     lane = ProcessLane()
     try:
