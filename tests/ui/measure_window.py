@@ -19,6 +19,8 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 from PySide6.QtCore import QEventLoop, QObject, Qt, QTimer
 
 TICK_MS = 5
+FIXED_WORK_MS = 6.2
+"""What `_fixed_work_ms` takes where nothing else runs, on the cores that the limits of tests were measured on."""
 DRAWING = Path(__file__).resolve().parents[1] / "data" / "dxf" / "complex.dxf"
 USABLE = """
 import time; t = time.perf_counter()
@@ -37,12 +39,15 @@ class Gaps(QObject):
         longest: the longest gap so far, ms, by what was going on.
         busiest: the most that this thread has worked in a gap, ms of processor time: what others leave it to run on
             does not count.
+        slowed: how many times longer than on two idle cores the same work took, at worst, when something new began:
+            cores that others use too share caches and units, which processor time does not tell; 1 at least.
     """
 
     def __init__(self) -> None:
         super().__init__()
         self.longest: dict[str, float] = {}
         self.busiest: dict[str, float] = {}
+        self.slowed = 1.0
         self.doing = "start"
         self._last, self._worked = time.perf_counter(), time.thread_time()
         self._timer = QTimer(self, interval=TICK_MS, timerType=Qt.TimerType.PreciseTimer)
@@ -53,12 +58,22 @@ class Gaps(QObject):
         """Name what follows."""
         self._tick()
         self.doing = doing
+        self.slowed = max(self.slowed, _fixed_work_ms() / FIXED_WORK_MS)
+        self._last, self._worked = time.perf_counter(), time.thread_time()
 
     def _tick(self) -> None:
         now, worked = time.perf_counter(), time.thread_time()
         for most, gap in ((self.longest, now - self._last), (self.busiest, worked - self._worked)):
             most[self.doing] = max(most.get(self.doing, 0.0), 1000 * gap)
         self._last, self._worked = now, worked
+
+
+def _fixed_work_ms() -> float:
+    """Return the processor time, ms, of work that is always the same."""
+    begun, total = time.thread_time(), 0
+    for k in range(100_000):
+        total += k * k
+    return 1000 * (time.thread_time() - begun)
 
 
 def live_until(done, limit_s: float = 180.0) -> float:

@@ -61,8 +61,21 @@ def states(wiring: WindowController, theme: ThemeChoice, size: tuple[int, int]) 
     made = DrawingStates(wiring, wait)
     made.begin()
     for name in chain(made.tools(), made.pages(), made.over(), made.printing(), scene_states(wiring, wait)):
+        yield name, at_rest(wiring)
+
+
+def at_rest(wiring: WindowController) -> Picture:
+    """Return the window's small picture once it stays the same for 150 ms: what is worked out beside comes late on a
+    busy machine.
+    """
+    wait(150)
+    picture = small(seen(wiring.window_))
+    for _ in range(20):
         wait(150)
-        yield name, small(seen(wiring.window_))
+        before, picture = picture, small(seen(wiring.window_))
+        if share_changed(before, picture) == 0.0:
+            break
+    return picture
 
 
 def sheet(pictures: list[Picture]) -> Picture:

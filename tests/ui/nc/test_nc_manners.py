@@ -126,7 +126,7 @@ def test_a_line_of_ten_megabytes_does_not_stop_the_window(qtbot, wiring, tmp_pat
     nc.pane.find_next()
     qtbot.wait(100)
     assert nc.shown.program.error is not None
-    assert max(gaps.longest.values()) < 500
+    assert max(gaps.busiest.values()) < 500, "of processor time, which others beside do not change"
 
 
 def test_a_tool_that_draws_is_taken_to_the_drawing(qtbot, wiring, small):

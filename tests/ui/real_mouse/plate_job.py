@@ -133,7 +133,7 @@ def main(name: str, folder: Path) -> int:
     wrong = hand.play(lambda hand: whole_job(hand, gaps, name, folder))
     counts = {"clicks": hand.clicks, "values": hand.values, "wrong": repr(wrong) if wrong else ""}
     gaps.now("end")
-    counts |= {"longest_ms": gaps.longest, "busiest_ms": gaps.busiest}
+    counts |= {"longest_ms": gaps.longest, "busiest_ms": gaps.busiest, "slowed": gaps.slowed}
     (folder / "counts.json").write_text(json.dumps(counts), "utf-8")
     window.grab().save(str(folder / "end.png"))
     for worker in (window.worker, wiring.start_controller.worker):

@@ -13,8 +13,9 @@ from tests.ui.real_mouse.display import run_on_display
 
 MOST_CLICKS, MOST_VALUES, MOST_SEEN_S = 15, 12, 3.0
 MOST_BUSY_MS = {"start": 100.0, "open": 200.0, "draw": 100.0, "compute": 150.0, "export": 200.0, "end": 100.0}
-"""Processor time of the window's thread between two moments at which it listens, by what goes on, on a machine that may
-be shared; 100 are wanted. The toolkit's file dialog is made to open and to export.
+"""Processor time of the window's thread between two moments at which it listens, by what goes on, on cores of its own;
+where others slow it, as much longer as they do; 100 are wanted. The toolkit's file dialog is made to open and to
+export.
 """
 
 OPERATIONS = {
@@ -42,7 +43,9 @@ def test_a_whole_job_takes_few_clicks_and_is_right_at_the_first_compute(name: st
         program = read_program(text.encode(), ReadOptions())
         assert program.error is None and len(program.motions) > 3
         assert "M6" not in text, "grbl refuses it"
-    assert all(busy < MOST_BUSY_MS[doing] for doing, busy in counts["busiest_ms"].items()), counts
+    assert {
+        doing: busy for doing, busy in counts["busiest_ms"].items() if busy > counts["slowed"] * MOST_BUSY_MS[doing]
+    } == {}, counts
 
 
 @pytest.mark.exhaustive
