@@ -18,9 +18,9 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 from PySide6.QtCore import QEventLoop, QObject, Qt, QTimer
 
+from tests.pace import slowed
+
 TICK_MS = 5
-FIXED_WORK_MS = 6.2
-"""What `_fixed_work_ms` takes where nothing else runs, on the cores that the limits of tests were measured on."""
 DRAWING = Path(__file__).resolve().parents[1] / "data" / "dxf" / "complex.dxf"
 USABLE = """
 import time; t = time.perf_counter()
@@ -58,7 +58,7 @@ class Gaps(QObject):
         """Name what follows."""
         self._tick()
         self.doing = doing
-        self.slowed = max(self.slowed, _fixed_work_ms() / FIXED_WORK_MS)
+        self.slowed = max(self.slowed, slowed())
         self._last, self._worked = time.perf_counter(), time.thread_time()
 
     def _tick(self) -> None:
@@ -66,14 +66,6 @@ class Gaps(QObject):
         for most, gap in ((self.longest, now - self._last), (self.busiest, worked - self._worked)):
             most[self.doing] = max(most.get(self.doing, 0.0), 1000 * gap)
         self._last, self._worked = now, worked
-
-
-def _fixed_work_ms() -> float:
-    """Return the processor time, ms, of work that is always the same."""
-    begun, total = time.thread_time(), 0
-    for k in range(100_000):
-        total += k * k
-    return 1000 * (time.thread_time() - begun)
 
 
 def live_until(done, limit_s: float = 180.0) -> float:
