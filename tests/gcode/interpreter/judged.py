@@ -20,13 +20,13 @@ from app.gcode.interpreter.text import ProgramBuffer
 from app.model.motion import MotionKind
 from tests.pace import slowed
 
-SECONDS, BYTES, MEGABYTES = 3.0, 1_000_000, 500
+SECONDS, BYTES, MEGABYTES = 4.0, 1_000_000, 500
 BUSY = 20
 """Times the seconds of the processor that a process is waited for: others may be at work."""
 
 
 def judged(data: bytes, dialect: Dialect = Dialect.LINUXCNC) -> NcProgram:
-    """Read a text within three seconds (and three more for each further megabyte) of cores of one's own; fail unless
+    """Read a text within four seconds (and four more for each further megabyte) of cores of one's own; fail unless
     what comes back holds together.
 
     It has three tries, for a machine with much else to do is slow at times.
