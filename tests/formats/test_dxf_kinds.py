@@ -91,7 +91,7 @@ def test_a_missing_block_and_a_region_are_missing_from_the_part() -> None:
     assert found.counts and found.text.startswith("Missing from the part: 1 INSERT of a missing block, 1 REGION,")
 
 
-@pytest.mark.parametrize("kind", ["3DFACE", "SHAPE", "line", "AECC_WALL"])
+@pytest.mark.parametrize("kind", ["3DFACE", "SHAPE", "LINES", "AECC_WALL"])
 def test_what_nobody_here_has_heard_of_is_missing_from_the_part(kind: str) -> None:
     lines = ["0", kind, "8", "0", "10", "0", "20", "0", "11", "5", "21", "0"]
     line = ["0", "LINE", "8", "0", "10", "0", "20", "0", "11", "5", "21", "7"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -86,6 +87,7 @@ _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     24: (5280 * 1200 / 3937 * 1000, Units.FOOT),
 }
 """$INSUNITS codes: size in mm, and the nearest unit to show the drawing in."""
+_NAMES_UNITS = re.compile(rb"\$INSUNITS", re.IGNORECASE)
 
 
 def read_dxf(
@@ -213,7 +215,7 @@ def _unit(document: Any, data: bytes, given: Units | None, overrule: bool) -> _U
 
     The library gives a file without a header one of its own, in metres; so the word must stand in the file itself.
     """
-    code = document.header.get("$INSUNITS", 0) if b"$INSUNITS" in data else 0
+    code = document.header.get("$INSUNITS", 0) if _NAMES_UNITS.search(data) else 0
     if code in _NAMED_UNITS:
         size, shown = _NAMED_UNITS[code]
         if not overrule or given is None or given is shown:

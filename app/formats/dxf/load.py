@@ -18,23 +18,25 @@ from ..drawing_account import MOST_CURVES
 from . import subclass_marks
 from .numbers import NO_COMMAS, DecimalCommas, with_points
 from .repeated_blocks import without_repeated
+from .sections import sections_of, tidied
 from .splines import MOST_POINTS, too_many
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 
-_SECTION = re.compile(rb"^\s*0[ \t]*\r?[\n\r][ \t]*SECTION", re.MULTILINE)
+_LINES = re.IGNORECASE | re.MULTILINE
+
+_SECTION = re.compile(rb"^[ \t]*0+[ \t]*\r?\n[ \t]*SECTION\b", _LINES)
 
 _ENTITIES = re.compile(
-    rb"^[ \t]*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n[ \t]*2[ \t]*\r?\n[ \t]*ENTITIES[ \t]*\r?\n", re.MULTILINE
+    rb"^[ \t]*0+[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n[ \t]*0*2[ \t]*\r?\n[ \t]*ENTITIES[ \t]*\r?\n", _LINES
 )
-_SECTION_END = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*ENDSEC[ \t]*\r?\n", re.MULTILINE)
-_FILE_END = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*EOF\b", re.MULTILINE)
-_WHOLE = re.compile(rb"(?:^|\n)[ \t]*0[ \t]*\r?\n[ \t]*ENDSEC\s*\Z")
+_FILE_END = re.compile(rb"^[ \t]*0+[ \t]*\r?\n[ \t]*EOF\b", _LINES)
+_WHOLE = re.compile(rb"^[ \t]*0+[ \t]*\r?\n[ \t]*ENDSEC\s*\Z", _LINES)
 _END_MARK = b"\n0\nEOF\n"
 
-_CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*3[ \t]*\r?\n[ \t]*(\S+)")
+_CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*0*3[ \t]*\r?\n[ \t]*(\S+)", _LINES)
 
-_VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*1[ \t]*\r?\n[ \t]*(AC\d+)")
+_VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*0*1[ \t]*\r?\n[ \t]*(AC\d+)", _LINES)
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to say is in our own findings
 
 _BYTE_ORDERS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
@@ -48,10 +50,12 @@ MOST_BYTES = 200 << 20
 """A larger file would take gigabytes before anything of it is known."""
 
 _ENDLESS = re.compile(
-    rb"^[ \t]*0[ \t]*\r?\n(SPLINE|LWPOLYLINE)[ \t]*\r?\n(?:[ \t]*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", re.MULTILINE
+    rb"^[ \t]*0+[ \t]*\r?\n[ \t]*(SPLINE|LWPOLYLINE)[ \t]*\r?\n(?:[ \t]*0*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", _LINES
 )
 
-_POINT = re.compile(rb"^[ \t]*1([01])[ \t]*\r?\n[^\n]*\n[ \t]*2[01][ \t]*\r?\n", re.MULTILINE)
+_POINT = re.compile(rb"^[ \t]*0*1([01])[ \t]*\r?\n[^\n]*\n[ \t]*0*2[01][ \t]*\r?\n", re.MULTILINE)
+
+_OF_MANY_POINTS = re.compile(rb"(?:LWPOLY|SP)LINE", re.IGNORECASE)
 
 _SUSPECT = 1 << 20
 """Bytes of an entity; a shorter one has not too many points."""
@@ -83,9 +87,8 @@ def load(data: bytes, name: str) -> LoadedDocument:
     Raises:
         InputError: the data is empty, no DXF, cut short, or damaged beyond repair; or a number in it is none.
     """
-    data, unended = _with_end(data)
+    data, unended = _with_end(_with_line_feeds(data))
     _refuse_others(data, name)
-    data = _with_one_section(data)
     try:
         return _load_sound(data, unended)
     except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
@@ -120,6 +123,13 @@ def without_byte_order(data: bytes) -> bytes:
     return _BEYOND_ASCII.sub(lambda letter: f"\\U+{ord(letter[0]):04X}", text).encode()
 
 
+def _with_line_feeds(data: bytes) -> bytes:
+    """Return a text with a line feed in place of every carriage return that stands alone, as old systems end lines."""
+    if data.startswith(_BINARY) or data.count(b"\r") == data.count(b"\r\n"):
+        return data
+    return data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+
+
 def _with_end(data: bytes) -> tuple[bytes, int]:
     """Return a file without blank lines before it and with its end mark, and how many marks (0, 1) had to be put in.
 
@@ -128,10 +138,14 @@ def _with_end(data: bytes) -> tuple[bytes, int]:
     if data.startswith(_BINARY):
         return data, 0
     data = data.lstrip()
-    tail = data[-_TAIL:]
-    if b"EOF" in tail or not _WHOLE.search(tail) or not _ENTITIES.search(data):
+    if _has_end(data) or not _WHOLE.search(data[-_TAIL:]) or not _ENTITIES.search(data):
         return data, 0
     return data.rstrip() + _END_MARK, 1
+
+
+def _has_end(data: bytes) -> bool:
+    """Tell whether the end mark is there; what follows it, zeros of a disk or another text, is nothing."""
+    return (_FILE_END.search(data, max(len(data) - _TAIL, 0)) or _FILE_END.search(data)) is not None
 
 
 def _refuse_others(data: bytes, name: str) -> None:
@@ -149,7 +163,7 @@ def _refuse_others(data: bytes, name: str) -> None:
         raise InputError(
             f"{name}: this is not a DXF file, no section begins in it; export the drawing as DXF (ASCII or binary)."
         )
-    if b"EOF" not in data[-_TAIL:]:
+    if not _has_end(data):
         raise InputError(
             f"{name}: the DXF is cut short, its end mark EOF is missing after {len(data)} bytes; copy or export it "
             "again."
@@ -157,29 +171,10 @@ def _refuse_others(data: bytes, name: str) -> None:
     _refuse_endless_curves(data, name)
 
 
-def _with_one_section(data: bytes) -> bytes:
-    """Return a file with the entities of all its sections of them in the first one: the library keeps one alone."""
-    begins = list(_ENTITIES.finditer(data)) if data.count(b"ENTITIES") > 1 else []
-    if len(begins) > 1:
-        file_end = _FILE_END.search(data, begins[0].end())
-        begins = [each for each in begins if file_end is None or each.start() < file_end.start()]
-    ends = [_SECTION_END.search(data, begin.end()) for begin in begins]
-    sections = [(begin, end) for begin, end in zip(begins, ends, strict=True) if end is not None]
-    if len(sections) < 2:
-        return data
-    parts = [data[: sections[0][0].end()], *(data[begin.end() : end.start()] for begin, end in sections)]
-    first, *others = sections
-    at = first[1].start()
-    for begin, end in others:
-        parts.append(data[at : begin.start()])
-        at = end.end()
-    return b"".join([*parts, data[at:]])
-
-
 def _refuse_endless_curves(data: bytes, name: str) -> None:
     """Refuse splines and polylines of more points than are read, before the library makes objects of them all."""
     at = 0
-    for word in re.finditer(rb"(?:LWPOLY|SP)LINE", data):
+    for word in _OF_MANY_POINTS.finditer(data):
         begin = data.rfind(b"\n", 0, max(data.rfind(b"\n", 0, word.start()), 0)) + 1
         found = _ENDLESS.match(data, begin) if word.start() >= at else None
         if found is None:
@@ -187,7 +182,7 @@ def _refuse_endless_curves(data: bytes, name: str) -> None:
         at = found.end()
         if found.end() - found.start() > _SUSPECT:
             kinds = Counter(each[1] for each in _POINT.finditer(found[0]))
-            most, what = (MOST_POINTS, "spline") if found[1] == b"SPLINE" else (MOST_CURVES, "polyline")
+            most, what = (MOST_POINTS, "spline") if found[1].upper() == b"SPLINE" else (MOST_CURVES, "polyline")
             if kinds and max(kinds.values()) > most:
                 line = data.count(b"\n", 0, found.start()) + 1
                 raise InputError(f"{name}:{line}: {too_many(max(kinds.values()), most, what)}")
@@ -197,7 +192,6 @@ def _load_sound(data: bytes, repaired: int) -> LoadedDocument:
     """Return the document of a file in which so many faults were repaired before."""
     load_ezdxf()
     from ezdxf.lldxf.encoding import decode_dxf_unicode
-    from ezdxf.lldxf.loader import load_dxf_structure
     from ezdxf.lldxf.tagger import ascii_tags_loader, binary_tags_loader, tag_compiler
 
     if data.startswith(_BINARY):
@@ -208,7 +202,7 @@ def _load_sound(data: bytes, repaired: int) -> LoadedDocument:
     else:
         text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
         tags = ascii_tags_loader(io.StringIO(text, newline=None))
-    sections = load_dxf_structure(tag_compiler(iter(tags)))
+    sections = sections_of(tag_compiler(tidied(tags)))
     repeated = without_repeated(sections)
     return LoadedDocument(_probed(_document(sections)), repaired, repeated)
 
@@ -217,9 +211,9 @@ def _load_damaged(data: bytes) -> LoadedDocument:
     """Return the document of a damaged file."""
     load_ezdxf()
     from ezdxf.audit import Auditor
-    from ezdxf.recover import Recover
+    from ezdxf.recover import Recover, bytes_loader
 
-    found = Recover.run(io.BytesIO(data))
+    found = Recover.run(io.BytesIO(data), lambda stream: tidied(bytes_loader(stream)))
     repeated = without_repeated(found.section_dict)
     subclass_marks.put_in(found.section_dict)
     unreadable = subclass_marks.without_unreadable(found.section_dict)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from .sections import Sections, with_block_ends
+
 _OWN = {
     "LWPOLYLINE": "AcDbPolyline",
     "SPLINE": "AcDbSpline",
@@ -31,18 +33,16 @@ _SEQUENCE_END, _PARTS_FOLLOW = "SEQEND", 66
 _R12, _R2000 = "AC1009", "AC1015"
 _VERSION = "$ACADVER"
 
-Sections = dict[str, list[Any]]
-"""Of a file by name: each the entities of the library, as tags of codes and values."""
-
 
 def put_in(sections: Sections) -> None:
-    """Give the entities that are read by their marks those that they lack, sequences the ends that they lack, and take
-    away handles that are none, in whose place the library makes new ones.
+    """Give the entities that are read by their marks those that they lack, sequences and blocks the ends that they
+    lack, and take away handles that are none, in whose place the library makes new ones.
 
     A file that names no version is R12 for the library, where no mark is looked at; one that has entities of later
     versions all the same is taken for one of R2000.
     """
-    kinds = set()
+    kinds, blocks = set(), sections.get("BLOCKS", [])
+    blocks[:] = with_block_ends(blocks)
     for entities in _drawn(sections):
         entities[:] = _with_sequence_ends(entities)
         for at, tags in enumerate(entities):

@@ -1,0 +1,122 @@
+"""Drawings as tolerant programs read them: words in any letters, blanks round words and names, sections that come
+several times, blocks without an end mark, and whatever follows the end.
+"""
+
+from collections.abc import Callable
+
+import pytest
+
+from app.formats.drawing import Drawing
+from app.formats.dxf.dxf import read_dxf
+
+Pairs = list[tuple[int, object]]
+
+
+def section(name: str, *pairs: tuple[int, object]) -> Pairs:
+    """Return a section."""
+    return [(0, "SECTION"), (2, name), *pairs, (0, "ENDSEC")]
+
+
+def layer(name: str, flags: int, colour: int) -> Pairs:
+    """Return a table of one layer."""
+    return [(0, "TABLE"), (2, "LAYER"), (70, 1), (0, "LAYER"), (2, name), (70, flags), (62, colour), (0, "ENDTAB")]
+
+
+def block(name: str, *drawn: tuple[int, object]) -> Pairs:
+    """Return a block."""
+    return [(0, "BLOCK"), (8, "0"), (2, name), (70, 0), (10, 0.0), (20, 0.0), *drawn, (0, "ENDBLK")]
+
+
+def line(y: float, on: str) -> Pairs:
+    """Return a line of 5 mm."""
+    return [(0, "LINE"), (8, on), (10, 0.0), (20, y), (11, 5.0), (21, y)]
+
+
+def insert(name: str) -> Pairs:
+    """Return a block that is inserted."""
+    return [(0, "INSERT"), (8, "0"), (2, name), (10, 20.0), (20, 0.0)]
+
+
+HEADER = section("HEADER", (9, "$INSUNITS"), (70, 4))
+TABLES = section("TABLES", *layer("Frozen", 1, 1), *layer("Off", 0, -1))
+INNER, OUTER = block("Inner", *line(1.0, "0")), block("Outer", *insert("Inner"), *line(2.0, "Off"))
+DRAWN = (*line(7.0, "0"), *line(8.0, "Off"), *line(9.0, "Frozen"), *insert("Outer"))
+WHOLE = [*HEADER, *TABLES, *section("BLOCKS", *INNER, *OUTER), *section("ENTITIES", *DRAWN), (0, "EOF")]
+WORDS = {"HEADER", "TABLES", "BLOCKS", "ENTITIES", "LAYER"}
+
+
+def text(pairs: Pairs, pair: Callable[[int, object], str] = "{0}\n{1}\n".format) -> bytes:
+    """Return a file."""
+    return "".join(pair(code, value) for code, value in pairs).encode()
+
+
+def read(data: bytes) -> tuple[list[tuple[str, object]], list[object], list[str]]:
+    """Return the curves, the layers, and the findings that count."""
+    drawing: Drawing = read_dxf(data, "a.dxf")
+    part = drawing.part
+    curves: list[tuple[str, object]] = [(each.layer.casefold(), each.curve) for each in part.entities]
+    layers: list[object] = [(each.name.casefold(), each.visible) for each in part.layers]
+    return curves, sorted(layers, key=str), [each.text for each in drawing.findings if each.counts]
+
+
+def small(code: int, value: object) -> str:
+    """Return a pair in small letters."""
+    return f"{code}\n{str(value).lower()}\n"
+
+
+def small_words(code: int, value: object) -> str:
+    """Return a pair with words of the format in small letters."""
+    return f"{code}\n{str(value).lower() if code == 0 or value in WORDS else value}\n"
+
+
+ALIKE = {
+    "small letters": text(WHOLE, small),
+    "small words": text(WHOLE, small_words),
+    "blanks behind": text(WHOLE, "{0}  \n{1}  \n".format),
+    "blanks before": text(WHOLE, "  {0}\n  {1}\n".format),
+    "codes of three digits": text(WHOLE, "{0:03}\n{1}\n".format),
+    "carriage returns": text(WHOLE, "{0}\r{1}\r".format),
+    "carriage returns and one line feed": text(WHOLE, "{0}\r{1}\r".format) + b"\n",
+    "tables apart": text(
+        [
+            *HEADER,
+            *section("TABLES", *layer("Frozen", 1, 1)),
+            *section("TABLES", *layer("Off", 0, -1)),
+            *section("BLOCKS", *INNER, *OUTER),
+            *section("ENTITIES", *DRAWN),
+            (0, "EOF"),
+        ]
+    ),
+    "blocks apart": text(
+        [
+            *HEADER,
+            *TABLES,
+            *section("BLOCKS", *INNER),
+            *section("BLOCKS", *OUTER),
+            *section("ENTITIES", *DRAWN),
+            (0, "EOF"),
+        ]
+    ),
+    "headers apart": text([*HEADER, *section("HEADER", (9, "$LIMMIN"), (10, 0.0), (20, 0.0)), *WHOLE[len(HEADER) :]]),
+    "blocks without an end": text([pair for pair in WHOLE if pair[1] != "ENDBLK"]),
+    "zeros behind": text(WHOLE) + bytes(9000),
+    "a text behind": text(WHOLE) + b"of another file\n" * 900,
+}
+
+
+@pytest.mark.parametrize("way", ALIKE)
+def test_a_drawing_is_read_as_if_it_were_written_plainly(way: str) -> None:
+    curves, layers, counted = read(text(WHOLE))
+    assert len(curves) == 5 and not counted and ("off", False) in layers and ("frozen", False) in layers
+    assert read(ALIKE[way]) == (curves, layers, [])
+
+
+def test_what_stands_outside_of_all_sections_is_told() -> None:
+    _, _, counted = read(text([*HEADER, *section("ENTITIES", *line(1.0, "0")), *line(2.0, "0"), (0, "EOF")]))
+    assert len(counted) == 1 and "damaged" in counted[0]
+
+
+def test_letters_of_a_file_of_carriage_returns_are_those_of_its_encoding() -> None:
+    head = section("HEADER", (9, "$ACADVER"), (1, "AC1032"))
+    curves, _, _ = read(text([*head, *section("ENTITIES", *line(1.0, "Schräge")), (0, "EOF")], "{0}\r{1}\r".format))
+    assert [name for name, _ in curves] == ["schräge"]
