@@ -65,7 +65,7 @@ def sections_of(tags: Iterable[Any]) -> Sections:
             section = sections.setdefault(entity[1].value, [])
             _begin(section, entity)
         elif word in ("SECTION", "EOF") or section is None:
-            raise DXFStructureError(f"{word} is where no {word} can be")
+            raise DXFStructureError(f"the mark {word} stands where none can be")
         elif word == "ENDSEC":
             section = None
         else:
