@@ -13,6 +13,7 @@ from .colours import colour, is_clear
 from .lengths import MEDIUM, letter_height, size_of_font
 from .selectors import Selector, Specificity, keys_of, selector
 from .style_rules import imported, is_on_screen, without_comments, written_rules
+from .transforms import INDIVIDUAL, written_transform
 from .xml import Node
 
 _READ = (
@@ -46,8 +47,11 @@ _READ = (
 _GEOMETRY = ("x", "y", "width", "height", "cx", "cy", "r", "rx", "ry")
 """Places and sizes of shapes, which a style sheet may give in the place of attributes."""
 
-_UNFOLLOWED = ("translate", "rotate", "scale", "offset-path", "d")
+_UNFOLLOWED = ("offset-path", "d")
 """What a style sheet may say of a shape's place and form that is not read; as attributes they are something else."""
+
+_OF_SHEETS = frozenset((*_READ, *_GEOMETRY, *_UNFOLLOWED, *INDIVIDUAL))
+"""What is read of style sheets."""
 
 _COLOURS = ("fill", "stroke", "color")
 
@@ -63,7 +67,6 @@ _LETTERS = ("color", "font-size", "font")
 _OF_THE_MOMENT = re.compile(r":(?:hover|active|focus|visited|link|target|before|after|selection)\b|::", re.IGNORECASE)
 """What a drawing looks like under the mouse or in letters; it says nothing of its shapes."""
 
-_UNITS = re.compile(r"(?<=[\d.])(?:px|deg)\b")
 _IMPORTANT = re.compile(r"!\s*important", re.IGNORECASE)
 
 
@@ -78,12 +81,12 @@ class SvgStyle:
         clips: its own clip and mask, as written. clip_evenodd: in a clip, areas are by that rule.
         overflow: of what it draws beyond its viewport, as written. alpha_mask: a mask of what is opaque, not light.
         faint: it is painted with some opacity between none and all, or that is not known.
-        transform: the element's own, as the attribute would have it; "" for none.
+        transform: all of the element's own, one after another; "" for none.
         origin: what that is about, if not the origin of coordinates, as written.
         variables: by name, --x, with what elements round it have set.
         geometry: places and sizes that style sheets give the element itself.
         em, rem: height of its letters, and of the root's, user units, which lengths may be in.
-        box: what the origin's shares are of, as written. evenodd: areas are filled by that rule.
+        box: what the origin lies in, as written. evenodd: areas are filled by that rule.
         width: of the outline, as written, "" = not said. scales: it grows with the drawing. dashed: it has gaps.
         markers: values of the properties that put arrowheads and the like on it.
         unfollowed: what is said of its place or form and not read.
@@ -232,7 +235,7 @@ def declarations(text: str) -> Iterator[Declaration]:
         key, _, value = part.partition(":")
         name, kept = key.strip(), _IMPORTANT.sub("", value).strip()
         name = name if name.startswith("--") else name.lower()
-        if kept and (name in _READ or name in _GEOMETRY or name in _UNFOLLOWED or name.startswith("--")):
+        if kept and (name in _OF_SHEETS or name.startswith("--")):
             yield Declaration(name, kept, kept != value.strip())
 
 
@@ -301,7 +304,7 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
         overflow=declared.get("overflow", ""),
         alpha_mask=declared.get("mask-type") == "alpha",
         faint=outer.faint or any(opacity.strip() not in ("1", "1.0", "100%") for opacity in opacities),
-        transform=_UNITS.sub("", declared.get("transform", "")),
+        transform=written_transform(declared),
         origin=declared.get("transform-origin", ""),
         variables=variables,
         geometry={key: declared[key] for key in _GEOMETRY if key in declared},

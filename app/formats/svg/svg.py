@@ -106,9 +106,11 @@ def read_svg(
         return usable_curves(content.curves, None, _anchors(content, layers, how.without_layers) if to_zero else None)
 
     found = placed(how.to_zero)
-    left_out = +(
-        content.left_out + found.missing + Counter({LeftOutSort("shape of unreadable length"): len(content.unread)})
-    )
+    unread = {
+        LeftOutSort("shape of unreadable length"): len(content.unread),
+        LeftOutSort("element of unreadable transform"): len(content.unplaced),
+    }
+    left_out = +(content.left_out + found.missing + Counter(unread))
     if not found.entities:
         why = (
             "all of the drawing lies beyond 1 km"
