@@ -21,7 +21,6 @@ from ..drawing import LeftOutReason, LeftOutSort
 from ..drawing_account import MOST_CURVES, LayeredCurve
 from ..dxf.splines import MOST_POINTS
 from .clips import Clip, ClipReader, Seen, covers, seen_of, viewport_clip
-from .generator import INKSCAPE, SODIPODI
 from .joined import beziers_joined, joined
 from .lengths import FONT_LENGTH, LengthBasis, Viewport
 from .numbers import UnreadableError, ViewBox, fitted, view_box
@@ -31,9 +30,9 @@ from .shapes import LENGTHS, SHAPES, measure, shape
 from .strokes import PaintedOutlines, origin
 from .style import StyleSheet, SvgStyle
 from .transforms import UnplacedError, transform
-from .xml import DEEPEST, Node
+from .xml import DEEPEST, INKSCAPE, LINK, SODIPODI, Node
 
-_LINK = "http://www.w3.org/1999/xlink href"
+_LINK = f"{LINK} href"
 _NOT_CURVES = ("image", "foreignObject", "video", "audio", "iframe", "canvas")
 TEXTS = ("text", "flowRoot")
 BLACK, WHITE = "#000000", "#ffffff"
@@ -41,6 +40,7 @@ _GROUND = 1e-3
 """By so much of a page its ground may be too small."""
 _TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
 _ENGLISH = re.compile(r"(?:^|,)\s*en\b", re.IGNORECASE)
+_SIGN = re.compile(r"_x([0-9A-Fa-f]{2}|[0-9A-Fa-f]{4})_")
 _BREAK = re.compile(r"[\x00-\x1f]+")
 
 
@@ -310,7 +310,8 @@ class SvgWalker:
         """
         if node.tag != "g" or (not _is_layer(node) if self._named_layers else depth > 0):
             return ""
-        labels = (_BREAK.sub(" ", node.attributes.get(key, "")) for key in (f"{INKSCAPE} label", "data-name", "id"))
+        own = (node.attributes.get(key, "") for key in (f"{INKSCAPE} label", "data-name"))
+        labels = (_BREAK.sub(" ", each) for each in (*own, _decoded(node.attributes.get("id", ""))))
         return next((label for label in labels if label.strip()), "layer" if self._named_layers else "")
 
     def _use(self, node: Node, state: InheritedState) -> None:
@@ -492,6 +493,11 @@ def _moves(written: str) -> bool:
 def _of_font(node: Node) -> bool:
     """True where a place or size of a shape that is read depends on what a font is like."""
     return any(FONT_LENGTH.search(node.attributes.get(key, "")) for key in LENGTHS)
+
+
+def _decoded(name: str) -> str:
+    """Return the name of an element as it was typed: some editors write what no name may have as _x0020_."""
+    return _SIGN.sub(lambda sign: chr(int(sign[1], 16)), name)
 
 
 def _is_layer(node: Node) -> bool:
