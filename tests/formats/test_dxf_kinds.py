@@ -166,7 +166,7 @@ def test_a_block_of_which_a_clip_hides_something_is_told(
         document.modelspace().add_blockref("OUTER", (0, 0))
     counted = [each for each in read(document).findings if each.counts]
     assert [each.amount for each in counted] == ([float(cut)] if cut else [])
-    assert all("clipped" in each.text and (each.x, each.y) == (20.0, 5.0) for each in counted)
+    assert all("clipped" in each.text and (each.x, each.y) == pytest.approx((20.0, 5.0)) for each in counted)
 
 
 def test_a_clip_that_is_switched_off_hides_nothing() -> None:

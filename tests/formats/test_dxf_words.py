@@ -120,3 +120,45 @@ def test_letters_of_a_file_of_carriage_returns_are_those_of_its_encoding() -> No
     head = section("HEADER", (9, "$ACADVER"), (1, "AC1032"))
     curves, _, _ = read(text([*head, *section("ENTITIES", *line(1.0, "Schräge")), (0, "EOF")], "{0}\r{1}\r".format))
     assert [name for name, _ in curves] == ["schräge"]
+
+
+STRAY = line(3.0, "0")
+STRAYS = {
+    "between blocks": section("BLOCKS", *INNER, *STRAY, *OUTER),
+    "before the blocks": section("BLOCKS", *STRAY, *INNER, *OUTER),
+    "behind the blocks": section("BLOCKS", *INNER, *OUTER, *STRAY),
+    "among objects": [*section("BLOCKS", *INNER, *OUTER), *section("OBJECTS", (0, "DICTIONARY"), (5, "C"), *STRAY)],
+    "in the header": [*section("BLOCKS", *INNER, *OUTER), *section("HEADER", *STRAY)],
+    "in a section that nobody knows": [*section("BLOCKS", *INNER, *OUTER), *section("ENTITES", *STRAY)],
+}
+
+
+@pytest.mark.parametrize("where", STRAYS)
+def test_what_is_drawn_where_nobody_looks_is_told(where: str) -> None:
+    curves, _, counted = read(text([*HEADER, *TABLES, *STRAYS[where], *section("ENTITIES", *DRAWN), (0, "EOF")]))
+    assert len(curves) == 5 and len(counted) == 1
+    assert counted[0].startswith("1 entity stands outside of the drawing and its blocks (1 LINE) and is missing")
+
+
+def test_an_end_mark_where_nothing_ends_is_nothing() -> None:
+    _, _, counted = read(text([*HEADER, *section("ENTITIES", *line(1.0, "0"), (0, "SEQEND"), (8, "0")), (0, "EOF")]))
+    assert not counted
+
+
+PLACE: Pairs = [(8, "0"), (10, 1.0), (20, 2.0)]
+LACKING: dict[str, Pairs] = {
+    "LINE": PLACE,
+    "CIRCLE": PLACE,
+    "ARC": [*PLACE, (40, 3.0), (50, 30.0)],
+    "ELLIPSE": [*PLACE, (11, 5.0), (21, 0.0)],
+    "POINT": [(8, "0")],
+    "POLYLINE": [(8, "0"), (0, "VERTEX"), *PLACE, (0, "VERTEX"), (8, "0"), (0, "SEQEND")],
+}
+
+
+@pytest.mark.parametrize("kind", LACKING)
+def test_an_entity_that_lacks_a_number_is_missing_never_drawn_with_one_that_nobody_wrote(kind: str) -> None:
+    data = text([*HEADER, *section("ENTITIES", *line(1.0, "0"), (0, kind), *LACKING[kind]), (0, "EOF")])
+    drawing = read_dxf(data, "a.dxf")
+    assert len(drawing.part.entities) == 1 and not drawing.part.notes
+    assert dict(drawing.left_out) == {f"{kind} (damaged)": 1} and any(each.counts for each in drawing.findings)

@@ -269,7 +269,7 @@ class DxfWalker:
         elif kind == "INSERT":
             self._insert(entity, content)
         elif kind == "POINT":
-            x, y, _ = entity.dxf.location
+            x, y, _ = entity.dxf.get("location")  # the library has the origin for a place that is not told
             content.points.append(LayeredPoint((float(x), float(y)), entity.dxf.layer))
         elif kind == "ATTDEF" and self._open and entity.is_const and entity.is_invisible:
             content.left_out[LeftOutSort("ATTDEF", LeftOutReason.INVISIBLE)] += 1
@@ -370,7 +370,7 @@ class DxfWalker:
             for at, layer in points
         ]
         if hides(insert, inner.drawn()):
-            content.clipped.append(ClippedBlock(insert.dxf.name, copies[0].point((0.0, 0.0))))
+            content.clipped.append(ClippedBlock(insert.dxf.name, _inserted_at(insert, copies[0])))
         for place in copies:
             self._copy(inner, place, insert.dxf.layer, content, float(insert.dxf.insert.z))
         self._attributes(insert, copies, content)
@@ -476,7 +476,13 @@ def _is_outside(block: Any) -> bool:
 
 
 def _origins(insert: Any) -> list[Point]:
-    return [place.point((0.0, 0.0)) for place in _places(insert)[:1]]
+    return [_inserted_at(insert, place) for place in _places(insert)[:1]]
+
+
+def _inserted_at(insert: Any, place: Affine) -> Point:
+    """Return where the base point of a block comes to lie."""
+    base = insert.block().block.dxf.base_point
+    return place.point((float(base.x), float(base.y)))
 
 
 def _places(insert: Any) -> list[Affine]:

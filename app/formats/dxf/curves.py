@@ -15,6 +15,13 @@ from .splines import spline_curve
 _STRAIGHT = 1e-9
 """A bulge below this bends a segment by less than its length's rounding."""
 _UNBROKEN = ("", "continuous", "bylayer", "byblock")
+_NEEDED = {
+    "LINE": ("start", "end"),
+    "CIRCLE": ("center", "radius"),
+    "ARC": ("center", "radius", "start_angle", "end_angle"),
+    "ELLIPSE": ("center", "major_axis", "ratio"),
+}
+"""What each kind has to tell, its place first."""
 _SPLINE_FRAME = 16
 """Flag of a POLYLINE vertex that only steers the curve and is not on it."""
 
@@ -41,8 +48,19 @@ def curves_of(entity: Any) -> list[Curve] | None:
         DamagedCurveError: it cannot be drawn.
         NegativeRadiusError: its radius is below 0.
     """
-    reader = _READERS.get(entity.dxftype())
+    kind = entity.dxftype()
+    if not all(
+        map(entity.dxf.hasattr, _NEEDED.get(kind, ()))
+    ):  # the library has numbers of its own for what is not told
+        raise DamagedCurveError(_place_of(entity, kind))
+    reader = _READERS.get(kind)
     return None if reader is None else reader(entity)
+
+
+def _place_of(entity: Any, kind: str) -> Point | None:
+    """Return where an entity is that lacks something; None where just that is missing."""
+    key = _NEEDED[kind][0]
+    return _flat(entity.dxf.get(key)) if entity.dxf.hasattr(key) else None
 
 
 def heights_of(entity: Any) -> Iterable[float]:
@@ -174,7 +192,7 @@ def _polyline(entity: Any) -> list[Curve] | None:
     if not shown and len(entity.vertices) > 1:  # the curve that its frame steers is not in the file
         raise DamagedCurveError(_flat(entity.vertices[0].dxf.location))
     flat = entity.is_2d_polyline
-    vertices = [(_flat(v.location), float(v.bulge) if flat else 0.0) for v in shown]
+    vertices = [(_flat(v.get("location")), float(v.bulge) if flat else 0.0) for v in shown]
     segments = segments_of(vertices, entity.is_closed)
     return placed_in(entity, entity.dxf.elevation.z, segments) if flat else segments
 

@@ -60,6 +60,7 @@ from .findings import (
     layer_findings,
     negative_radius_findings,
     repeated_findings,
+    stray_findings,
     text_findings,
 )
 from .letters import TextCurves
@@ -153,6 +154,7 @@ def read_dxf(
         *comma_findings(loaded.commas),
         *_damage(loaded.repaired),
         *repeated_findings(loaded.repeated),
+        *stray_findings(loaded.strays),
         *placement_findings(found),
         *negative_radius_findings(content, unit.size),
         *about_unread(content, unit.size),

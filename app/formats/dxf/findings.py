@@ -273,3 +273,18 @@ def repeated_findings(names: tuple[str, ...]) -> Iterator[Finding]:
             "program."
         )
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(names)))
+
+
+def stray_findings(strays: Mapping[str, int]) -> Iterator[Finding]:
+    """Count what stands in a file where nothing is drawn; `strays`: how many of each type."""
+    count = sum(strays.values())
+    if count:
+        kinds = together([f"{number} {kind}" for kind, number in strays.items()])
+        text = (
+            f"1 entity stands outside of the drawing and its blocks ({kinds}) and is missing from the part; save the "
+            "drawing again from the CAD program."
+            if count == 1
+            else f"{count} entities stand outside of the drawing and its blocks ({kinds}) and are missing from the "
+            "part; save the drawing again from the CAD program."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(count))

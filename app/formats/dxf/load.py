@@ -8,7 +8,8 @@ import logging
 import re
 import sys
 from collections import Counter
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from types import ModuleType
 from typing import Any
@@ -18,7 +19,7 @@ from ..drawing_account import MOST_CURVES
 from . import subclass_marks
 from .numbers import NO_COMMAS, DecimalCommas, with_points
 from .repeated_blocks import without_repeated
-from .sections import sections_of, tidied
+from .sections import sections_of, strays_of, tidied
 from .splines import MOST_POINTS, too_many
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
@@ -68,12 +69,14 @@ class LoadedDocument:
     Attributes:
         repaired: how many faults in it had to be repaired.
         repeated: names of blocks that are there once more, which is left out.
+        strays: what stands where nothing is drawn, by its type.
         commas: where decimal commas stood, if they did.
     """
 
     document: Any
     repaired: int = 0
     repeated: tuple[str, ...] = ()
+    strays: Mapping[str, int] = field(default_factory=dict)
     commas: DecimalCommas = NO_COMMAS
 
 
@@ -203,8 +206,8 @@ def _load_sound(data: bytes, repaired: int) -> LoadedDocument:
         text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
         tags = ascii_tags_loader(io.StringIO(text, newline=None))
     sections = sections_of(tag_compiler(tidied(tags)))
-    repeated = without_repeated(sections)
-    return LoadedDocument(_probed(_document(sections)), repaired, repeated)
+    repeated, strays = without_repeated(sections), strays_of(sections)
+    return LoadedDocument(_probed(_document(sections)), repaired, repeated, strays)
 
 
 def _load_damaged(data: bytes) -> LoadedDocument:
@@ -214,14 +217,15 @@ def _load_damaged(data: bytes) -> LoadedDocument:
     from ezdxf.recover import Recover, bytes_loader
 
     found = Recover.run(io.BytesIO(data), lambda stream: tidied(bytes_loader(stream)))
-    repeated = without_repeated(found.section_dict)
+    repeated, strays = without_repeated(found.section_dict), strays_of(found.section_dict)
     subclass_marks.put_in(found.section_dict)
     unreadable = subclass_marks.without_unreadable(found.section_dict)
     document = _document(found.section_dict)
     auditor = Auditor(document)
     auditor.run()
     told = len(found.errors) + len(found.fixes)
-    return LoadedDocument(document, unreadable + told + len(auditor.errors) + len(auditor.fixes), repeated)
+    faults = unreadable + told + len(auditor.errors) + len(auditor.fixes)
+    return LoadedDocument(document, faults, repeated, strays)
 
 
 def _document(sections: Any) -> Any:

@@ -4,6 +4,7 @@ sections that come several times, blocks without an end mark.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import Any
 
@@ -19,6 +20,13 @@ _WORD, _NAME, _VARIABLE, _MARK = 0, 2, 9, 100
 _NAMED = frozenset({"SECTION", "TABLE", b"SECTION", b"TABLE"})
 """Words behind which a name of the format itself follows, as text or as bytes."""
 _ENDS = frozenset({"EOF", b"EOF"})
+_DRAWN = frozenset(
+    (
+        *("LINE", "ARC", "CIRCLE", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "HELIX", "MLINE", "INSERT", "POINT"),
+        *("TEXT", "MTEXT", "HATCH", "SOLID", "TRACE", "REGION", "BODY", "3DSOLID", "3DFACE", "MESH"),
+    )
+)
+"""Types of entities that somebody sees."""
 
 
 def tidied(tags: Iterable[Any]) -> Iterator[Any]:
@@ -95,3 +103,21 @@ def with_block_ends(entities: list[Any]) -> Iterator[Any]:
         yield tags
     if is_open:
         yield Tags([DXFTag(_WORD, "ENDBLK")])
+
+
+def strays_of(sections: Sections) -> Counter[str]:
+    """Count by type what would be drawn, had it not been put where nothing is: in another section than those of
+    entities and blocks, or beside the blocks.
+    """
+    elsewhere = [tags for name, section in sections.items() if name not in ("ENTITIES", "BLOCKS") for tags in section]
+    words = [tags[0].value for tags in (*elsewhere, *_beside_blocks(sections.get("BLOCKS", [])))]
+    return Counter(word for word in words if word in _DRAWN)
+
+
+def _beside_blocks(entities: list[Any]) -> Iterator[Any]:
+    is_open = False
+    for tags in entities:
+        word = tags[0].value
+        if not is_open:
+            yield tags
+        is_open = word == "BLOCK" or (is_open and word != "ENDBLK")

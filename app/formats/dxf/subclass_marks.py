@@ -93,7 +93,9 @@ def _drawn(sections: Sections) -> Iterator[list[Any]]:
 
 
 def _with_sequence_ends(entities: list[Any]) -> Iterator[Any]:
-    """Yield entities with the end mark of each sequence of vertices or attributes that lacks it."""
+    """Yield entities with the end mark of each sequence of vertices or attributes that lacks it, and without such marks
+    where nothing ends.
+    """
     from ezdxf.lldxf.tags import Tags
     from ezdxf.lldxf.types import DXFTag
 
@@ -102,9 +104,10 @@ def _with_sequence_ends(entities: list[Any]) -> Iterator[Any]:
         kind = tags[0].value
         if follows and kind not in (follows, _SEQUENCE_END):
             yield Tags([DXFTag(0, _SEQUENCE_END)])
+        if follows or kind != _SEQUENCE_END:
+            yield tags
         if kind != follows:
             follows = _following(tags)
-        yield tags
     if follows:
         yield Tags([DXFTag(0, _SEQUENCE_END)])
 
