@@ -116,6 +116,53 @@ def test_what_stands_outside_of_all_sections_is_told() -> None:
     assert len(counted) == 1 and "damaged" in counted[0]
 
 
+PAGES = {
+    "ANSI_932": ("cp932", "外形ソ表ﾃｱ"),
+    "DOS932": ("cp932", "外形"),
+    "GB2312": ("gbk", "轮廓"),
+    "BIG5": ("cp950", "輪廓"),
+    "ANSI_1361": ("johab", "윤곽"),
+    "DOS850": ("cp850", "schräge"),
+    "dos866": ("cp866", "контур"),
+    "ISO8859-2": ("iso8859-2", "žluť"),
+    "ISO-8859-15": ("iso8859-15", "žœ€"),
+    "MACINTOSH": ("mac-roman", "schräge"),
+    "ANSI_1252": ("cp1252", "schräge"),
+    "UTF-8": ("utf-8", "外形"),
+}
+
+
+@pytest.mark.parametrize("version", ["AC1009", "AC1015"])
+@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.parametrize("damaged", [False, True])
+def test_letters_are_those_of_the_code_page_that_is_named(page: str, version: str, damaged: bool) -> None:
+    encoding, name = PAGES[page]
+    head = section("HEADER", (9, "$ACADVER"), (1, version), (9, "$DWGCODEPAGE"), (3, page))
+    drawn = section("ENTITIES", *line(1.0, name))
+    curves, _, counted = read(text([*head, *drawn[: len(drawn) - damaged], (0, "EOF")]).decode().encode(encoding))
+    assert [layer for layer, _ in curves] == [name] and len(counted) == damaged
+
+
+@pytest.mark.parametrize(
+    ("version", "page", "encoding", "name"),
+    [
+        ("AC1009", "", "utf-8", "外形"),
+        ("AC1015", "ANSI_1252", "utf-8", "schräge"),
+        ("AC1015", "ANSI_932", "utf-8", "外形"),
+        ("AC1032", "ANSI_932", "cp932", "外形"),
+        ("AC1032", "", "cp1252", "schräge"),
+        ("AC1015", "NONSENSE", "cp1252", "schräge"),
+    ],
+)
+def test_letters_that_are_not_in_the_code_page_told_are_read_as_they_are(
+    version: str, page: str, encoding: str, name: str
+) -> None:
+    told: Pairs = [(9, "$DWGCODEPAGE"), (3, page)] if page else []
+    head = section("HEADER", (9, "$ACADVER"), (1, version), *told)
+    data = text([*head, *section("ENTITIES", *line(1.0, name)), (0, "EOF")]).decode().encode(encoding)
+    assert [layer for layer, _ in read(data)[0]] == [name]
+
+
 def test_letters_of_a_file_of_carriage_returns_are_those_of_its_encoding() -> None:
     head = section("HEADER", (9, "$ACADVER"), (1, "AC1032"))
     curves, _, _ = read(text([*head, *section("ENTITIES", *line(1.0, "Schräge")), (0, "EOF")], "{0}\r{1}\r".format))

@@ -49,6 +49,7 @@ from ..reading_question import (
     units_question,
 )
 from .blocks import DrawnCurves, DxfContent, DxfWalker, all_drawn
+from .code_pages import with_told_letters
 from .findings import (
     about_unread,
     band_findings,
@@ -64,7 +65,7 @@ from .findings import (
     text_findings,
 )
 from .letters import TextCurves
-from .load import layout_named, load, paper, without_byte_order
+from .load import layout_named, load, paper
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     1: (25.4, Units.INCH),
@@ -117,7 +118,7 @@ def read_dxf(
     Raises:
         InputError: the file is no usable DXF, has no curves, or has not one of the layers or the layout.
     """
-    data = without_byte_order(data)
+    data = with_told_letters(data)
     loaded = load(data, name)
     document, reading = loaded.document, ReadingOptions(units, layers, how)
     unit = _unit(document, data, units, how.overrule)

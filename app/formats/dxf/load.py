@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import io
 import logging
 import re
@@ -17,6 +16,7 @@ from typing import Any
 from ...core.errors import InputError
 from ..drawing_account import MOST_CURVES
 from . import subclass_marks
+from .code_pages import HEAD, MOST_BYTES, encoding, plain_letters
 from .numbers import NO_COMMAS, DecimalCommas, with_points
 from .repeated_blocks import without_repeated
 from .sections import sections_of, strays_of, tidied
@@ -35,20 +35,10 @@ _FILE_END = re.compile(rb"^[ \t]*0+[ \t]*\r?\n[ \t]*EOF\b", _LINES)
 _WHOLE = re.compile(rb"^[ \t]*0+[ \t]*\r?\n[ \t]*ENDSEC\s*\Z", _LINES)
 _END_MARK = b"\n0\nEOF\n"
 
-_CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*0*3[ \t]*\r?\n[ \t]*(\S+)", _LINES)
-
-_VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*0*1[ \t]*\r?\n[ \t]*(AC\d+)", _LINES)
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to say is in our own findings
 
-_BYTE_ORDERS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
-
-_BEYOND_ASCII = re.compile("[\u0080-\uffff]")
-
-_HEAD, _TAIL = 1 << 16, 1 << 12
-"""Bytes of beginning and end in which what tells the sort of a file has to stand."""
-
-MOST_BYTES = 200 << 20
-"""A larger file would take gigabytes before anything of it is known."""
+_TAIL = 1 << 12
+"""Bytes of the end in which its mark stands."""
 
 _ENDLESS = re.compile(
     rb"^[ \t]*0+[ \t]*\r?\n[ \t]*(SPLINE|LWPOLYLINE)[ \t]*\r?\n(?:[ \t]*0*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", _LINES
@@ -103,27 +93,13 @@ def load(data: bytes, name: str) -> LoadedDocument:
         except Exception as fault:  # it has other faults too
             data, reason = commas.data, fault
     try:
-        loaded = _load_damaged(data)
+        loaded = _load_damaged(data if data.startswith(_BINARY) else plain_letters(data))
         _probed(loaded.document)
     except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
         raise InputError(
             f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); save it again from the CAD program."
         ) from error
     return replace(loaded, repaired=max(1, loaded.repaired), commas=replace(commas, data=b""))
-
-
-def without_byte_order(data: bytes) -> bytes:
-    """Return a file that begins with a mark of the order of its bytes as UTF-8 without one.
-
-    Numbers and lines stay as they are; letters of a file of before R2007 are escaped, since it is in a code page.
-    """
-    mark = next((each for each in _BYTE_ORDERS if data.startswith(each)), None)
-    if mark is None or len(data) > 2 * MOST_BYTES:
-        return data
-    text = data.decode(_BYTE_ORDERS[mark], "replace")
-    if _encoding(text[:_HEAD].encode()) == "utf-8":
-        return text.encode()
-    return _BEYOND_ASCII.sub(lambda letter: f"\\U+{ord(letter[0]):04X}", text).encode()
 
 
 def _with_line_feeds(data: bytes) -> bytes:
@@ -162,7 +138,7 @@ def _refuse_others(data: bytes, name: str) -> None:
         return
     if re.match(rb"AC10\d\d\x00", data):
         raise InputError(f"{name}: this is a DWG file; save the drawing as DXF.")
-    if not _SECTION.search(data[:_HEAD]):
+    if not _SECTION.search(data[:HEAD]):
         raise InputError(
             f"{name}: this is not a DXF file, no section begins in it; export the drawing as DXF (ASCII or binary)."
         )
@@ -200,10 +176,10 @@ def _load_sound(data: bytes, repaired: int) -> LoadedDocument:
     if data.startswith(_BINARY):
         tags = binary_tags_loader(data, errors="surrogateescape")
     elif b"\\U+" not in data:
-        stream = io.TextIOWrapper(io.BytesIO(data), encoding=_encoding(data[:_HEAD]), errors="surrogateescape")
+        stream = io.TextIOWrapper(io.BytesIO(data), encoding=encoding(data[:HEAD]), errors="surrogateescape")
         tags = ascii_tags_loader(stream)
     else:
-        text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
+        text = decode_dxf_unicode(data.decode(encoding(data[:HEAD]), "surrogateescape"))
         tags = ascii_tags_loader(io.StringIO(text, newline=None))
     sections = sections_of(tag_compiler(tidied(tags)))
     repeated, strays = without_repeated(sections), strays_of(sections)
@@ -250,18 +226,6 @@ def _probed(document: Any) -> Any:
     for block in document.blocks:
         _ = block.name, sum(1 for _ in block)
     return document
-
-
-def _encoding(head: bytes) -> str:
-    """Return the text encoding: UTF-8 since R2007, before that the code page that the header names."""
-    version, page = _VERSION.search(head), _CODEPAGE.search(head)
-    if version and version[1] >= b"AC1021":
-        return "utf-8"
-    if page is None:
-        return "cp1252"
-    from ezdxf.tools.codepage import toencoding
-
-    return str(toencoding(page[1].decode("ascii", "replace")))
 
 
 def _short(error: Exception) -> str:
