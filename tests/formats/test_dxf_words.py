@@ -209,3 +209,39 @@ def test_an_entity_that_lacks_a_number_is_missing_never_drawn_with_one_that_nobo
     drawing = read_dxf(data, "a.dxf")
     assert len(drawing.part.entities) == 1 and not drawing.part.notes
     assert dict(drawing.left_out) == {f"{kind} (damaged)": 1} and any(each.counts for each in drawing.findings)
+
+
+CIRCLE: Pairs = [(0, "CIRCLE"), (8, "0"), (10, 9.0), (20, 9.0), (40, 2.0)]
+
+
+@pytest.mark.parametrize("version", ["AC1009", "AC1015"])
+@pytest.mark.parametrize("first", [CIRCLE, line(5.0, "0"), insert("Inner")])
+def test_two_entities_that_have_become_one_are_missing(version: str, first: Pairs) -> None:
+    head = section("HEADER", (9, "$ACADVER"), (1, version))
+    drawn = section("ENTITIES", *line(1.0, "0"), *first, *CIRCLE[1:])
+    drawing = read_dxf(text([*head, *section("BLOCKS", *INNER), *drawn, (0, "EOF")]), "a.dxf")
+    assert len(drawing.part.entities) == 1 and dict(drawing.left_out) == {f"{first[0][1]} (damaged)": 1}
+    assert [each.counts for each in drawing.findings if "cannot be read" in each.text] == [True]
+
+
+def test_a_second_place_in_the_data_of_another_program_is_none_of_the_entity() -> None:
+    more = [(1001, "ACAD"), (1010, 1.0), (1020, 2.0), (1030, 0.0), (1011, 3.0), (1021, 3.0), (1031, 0.0)]
+    curves, _, counted = read(text([*section("ENTITIES", *line(1.0, "0"), *more), (0, "EOF")]))
+    assert len(curves) == 1 and not counted
+
+
+MARKED = [(0, "LWPOLYLINE"), (5, "A1"), (100, "AcDbEntity"), (8, "0"), (100, "AcDbPolyline")]
+CORNERS = [(90, 2), (70, 0), (10, 1.0), (20, 2.0), (10, 3.0), (20, 4.0)]
+
+
+@pytest.mark.parametrize("marks", [MARKED, [*MARKED, MARKED[-1]], [*MARKED[:3], MARKED[2], *MARKED[3:]]])
+def test_marks_that_come_twice_lose_nothing(marks: Pairs) -> None:
+    head = section("HEADER", (9, "$ACADVER"), (1, "AC1015"))
+    curves, _, counted = read(text([*head, *section("ENTITIES", *line(1.0, "0"), *marks, *CORNERS), (0, "EOF")]))
+    assert len(curves) == 2 and not counted
+
+
+@pytest.mark.parametrize("kind", ["LWPOLYLINE", "SPLINE"])
+def test_a_curve_without_any_point_is_missing(kind: str) -> None:
+    drawing = read_dxf(text([*section("ENTITIES", *line(1.0, "0"), (0, kind), (8, "0")), (0, "EOF")]), "a.dxf")
+    assert dict(drawing.left_out) == {f"{kind} (damaged)": 1} and any(each.counts for each in drawing.findings)

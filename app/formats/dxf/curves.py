@@ -182,6 +182,8 @@ def _ellipse(entity: Any) -> list[Curve]:
 
 def _lwpolyline(entity: Any) -> list[Curve]:
     vertices = [((float(x), float(y)), float(bulge)) for x, y, bulge in entity.get_points("xyb")]
+    if not vertices:
+        raise DamagedCurveError(None)
     return placed_in(entity, entity.dxf.elevation, segments_of(vertices, entity.closed))
 
 
@@ -201,7 +203,7 @@ def _spline(entity: Any) -> list[Curve]:
     made = spline_curve(entity)
     if made is None:
         points = [(float(point[0]), float(point[1])) for point in entity.control_points or entity.fit_points]
-        nothing = len(set(points)) <= 1
+        nothing = len(set(points)) == 1
         raise (NoLengthError if nothing else DamagedCurveError)(points[0] if points else None)
     return [made]
 
