@@ -68,3 +68,16 @@ def test_encoded_names_of_layers_are_as_they_were_typed(name: str, meant: str) -
 def test_a_page_is_as_large_as_attributes_or_style_sheets_say_in_real_units(page: str, wide: float) -> None:
     drawing = read_svg(f'<svg {NS} viewBox="0 0 10 10" {page}>{RECT}</svg>'.encode())
     assert size_of(drawing.part)[0] == pytest.approx(wide) and drawing.units_named is ("mm" in page or "cm" in page)
+
+
+def test_a_style_sheet_in_the_words_of_xhtml_counts() -> None:
+    sheet = '<style xmlns="http://www.w3.org/1999/xhtml">circle{display:none}</style>'
+    drawing = read_svg(f'<svg {NS} {PAGE}>{sheet}{RECT}<circle r="3"/></svg>'.encode())
+    assert len(drawing.part.entities) == 4 and dict(drawing.left_out) == {"circle (invisible)": 1}
+
+
+@pytest.mark.parametrize(("said", "counts"), [('rel="stylesheet"', True), ('rel="icon"', False)])
+def test_a_linked_style_sheet_is_told(said: str, counts: bool) -> None:
+    link = f'<link xmlns="http://www.w3.org/1999/xhtml" {said} href="a.css"/>'
+    found = read_svg(f"<svg {NS} {PAGE}>{link}{RECT}</svg>".encode()).findings
+    assert [each.counts for each in found] == [True] * counts

@@ -14,7 +14,7 @@ from .lengths import MEDIUM, letter_height, size_of_font
 from .selectors import Selector, Specificity, keys_of, selector
 from .style_rules import imported, is_on_screen, without_comments, written_rules
 from .transforms import INDIVIDUAL, written_transform
-from .xml import Node
+from .xml import LINKED, STYLES, Node
 
 _READ = (
     "display",
@@ -180,8 +180,10 @@ class StyleSheet:
     def __init__(self, root: Node) -> None:
         self._rules: dict[str, list[_StyleRule]] = defaultdict(list)
         self._parents: dict[int, Node] = {}
-        sheets = [each.text for each in root.every() if each.tag == "style" and _is_in_force(each)]
-        outer = [*root.outer_sheets, *(each for text in sheets for each in imported(text))]
+        named = [each for each in root.every() if each.tag in (*STYLES, LINKED)]
+        sheets = [each.text for each in named if each.tag in STYLES and _is_in_force(each)]
+        linked = [f"link {each.attributes.get('href', '')}" for each in named if _is_linked_sheet(each)]
+        outer = [*root.outer_sheets, *linked, *(each for text in sheets for each in imported(text))]
         self.unread: list[str] = [" ".join(written.split()) for written in outer]
         self.unread_hides = bool(self.unread)
         self._count = 0
@@ -227,6 +229,12 @@ def _is_in_force(sheet: Node) -> bool:
     """Tell whether a style element is CSS for a screen."""
     language = sheet.attributes.get("type", "").strip().lower()
     return language in ("", "text/css") and is_on_screen(sheet.attributes.get("media", ""))
+
+
+def _is_linked_sheet(node: Node) -> bool:
+    """Tell whether an element names a style sheet for a screen in another file."""
+    said = node.attributes.get("rel", "").lower().split()
+    return node.tag == LINKED and "stylesheet" in said and is_on_screen(node.attributes.get("media", ""))
 
 
 def declarations(text: str) -> Iterator[Declaration]:

@@ -33,7 +33,12 @@ MOST_USES = 10_000
 _USE = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos);)[^#;&\s<>]{1,200};")
 _LONGEST_COMMENTS = 4096
 _WRITTEN = ("text", "tspan", "textPath", "a", "flowRoot", "flowPara", "flowSpan", "flowDiv", "flowRegionBreak")
-_WITH_TEXT = ("style", *_WRITTEN)
+_XHTML = "http://www.w3.org/1999/xhtml"
+STYLES = ("style", f"{_XHTML} style")
+"""Elements that hold style sheets."""
+LINKED = f"{_XHTML} link"
+"""Element that names what lies in another file, such as a style sheet."""
+_WITH_TEXT = (*STYLES, *_WRITTEN)
 _HEAD = 1 << 16
 _COMPRESSED = b"\x1f\x8b"
 
