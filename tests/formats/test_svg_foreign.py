@@ -81,3 +81,44 @@ def test_a_linked_style_sheet_is_told(said: str, counts: bool) -> None:
     link = f'<link xmlns="http://www.w3.org/1999/xhtml" {said} href="a.css"/>'
     found = read_svg(f"<svg {NS} {PAGE}>{link}{RECT}</svg>".encode()).findings
     assert [each.counts for each in found] == [True] * counts
+
+
+@pytest.mark.parametrize(
+    "sheet",
+    [
+        "g{ circle{display:none} }",
+        "g{fill:red; circle{x:y;display:none} stroke:blue}",
+        "a, g{ > circle, b{display:none}}",
+        "circle{ .k &amp;{display:none}}",
+        "g{ &amp;.k{ circle{display:none}}}",
+        "g{@media screen{circle{display:none}}}",
+        "@media screen{g{circle{display:none}}}",
+    ],
+)
+def test_rules_within_rules_are_followed(sheet: str) -> None:
+    body = f'<style>{sheet}</style><g class="k"><circle r="3"/></g>{RECT}'
+    drawing = read_svg(f"<svg {NS} {PAGE}>{body}</svg>".encode())
+    assert len(drawing.part.entities) == 4 and dict(drawing.left_out) == {"circle (invisible)": 1}
+
+
+@pytest.mark.parametrize(
+    "sheet",
+    ["g{@media print{circle{display:none}}}", "@supports not (x:y){circle{display:none}}", "g{a{display:none}}"],
+)
+def test_rules_that_hold_for_nothing_here_hide_nothing(sheet: str) -> None:
+    body = f'<style>{sheet}</style><g class="k"><circle r="3"/></g>{RECT}'
+    drawing = read_svg(f"<svg {NS} {PAGE}>{body}</svg>".encode())
+    assert len(drawing.part.entities) == 5 and not drawing.findings
+
+
+def test_rules_that_are_nested_too_deep_or_too_often_are_told_and_take_no_time() -> None:
+    names = ",".join("abcdefghij")
+    for sheet in (f"{names}{{" * 9 + "display:none" + "}" * 9, "g{" * 40 + "display:none" + "}" * 40):
+        found = read_svg(f"<svg {NS} {PAGE}><style>{sheet}</style>{RECT}</svg>".encode()).findings
+        assert [each.counts for each in found] == [True]
+
+
+@pytest.mark.parametrize("hidden", ['opacity="-1"', 'style="opacity:-.5"', 'requiredExtensions="http://x.y"'])
+def test_what_no_viewer_shows_is_not_read(hidden: str) -> None:
+    drawing = read_svg(f'<svg {NS} {PAGE}><g {hidden}><circle r="3"/></g>{RECT}</svg>'.encode())
+    assert len(drawing.part.entities) == 4 and sum(count for _, count in drawing.left_out) == 1

@@ -59,7 +59,8 @@ _VISIBILITY = {"visible": True, "initial": True, "hidden": False, "collapse": Fa
 """What else is said says nothing."""
 
 _VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,([^()]*))?\)", re.IGNORECASE)
-_ZERO = re.compile(r"[+-]?0*\.?0+%?")
+_ZERO = re.compile(r"[+-]?0*\.?0+%?|-\d*\.?\d+%?")
+"""An opacity of nothing; one below that is the same."""
 _DEEPEST, _LONGEST = 10, 1000
 """Variables within variables, and letters of a value with all of them in place."""
 

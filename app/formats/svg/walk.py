@@ -221,7 +221,9 @@ class SvgWalker:
             self._sheet.unplaced.append(SvgFault(node.line, str(error.args[0])))
 
     def _element(self, node: Node, outer: InheritedState) -> None:
-        if node.tag in _NOT_CURVES:
+        if node.attributes.get("requiredExtensions"):  # no viewer has any
+            self._sheet.left_out[LeftOutSort(node.tag, LeftOutReason.INVISIBLE)] += 1
+        elif node.tag in _NOT_CURVES:
             self._sheet.left_out[LeftOutSort(node.tag)] += 1
         elif node.tag in TEXTS:
             self._text(node, self._inside(node, outer))
