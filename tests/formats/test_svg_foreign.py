@@ -122,3 +122,19 @@ def test_rules_that_are_nested_too_deep_or_too_often_are_told_and_take_no_time()
 def test_what_no_viewer_shows_is_not_read(hidden: str) -> None:
     drawing = read_svg(f'<svg {NS} {PAGE}><g {hidden}><circle r="3"/></g>{RECT}</svg>'.encode())
     assert len(drawing.part.entities) == 4 and sum(count for _, count in drawing.left_out) == 1
+
+
+@pytest.mark.parametrize(
+    ("paint", "curves"),
+    [
+        ("url(#gone)", 4),
+        ("url('#gone') none", 4),
+        ("url(#gone) #f00", 5),
+        ("url(#here)", 5),
+        ("url( &quot;#here&quot; ) none", 5),
+    ],
+)
+def test_a_shade_that_is_not_in_the_file_paints_nothing_or_what_stands_behind_it(paint: str, curves: int) -> None:
+    shade = '<linearGradient id="here"><stop offset="0"/></linearGradient>'
+    body = f'{shade}<g fill="{paint}"><circle r="3"/></g>{RECT}'
+    assert len(read_svg(f"<svg {NS} {PAGE}>{body}</svg>".encode()).part.entities) == curves

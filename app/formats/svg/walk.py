@@ -41,6 +41,8 @@ _GROUND = 1e-3
 _TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
 _ENGLISH = re.compile(r"(?:^|,)\s*en\b", re.IGNORECASE)
 _SIGN = re.compile(r"_x([0-9A-Fa-f]{2}|[0-9A-Fa-f]{4})_")
+_SHADE = re.compile(r"\s*url\(\s*[\"']?#([^)\"']+?)[\"']?\s*\)(.*)", re.DOTALL)
+"""A paint of this file, and what is taken where there is none of that name."""
 _BREAK = re.compile(r"[\x00-\x1f]+")
 
 
@@ -260,7 +262,7 @@ class SvgWalker:
 
     def _in_place(self, node: Node, outer: InheritedState) -> InheritedState:
         """Return the state inside an element, without its own clips."""
-        style, to, layer = self._styles.style(node, outer.style), outer.to, outer.layer
+        style, to, layer = self._with_paints(self._styles.style(node, outer.style)), outer.to, outer.layer
         self._sheet.unfollowed.update(style.unfollowed)
         if style.transform and style.shown:
             to = to.after(self._transform(node, style, outer.basis))
@@ -273,6 +275,17 @@ class SvgWalker:
             note.own = style.ink
             style = replace(style, shown=outer.style.shown)
         return replace(outer, to=to, style=style, layer=layer, depth=outer.depth + 1)
+
+    def _with_paints(self, style: SvgStyle) -> SvgStyle:
+        """Return a style with what is painted in place of shades and patterns that are not in the file."""
+        if "url(" not in style.fill and "url(" not in style.stroke:
+            return style
+        fill, stroke = map(self._paint, (style.fill, style.stroke))
+        return replace(style, fill=fill, stroke=stroke)
+
+    def _paint(self, written: str) -> str:
+        found = _SHADE.match(written)
+        return written if found is None or found[1] in self._ids else found[2].strip() or "none"
 
     def _transform(self, node: Node, style: SvgStyle, basis: LengthBasis) -> Affine:
         """Return where an element's own transform brings it.
