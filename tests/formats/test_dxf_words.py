@@ -187,6 +187,15 @@ def test_what_is_drawn_where_nobody_looks_is_told(where: str) -> None:
     assert counted[0].startswith("1 entity stands outside of the drawing and its blocks (1 LINE) and is missing")
 
 
+@pytest.mark.parametrize("last", [False, True])
+def test_a_variable_without_a_value_says_nothing(last: bool) -> None:
+    told: Pairs = [(9, "$INSUNITS"), (70, 4)]
+    empty: Pairs = [(9, "$LIMMIN")]
+    head = section("HEADER", *(told + empty if last else empty + told))
+    drawing = read_dxf(text([*head, *section("ENTITIES", *line(1.0, "0")), (0, "EOF")]), "a.dxf")
+    assert drawing.units_named and not drawing.findings
+
+
 def test_an_end_mark_where_nothing_ends_is_nothing() -> None:
     _, _, counted = read(text([*HEADER, *section("ENTITIES", *line(1.0, "0"), (0, "SEQEND"), (8, "0")), (0, "EOF")]))
     assert not counted
@@ -199,6 +208,9 @@ LACKING: dict[str, Pairs] = {
     "ARC": [*PLACE, (40, 3.0), (50, 30.0)],
     "ELLIPSE": [*PLACE, (11, 5.0), (21, 0.0)],
     "POINT": [(8, "0")],
+    "TEXT": [*PLACE, (1, "A")],
+    "MTEXT": [(8, "0"), (40, 2.5), (1, "A")],
+    "SOLID": [*PLACE, (11, 5.0), (21, 0.0)],
     "POLYLINE": [(8, "0"), (0, "VERTEX"), *PLACE, (0, "VERTEX"), (8, "0"), (0, "SEQEND")],
 }
 

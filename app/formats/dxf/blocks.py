@@ -24,6 +24,7 @@ from .curves import (
     NoLengthError,
     curves_of,
     drawn_heights,
+    ensure_whole,
     heights_of,
     line_type_of,
     plane_of,
@@ -278,6 +279,7 @@ class DxfWalker:
 
     def _draw(self, entity: Any, kind: str, content: DxfContent) -> None:
         try:
+            ensure_whole(entity)
             made = self._letterings(entity, kind) if self._is_text(entity, kind) else _filled(entity, kind)
             curves = [] if made else curves_of(entity)
         except NoLengthError as nothing:

@@ -20,6 +20,11 @@ _NEEDED = {
     "CIRCLE": ("center", "radius"),
     "ARC": ("center", "radius", "start_angle", "end_angle"),
     "ELLIPSE": ("center", "major_axis", "ratio"),
+    "TEXT": ("insert", "height"),
+    "ATTRIB": ("insert", "height"),
+    "MTEXT": ("insert",),
+    "SOLID": ("vtx0", "vtx1", "vtx2"),
+    "TRACE": ("vtx0", "vtx1", "vtx2"),
 }
 """What each kind has to tell, its place first."""
 _SPLINE_FRAME = 16
@@ -48,19 +53,19 @@ def curves_of(entity: Any) -> list[Curve] | None:
         DamagedCurveError: it cannot be drawn.
         NegativeRadiusError: its radius is below 0.
     """
-    kind = entity.dxftype()
-    if not all(
-        map(entity.dxf.hasattr, _NEEDED.get(kind, ()))
-    ):  # the library has numbers of its own for what is not told
-        raise DamagedCurveError(_place_of(entity, kind))
-    reader = _READERS.get(kind)
+    reader = _READERS.get(entity.dxftype())
     return None if reader is None else reader(entity)
 
 
-def _place_of(entity: Any, kind: str) -> Point | None:
-    """Return where an entity is that lacks something; None where just that is missing."""
-    key = _NEEDED[kind][0]
-    return _flat(entity.dxf.get(key)) if entity.dxf.hasattr(key) else None
+def ensure_whole(entity: Any) -> None:
+    """Refuse an entity that lacks a number: the library would take one of its own.
+
+    Raises:
+        DamagedCurveError: it does.
+    """
+    needed = _NEEDED.get(entity.dxftype(), ())
+    if not all(map(entity.dxf.hasattr, needed)):
+        raise DamagedCurveError(_flat(entity.dxf.get(needed[0])) if entity.dxf.hasattr(needed[0]) else None)
 
 
 def heights_of(entity: Any) -> Iterable[float]:

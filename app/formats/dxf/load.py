@@ -19,7 +19,7 @@ from . import subclass_marks
 from .code_pages import HEAD, MOST_BYTES, encoding, plain_letters
 from .numbers import NO_COMMAS, DecimalCommas, with_points
 from .repeated_blocks import without_repeated
-from .sections import sections_of, strays_of, tidied
+from .sections import sections_of, strays_of, tidied, without_empty_variables
 from .splines import MOST_POINTS, too_many
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
@@ -209,6 +209,7 @@ def _document(sections: Any) -> Any:
     from ezdxf.document import Drawing
 
     sections.pop("THUMBNAILIMAGE", None)
+    without_empty_variables(sections.get("HEADER", []))
     subclass_marks.put_in(sections)
     document = Drawing()
     document._load_section_dict(sections)

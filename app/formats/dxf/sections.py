@@ -89,6 +89,18 @@ def _begin(section: list[Any], head: Any) -> None:
         section.append(head)
 
 
+def without_empty_variables(header: list[Any]) -> None:
+    """Take variables away that have no value.
+
+    Args:
+        header: the section's entities, of which the first holds all.
+    """
+    if header:
+        tags = header[0]
+        followed = zip(tags, [*tags[1:], None], strict=True)
+        tags[:] = [tag for tag, after in followed if tag.code != _VARIABLE or (after and after.code != _VARIABLE)]
+
+
 def with_block_ends(entities: list[Any]) -> Iterator[Any]:
     """Yield the entities of a section of blocks, and the end mark of each block that lacks it."""
     from ezdxf.lldxf.tags import Tags
