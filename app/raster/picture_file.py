@@ -30,6 +30,13 @@ _LONGEST = 10.0
 _SHORT_BMP = 12
 """Bytes of a BMP's header of the oldest kind, which says nothing of the size of pixels."""
 
+_LONG_BMP, _BY_MASKS = 56, 3
+"""Bytes of a BMP's header from which on it says which bits of a pixel tell how clear it is; and the sort of pixels that
+are told apart by such masks.
+"""
+_BMP_COLOURS, _ALPHA_MASK = slice(28, 34), slice(66, 70)
+"""Where a BMP's header tells bits and sort of its pixels, and the mask of what tells how clear they are."""
+
 _PNG, _JPEG, _BMP = b"\x89PNG\r\n\x1a\n", b"\xff\xd8", b"BM"
 _TURN, _ACROSS, _DOWN, _UNIT = 0x112, 282, 283, 296
 """Tags of EXIF: how a picture is turned, how many pixels it has across and down a unit, and which unit."""
@@ -221,6 +228,8 @@ def decoded(name: str, data: bytes) -> Gray:
         raise InputError(f"{name}: the picture is damaged and cannot be decoded; save it again.")
     if not see_through:
         return _on_paper(np.asarray(image))
+    if data[:2] == _BMP and not image[..., 3].any():  # its writer has left alone what tells how clear pixels are
+        return _on_paper(image[..., :3])
     upright = _turned(np.asarray(image), int(_exif(data).get(_TURN, 1)))  # as the decoder does with all others
     return _on_paper(_without_clear_grey(upright, data))
 
@@ -236,7 +245,7 @@ def _turned(image: NDArray[Any], turn: int) -> NDArray[Any]:
 
 def _without_clear_grey(image: NDArray[Any], data: bytes) -> NDArray[Any]:
     """Return a picture with white for the grey that its file calls clear; the decoder knows of clear colours alone."""
-    clear = next((body for kind, body in _chunks(data) if kind == b"tRNS"), b"")
+    clear = next((body for kind, body in _chunks(data) if kind == b"tRNS"), b"") if data[:8] == _PNG else b""
     if image.ndim != 2 or data[25] != 0 or len(clear) < 2:
         return image
     depth, most = data[24], np.iinfo(image.dtype).max
@@ -263,6 +272,9 @@ def _ensure_whole(name: str, data: bytes) -> None:
 
 
 def _is_see_through(data: bytes) -> bool:
+    if data[:2] == _BMP:
+        masked = data[_BMP_COLOURS] == struct.pack("<HI", 32, _BY_MASKS)
+        return masked and int.from_bytes(data[14:18], "little") >= _LONG_BMP and any(data[_ALPHA_MASK])
     return data[:8] == _PNG and (data[25] in (4, 6) or any(kind == b"tRNS" for kind, _ in _chunks(data)))
 
 

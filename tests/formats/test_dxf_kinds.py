@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from ezdxf.xclip import XClip
 
 from app.formats.readers import read_drawing
 from app.model.curves import Line, Spline
@@ -91,7 +92,7 @@ def test_a_missing_block_and_a_region_are_missing_from_the_part() -> None:
     assert found.counts and found.text.startswith("Missing from the part: 1 INSERT of a missing block, 1 REGION,")
 
 
-@pytest.mark.parametrize("kind", ["3DFACE", "SHAPE", "line", "AECC_WALL"])
+@pytest.mark.parametrize("kind", ["3DFACE", "SHAPE", "LINES", "AECC_WALL"])
 def test_what_nobody_here_has_heard_of_is_missing_from_the_part(kind: str) -> None:
     lines = ["0", kind, "8", "0", "10", "0", "20", "0", "11", "5", "21", "0"]
     line = ["0", "LINE", "8", "0", "10", "0", "20", "0", "11", "5", "21", "7"]
@@ -145,3 +146,33 @@ def test_a_layer_of_centre_lines_and_one_that_is_never_plotted_are_told() -> Non
         "Layer HELP is never plotted, as layers of construction lines are; its 4 curves are read like any other. "
         "--skip-layer leaves it out.",
     ]
+
+
+@pytest.mark.parametrize(
+    ("corners", "cut"),
+    [([(-1, -1), (5, 11)], 2), ([(2, 2), (8, 2), (8, 8)], 2), ([(-1, -1), (41, 31)], 0), ([(0, 0), (40, 30)], 0)],
+)
+@pytest.mark.parametrize("nested", [False, True])
+def test_a_block_of_which_a_clip_hides_something_is_told(
+    corners: list[tuple[float, float]], cut: int, nested: bool
+) -> None:
+    document = new()
+    block = document.blocks.new("B", base_point=(3, 3))
+    plate(block)
+    space = document.blocks.new("OUTER") if nested else document.modelspace()
+    for x in (20, 40):
+        XClip(space.add_blockref("B", (x, 5), dxfattribs={"rotation": 30})).set_block_clipping_path(corners)
+    if nested:
+        document.modelspace().add_blockref("OUTER", (0, 0))
+    counted = [each for each in read(document).findings if each.counts]
+    assert [each.amount for each in counted] == ([float(cut)] if cut else [])
+    assert all("clipped" in each.text and (each.x, each.y) == pytest.approx((20.0, 5.0)) for each in counted)
+
+
+def test_a_clip_that_is_switched_off_hides_nothing() -> None:
+    document = new()
+    plate(document.blocks.new("B"))
+    clip = XClip(document.modelspace().add_blockref("B", (0, 0)))
+    clip.set_block_clipping_path([(2, 2), (4, 4)])
+    clip.disable_clipping()
+    assert not [each for each in read(document).findings if each.counts]

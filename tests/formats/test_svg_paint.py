@@ -2,7 +2,6 @@
 
 import pytest
 
-from app.core.errors import InputError
 from app.formats.drawing import Drawing
 from app.formats.svg.svg import read_svg
 from app.model.curves import Line
@@ -82,8 +81,7 @@ def test_what_is_drawn_on_outlines_is_told() -> None:
 @pytest.mark.parametrize(
     ("body", "what"),
     [
-        ('<rect width="9" height="9" style="translate:10px"/>', "translate"),
-        ('<g style="rotate:10deg;scale:2"><rect width="9" height="9"/></g>', "rotate and scale"),
+        ('<rect width="9" height="9" style="offset-path:path(\'M0 0h9\')"/>', "offset-path"),
         ('<style>path{d:path("M0 0h1v1z")}</style><path d="M0 0h9v9z"/>', "d"),
     ],
 )
@@ -114,11 +112,6 @@ def test_transforms_about_a_named_place(origin: str, x: float, y: float) -> None
     body = f'<line x2="9" y2="9" stroke="red" style="transform:scale(2);transform-origin:{origin}"/>'
     (entity,) = read(body).part.entities
     assert entity.curve == Line((-x, 50 + y), (18 - x, 32 + y))
-
-
-def test_a_transform_about_the_shape_itself_is_refused() -> None:
-    with pytest.raises(InputError, match="a transform about 'center' cannot be read"):
-        read('<rect width="9" height="9" style="transform:scale(2);transform-origin:center;transform-box:fill-box"/>')
 
 
 MOVED = 'width="100mm" height="50mm" viewBox="-10 0 200 100" xmlns="http://www.w3.org/2000/svg"'

@@ -59,3 +59,31 @@ def test_a_bmp_of_the_oldest_kind() -> None:
     data = b"BM" + struct.pack("<IHHI", 26 + 48, 0, 0, 26) + header + (bytes(12) + b"\xff" * 12) * 2
     assert picture_size("x.bmp", data) == (8, 2) and density_of(data) is None
     assert decoded("x.bmp", data).tolist() == [[0] * 4 + [255] * 4] * 2
+
+
+def masked_bmp(pixels: bytes, header: int = 124, alpha: int = 0xFF000000) -> bytes:
+    """Return a BMP of 4 by 1 pixels of 4 bytes: blue, green, red, and how little of what lies behind it is seen."""
+    sizes = struct.pack("<IiiHHIIiiII", header, 4, 1, 1, 32, 3, len(pixels), 0, 0, 0, 0)
+    masks = struct.pack("<IIII", 0xFF0000, 0xFF00, 0xFF, alpha)
+    head = (sizes + masks).ljust(header, b"\0") if header > 40 else sizes + masks[:12]
+    return b"BM" + struct.pack("<IHHI", 14 + len(head) + len(pixels), 0, 0, 14 + len(head)) + head + pixels
+
+
+@pytest.mark.parametrize("header", [56, 108, 124])
+def test_clear_pixels_of_a_bmp_are_paper(header: int) -> None:
+    assert decoded("x.bmp", masked_bmp(bytes([0, 0, 0, 255] * 2 + [0] * 8), header)).tolist() == [[0, 0, 255, 255]]
+
+
+@pytest.mark.parametrize(("header", "alpha"), [(40, 0xFF000000), (124, 0)])
+def test_bits_of_a_bmp_that_mean_nothing_make_nothing_clear(header: int, alpha: int) -> None:
+    assert decoded("x.bmp", masked_bmp(bytes([0, 0, 0, 9, 255, 255, 255, 0] * 2), header, alpha)).tolist() == [
+        [0, 255] * 2
+    ]
+
+
+def test_a_bmp_of_which_nothing_could_be_seen_is_as_its_colours() -> None:
+    assert decoded("x.bmp", masked_bmp(bytes([0, 0, 0, 0, 255, 255, 255, 0] * 2))).tolist() == [[0, 255] * 2]
+
+
+def test_a_clear_png_is_paper() -> None:
+    assert decoded("x.png", cv2.imencode(".png", np.zeros((2, 3, 4), np.uint8))[1].tobytes()).min() == 255

@@ -124,6 +124,11 @@ def test_what_holds_a_part_while_it_is_printed_is_none_of_it():
     assert len(read_mesh("a.3mf", packed(f'{ONE}<object id="2" type="surface">{MESH}</object>', items))) == 8
 
 
+def test_items_that_a_slicer_has_set_aside_are_not_built():
+    items = '<item objectid="1" printable="1"/><item objectid="1" printable="0" transform="1 0 0 0 1 0 0 0 1 50 0 0"/>'
+    assert len(read_mesh("a.3mf", packed(ONE, items))) == 4
+
+
 def test_models_of_several_units_are_refused():
     first = model(f'<object id="2"><components>{OTHER.format(0)}</components></object>', '<item objectid="2"/>')
     data = several({"3D/3dmodel.model": first, "3D/Objects/object_1.model": model(ONE, unit="inch")})

@@ -17,12 +17,14 @@ from ...geometry.affine import Affine, transformed
 from ...model.curves import Curve, Point
 from ..drawing import LeftOutReason, LeftOutSort
 from ..drawing_account import LEVEL_ZERO, MOST_CURVES, LayeredCurve
+from .block_clips import hides
 from .curves import (
     DamagedCurveError,
     NegativeRadiusError,
     NoLengthError,
     curves_of,
     drawn_heights,
+    ensure_whole,
     heights_of,
     line_type_of,
     plane_of,
@@ -118,6 +120,13 @@ def _place_of(entity: Any) -> Point:
     return (float(at[0]), float(at[1]))
 
 
+class ClippedBlock(NamedTuple):
+    """A block that is read whole although a clip hides a part of it: its name and place, drawing units."""
+
+    name: str
+    at: Point
+
+
 class LayeredPoint(NamedTuple):
     """A point and the name of its layer."""
 
@@ -138,6 +147,7 @@ class DxfContent:
         negative: circles and arcs that nobody knows how to draw.
         bands: polylines with a width. broken: curves with gaps.
         unread: texts that are left out for what they are, and curves that cannot be drawn.
+        clipped: inserted blocks that are cut by a clip.
         heights: least and greatest Z seen, drawing units.
     """
 
@@ -152,6 +162,7 @@ class DxfContent:
     bands: list[WidePolyline] = field(default_factory=list)
     broken: list[BrokenLine] = field(default_factory=list)
     unread: list[UnreadText] = field(default_factory=list)
+    clipped: list[ClippedBlock] = field(default_factory=list)
     heights: tuple[float, float] = (0.0, 0.0)
     any_height: bool = False
     _more: int = 0
@@ -178,6 +189,12 @@ class DxfContent:
         """Yield its texts and hatches."""
         yield from self.letterings
         yield from self.hatches
+
+    def drawn(self) -> Iterator[Curve]:
+        """Yield every curve, those of texts and hatches too."""
+        yield from (each.curve for each in self.curves)
+        for each in self.more():
+            yield from each.drawn()
 
     def layers(self) -> Iterator[str]:
         """Yield the layer of every curve."""
@@ -253,7 +270,7 @@ class DxfWalker:
         elif kind == "INSERT":
             self._insert(entity, content)
         elif kind == "POINT":
-            x, y, _ = entity.dxf.location
+            x, y, _ = entity.dxf.get("location")  # the library has the origin for a place that is not told
             content.points.append(LayeredPoint((float(x), float(y)), entity.dxf.layer))
         elif kind == "ATTDEF" and self._open and entity.is_const and entity.is_invisible:
             content.left_out[LeftOutSort("ATTDEF", LeftOutReason.INVISIBLE)] += 1
@@ -262,6 +279,7 @@ class DxfWalker:
 
     def _draw(self, entity: Any, kind: str, content: DxfContent) -> None:
         try:
+            ensure_whole(entity)
             made = self._letterings(entity, kind) if self._is_text(entity, kind) else _filled(entity, kind)
             curves = [] if made else curves_of(entity)
         except NoLengthError as nothing:
@@ -353,6 +371,8 @@ class DxfWalker:
             for place in copies
             for at, layer in points
         ]
+        if hides(insert, inner.drawn()):
+            content.clipped.append(ClippedBlock(insert.dxf.name, _inserted_at(insert, copies[0])))
         for place in copies:
             self._copy(inner, place, insert.dxf.layer, content, float(insert.dxf.insert.z))
         self._attributes(insert, copies, content)
@@ -390,6 +410,7 @@ class DxfWalker:
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.negative
         ]
+        content.clipped += [each._replace(at=place.point(each.at)) for each in inner.clipped]
         content.bands += [each.moved(place, outer) for each in inner.bands]
         content.unread += [
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
@@ -408,7 +429,9 @@ class DxfWalker:
             else:
                 lies = heights.lifted(lift) if lift else heights
                 content.curves.append(LayeredCurve(moved, outer if layer == "0" else layer, lies))
-        self._bounded(max(len(content.hidden), len(content.negative), len(content.unread), content.size))
+        self._bounded(
+            max(len(content.hidden), len(content.negative), len(content.unread), len(content.clipped), content.size)
+        )
 
     def _block(self, name: str, insert: Any) -> DxfContent:
         key = name.casefold()
@@ -455,7 +478,13 @@ def _is_outside(block: Any) -> bool:
 
 
 def _origins(insert: Any) -> list[Point]:
-    return [place.point((0.0, 0.0)) for place in _places(insert)[:1]]
+    return [_inserted_at(insert, place) for place in _places(insert)[:1]]
+
+
+def _inserted_at(insert: Any, place: Affine) -> Point:
+    """Return where the base point of a block comes to lie."""
+    base = insert.block().block.dxf.base_point
+    return place.point((float(base.x), float(base.y)))
 
 
 def _places(insert: Any) -> list[Affine]:
@@ -511,16 +540,15 @@ def all_drawn(content: DxfContent, machined: Callable[[str], bool], size: float)
     new = _new([ring for ring, _ in rings], content, machined, size) if rings else []
     kept = [LayeredCurve(curve, layer) for ring, layer in compress(rings, new) for curve in ring]
     kept += [
-        LayeredCurve(curve, each.layer) for each in content.hatches if not machined(each.layer) for curve in _all(each)
+        LayeredCurve(curve, each.layer)
+        for each in content.hatches
+        if not machined(each.layer)
+        for curve in each.drawn()
     ]
     outlines = [LayeredCurve(curve, each.layer) for each in content.letterings for curve in each.outlines]
     strokes = [LayeredCurve(curve, each.layer) for each in content.letterings for curve in each.strokes]
     curves, kinds = (*content.curves, *kept, *outlines, *strokes), tuple(dict.fromkeys(each.kind for each in shown))
     return DrawnCurves(curves, len(strokes), len(rings), len(rings) - sum(new), kinds)
-
-
-def _all(hatch: Hatch) -> list[Curve]:
-    return [curve for ring in hatch.boundaries for curve in ring]
 
 
 def _new(

@@ -15,6 +15,18 @@ from .splines import spline_curve
 _STRAIGHT = 1e-9
 """A bulge below this bends a segment by less than its length's rounding."""
 _UNBROKEN = ("", "continuous", "bylayer", "byblock")
+_NEEDED = {
+    "LINE": ("start", "end"),
+    "CIRCLE": ("center", "radius"),
+    "ARC": ("center", "radius", "start_angle", "end_angle"),
+    "ELLIPSE": ("center", "major_axis", "ratio"),
+    "TEXT": ("insert", "height"),
+    "ATTRIB": ("insert", "height"),
+    "MTEXT": ("insert",),
+    "SOLID": ("vtx0", "vtx1", "vtx2"),
+    "TRACE": ("vtx0", "vtx1", "vtx2"),
+}
+"""What each kind has to tell, its place first."""
 _SPLINE_FRAME = 16
 """Flag of a POLYLINE vertex that only steers the curve and is not on it."""
 
@@ -43,6 +55,17 @@ def curves_of(entity: Any) -> list[Curve] | None:
     """
     reader = _READERS.get(entity.dxftype())
     return None if reader is None else reader(entity)
+
+
+def ensure_whole(entity: Any) -> None:
+    """Refuse an entity that lacks a number: the library would take one of its own.
+
+    Raises:
+        DamagedCurveError: it does.
+    """
+    needed = _NEEDED.get(entity.dxftype(), ())
+    if not all(map(entity.dxf.hasattr, needed)):
+        raise DamagedCurveError(_flat(entity.dxf.get(needed[0])) if entity.dxf.hasattr(needed[0]) else None)
 
 
 def heights_of(entity: Any) -> Iterable[float]:
@@ -164,6 +187,8 @@ def _ellipse(entity: Any) -> list[Curve]:
 
 def _lwpolyline(entity: Any) -> list[Curve]:
     vertices = [((float(x), float(y)), float(bulge)) for x, y, bulge in entity.get_points("xyb")]
+    if not vertices:
+        raise DamagedCurveError(None)
     return placed_in(entity, entity.dxf.elevation, segments_of(vertices, entity.closed))
 
 
@@ -174,7 +199,7 @@ def _polyline(entity: Any) -> list[Curve] | None:
     if not shown and len(entity.vertices) > 1:  # the curve that its frame steers is not in the file
         raise DamagedCurveError(_flat(entity.vertices[0].dxf.location))
     flat = entity.is_2d_polyline
-    vertices = [(_flat(v.location), float(v.bulge) if flat else 0.0) for v in shown]
+    vertices = [(_flat(v.get("location")), float(v.bulge) if flat else 0.0) for v in shown]
     segments = segments_of(vertices, entity.is_closed)
     return placed_in(entity, entity.dxf.elevation.z, segments) if flat else segments
 
@@ -183,7 +208,7 @@ def _spline(entity: Any) -> list[Curve]:
     made = spline_curve(entity)
     if made is None:
         points = [(float(point[0]), float(point[1])) for point in entity.control_points or entity.fit_points]
-        nothing = len(set(points)) <= 1
+        nothing = len(set(points)) == 1
         raise (NoLengthError if nothing else DamagedCurveError)(points[0] if points else None)
     return [made]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -48,20 +49,23 @@ from ..reading_question import (
     units_question,
 )
 from .blocks import DrawnCurves, DxfContent, DxfWalker, all_drawn
+from .code_pages import with_told_letters
 from .findings import (
     about_unread,
     band_findings,
     broken_line_findings,
+    clip_findings,
     comma_findings,
     hatch_findings,
     hidden_insert_findings,
     layer_findings,
     negative_radius_findings,
     repeated_findings,
+    stray_findings,
     text_findings,
 )
 from .letters import TextCurves
-from .load import layout_named, load, paper, without_byte_order
+from .load import layout_named, load, paper
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     1: (25.4, Units.INCH),
@@ -86,6 +90,7 @@ _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     24: (5280 * 1200 / 3937 * 1000, Units.FOOT),
 }
 """$INSUNITS codes: size in mm, and the nearest unit to show the drawing in."""
+_NAMES_UNITS = re.compile(rb"\$INSUNITS", re.IGNORECASE)
 
 
 def read_dxf(
@@ -113,7 +118,7 @@ def read_dxf(
     Raises:
         InputError: the file is no usable DXF, has no curves, or has not one of the layers or the layout.
     """
-    data = without_byte_order(data)
+    data = with_told_letters(data)
     loaded = load(data, name)
     document, reading = loaded.document, ReadingOptions(units, layers, how)
     unit = _unit(document, data, units, how.overrule)
@@ -150,12 +155,14 @@ def read_dxf(
         *comma_findings(loaded.commas),
         *_damage(loaded.repaired),
         *repeated_findings(loaded.repeated),
+        *stray_findings(loaded.strays),
         *placement_findings(found),
         *negative_radius_findings(content, unit.size),
         *about_unread(content, unit.size),
         *without_length(nothing),
         *_heights(content, unit.size),
         *hidden_insert_findings(content, unit.size),
+        *clip_findings(content, unit.size),
         *text_findings([each for each in content.letterings if machined(each.layer)], unit.size),
         *hatch_findings(drawn),
         *band_findings([each for each in content.bands if machined(each.layer)], unit.size),
@@ -213,7 +220,7 @@ def _unit(document: Any, data: bytes, given: Units | None, overrule: bool) -> _U
 
     The library gives a file without a header one of its own, in metres; so the word must stand in the file itself.
     """
-    code = document.header.get("$INSUNITS", 0) if b"$INSUNITS" in data else 0
+    code = document.header.get("$INSUNITS", 0) if _NAMES_UNITS.search(data) else 0
     if code in _NAMED_UNITS:
         size, shown = _NAMED_UNITS[code]
         if not overrule or given is None or given is shown:

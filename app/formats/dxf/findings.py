@@ -165,6 +165,23 @@ def _hidden(inserts: list[HiddenInsert], size: float) -> Finding:
     )
 
 
+def clip_findings(content: DxfContent, size: float) -> Iterator[Finding]:
+    """Say that clipped blocks are read whole; `size` is that of the drawing's unit, mm."""
+    if content.clipped:
+        first, count = content.clipped[0], len(content.clipped)
+        x, y = first.at[0] * size, first.at[1] * size
+        what = (
+            f"Block {first.name}, inserted at {in_plane(x, y)}, is clipped"
+            if count == 1
+            else f"{count} inserted blocks, the first ({first.name}) at {in_plane(x, y)}, are clipped"
+        )
+        text = (
+            f"{what} and read whole, so that the part differs from what CAD programs show; explode and trim it there, "
+            "or take the clip away."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(count))
+
+
 def text_findings(texts: Sequence[TextCurves], size: float) -> Iterator[Finding]:
     """Say that texts are read, in which fonts, and how to leave them out; and which letters are missing from them.
 
@@ -256,3 +273,18 @@ def repeated_findings(names: tuple[str, ...]) -> Iterator[Finding]:
             "program."
         )
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(names)))
+
+
+def stray_findings(strays: Mapping[str, int]) -> Iterator[Finding]:
+    """Count what stands in a file where nothing is drawn; `strays`: how many of each type."""
+    count = sum(strays.values())
+    if count:
+        kinds = together([f"{number} {kind}" for kind, number in strays.items()])
+        text = (
+            f"1 entity stands outside of the drawing and its blocks ({kinds}) and is missing from the part; save the "
+            "drawing again from the CAD program."
+            if count == 1
+            else f"{count} entities stand outside of the drawing and its blocks ({kinds}) and are missing from the "
+            "part; save the drawing again from the CAD program."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(count))

@@ -40,6 +40,10 @@ class Hatch:
         """How many curves there are."""
         return sum(map(len, self.boundaries))
 
+    def drawn(self) -> Iterator[Curve]:
+        """Yield its curves."""
+        return (curve for ring in self.boundaries for curve in ring)
+
     def moved(self, to: Affine, layer: str = "") -> Hatch:
         """Return it under a map; what is on layer 0 goes to `layer`, where one is named."""
         rings = (

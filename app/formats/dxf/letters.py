@@ -82,6 +82,11 @@ class TextCurves:
         """How many curves there are."""
         return len(self.strokes) + len(self.outlines)
 
+    def drawn(self) -> Iterator[Curve]:
+        """Yield its curves."""
+        yield from self.outlines
+        yield from self.strokes
+
     def moved(self, to: Affine, layer: str = "") -> TextCurves:
         """Return it under a map; what is on layer 0 goes to `layer`, where one is named."""
         strokes, outlines = (tuple(_moved(curves, to)) for curves in (self.strokes, self.outlines))

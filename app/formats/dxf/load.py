@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import codecs
 import io
 import logging
 import re
 import sys
 from collections import Counter
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from types import ModuleType
 from typing import Any
@@ -16,42 +16,37 @@ from typing import Any
 from ...core.errors import InputError
 from ..drawing_account import MOST_CURVES
 from . import subclass_marks
+from .code_pages import HEAD, MOST_BYTES, encoding, plain_letters
 from .numbers import NO_COMMAS, DecimalCommas, with_points
 from .repeated_blocks import without_repeated
+from .sections import sections_of, strays_of, tidied, without_empty_variables
 from .splines import MOST_POINTS, too_many
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 
-_SECTION = re.compile(rb"^\s*0[ \t]*\r?[\n\r][ \t]*SECTION", re.MULTILINE)
+_LINES = re.IGNORECASE | re.MULTILINE
+
+_SECTION = re.compile(rb"^[ \t]*0+[ \t]*\r?\n[ \t]*SECTION\b", _LINES)
 
 _ENTITIES = re.compile(
-    rb"^[ \t]*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n[ \t]*2[ \t]*\r?\n[ \t]*ENTITIES[ \t]*\r?\n", re.MULTILINE
+    rb"^[ \t]*0+[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n[ \t]*0*2[ \t]*\r?\n[ \t]*ENTITIES[ \t]*\r?\n", _LINES
 )
-_SECTION_END = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*ENDSEC[ \t]*\r?\n", re.MULTILINE)
-_FILE_END = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*EOF\b", re.MULTILINE)
-_WHOLE = re.compile(rb"(?:^|\n)[ \t]*0[ \t]*\r?\n[ \t]*ENDSEC\s*\Z")
+_FILE_END = re.compile(rb"^[ \t]*0+[ \t]*\r?\n[ \t]*EOF\b", _LINES)
+_WHOLE = re.compile(rb"^[ \t]*0+[ \t]*\r?\n[ \t]*ENDSEC\s*\Z", _LINES)
 _END_MARK = b"\n0\nEOF\n"
 
-_CODEPAGE = re.compile(rb"\$DWGCODEPAGE[ \t]*\r?\n[ \t]*3[ \t]*\r?\n[ \t]*(\S+)")
-
-_VERSION = re.compile(rb"\$ACADVER[ \t]*\r?\n[ \t]*1[ \t]*\r?\n[ \t]*(AC\d+)")
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to say is in our own findings
 
-_BYTE_ORDERS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
-
-_BEYOND_ASCII = re.compile("[\u0080-\uffff]")
-
-_HEAD, _TAIL = 1 << 16, 1 << 12
-"""Bytes of beginning and end in which what tells the sort of a file has to stand."""
-
-MOST_BYTES = 200 << 20
-"""A larger file would take gigabytes before anything of it is known."""
+_TAIL = 1 << 12
+"""Bytes of the end in which its mark stands."""
 
 _ENDLESS = re.compile(
-    rb"^[ \t]*0[ \t]*\r?\n(SPLINE|LWPOLYLINE)[ \t]*\r?\n(?:[ \t]*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", re.MULTILINE
+    rb"^[ \t]*0+[ \t]*\r?\n[ \t]*(SPLINE|LWPOLYLINE)[ \t]*\r?\n(?:[ \t]*0*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", _LINES
 )
 
-_POINT = re.compile(rb"^[ \t]*1([01])[ \t]*\r?\n[^\n]*\n[ \t]*2[01][ \t]*\r?\n", re.MULTILINE)
+_POINT = re.compile(rb"^[ \t]*0*1([01])[ \t]*\r?\n[^\n]*\n[ \t]*0*2[01][ \t]*\r?\n", re.MULTILINE)
+
+_OF_MANY_POINTS = re.compile(rb"(?:LWPOLY|SP)LINE", re.IGNORECASE)
 
 _SUSPECT = 1 << 20
 """Bytes of an entity; a shorter one has not too many points."""
@@ -64,12 +59,14 @@ class LoadedDocument:
     Attributes:
         repaired: how many faults in it had to be repaired.
         repeated: names of blocks that are there once more, which is left out.
+        strays: what stands where nothing is drawn, by its type.
         commas: where decimal commas stood, if they did.
     """
 
     document: Any
     repaired: int = 0
     repeated: tuple[str, ...] = ()
+    strays: Mapping[str, int] = field(default_factory=dict)
     commas: DecimalCommas = NO_COMMAS
 
 
@@ -83,9 +80,8 @@ def load(data: bytes, name: str) -> LoadedDocument:
     Raises:
         InputError: the data is empty, no DXF, cut short, or damaged beyond repair; or a number in it is none.
     """
-    data, unended = _with_end(data)
+    data, unended = _with_end(_with_line_feeds(data))
     _refuse_others(data, name)
-    data = _with_one_section(data)
     try:
         return _load_sound(data, unended)
     except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
@@ -97,7 +93,7 @@ def load(data: bytes, name: str) -> LoadedDocument:
         except Exception as fault:  # it has other faults too
             data, reason = commas.data, fault
     try:
-        loaded = _load_damaged(data)
+        loaded = _load_damaged(data if data.startswith(_BINARY) else plain_letters(data))
         _probed(loaded.document)
     except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
         raise InputError(
@@ -106,18 +102,11 @@ def load(data: bytes, name: str) -> LoadedDocument:
     return replace(loaded, repaired=max(1, loaded.repaired), commas=replace(commas, data=b""))
 
 
-def without_byte_order(data: bytes) -> bytes:
-    """Return a file that begins with a mark of the order of its bytes as UTF-8 without one.
-
-    Numbers and lines stay as they are; letters of a file of before R2007 are escaped, since it is in a code page.
-    """
-    mark = next((each for each in _BYTE_ORDERS if data.startswith(each)), None)
-    if mark is None or len(data) > 2 * MOST_BYTES:
+def _with_line_feeds(data: bytes) -> bytes:
+    """Return a text with a line feed in place of every carriage return that stands alone, as old systems end lines."""
+    if data.startswith(_BINARY) or data.count(b"\r") == data.count(b"\r\n"):
         return data
-    text = data.decode(_BYTE_ORDERS[mark], "replace")
-    if _encoding(text[:_HEAD].encode()) == "utf-8":
-        return text.encode()
-    return _BEYOND_ASCII.sub(lambda letter: f"\\U+{ord(letter[0]):04X}", text).encode()
+    return data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
 
 
 def _with_end(data: bytes) -> tuple[bytes, int]:
@@ -128,10 +117,14 @@ def _with_end(data: bytes) -> tuple[bytes, int]:
     if data.startswith(_BINARY):
         return data, 0
     data = data.lstrip()
-    tail = data[-_TAIL:]
-    if b"EOF" in tail or not _WHOLE.search(tail) or not _ENTITIES.search(data):
+    if _has_end(data) or not _WHOLE.search(data[-_TAIL:]) or not _ENTITIES.search(data):
         return data, 0
     return data.rstrip() + _END_MARK, 1
+
+
+def _has_end(data: bytes) -> bool:
+    """Tell whether the end mark is there; what follows it, zeros of a disk or another text, is nothing."""
+    return (_FILE_END.search(data, max(len(data) - _TAIL, 0)) or _FILE_END.search(data)) is not None
 
 
 def _refuse_others(data: bytes, name: str) -> None:
@@ -145,11 +138,11 @@ def _refuse_others(data: bytes, name: str) -> None:
         return
     if re.match(rb"AC10\d\d\x00", data):
         raise InputError(f"{name}: this is a DWG file; save the drawing as DXF.")
-    if not _SECTION.search(data[:_HEAD]):
+    if not _SECTION.search(data[:HEAD]):
         raise InputError(
             f"{name}: this is not a DXF file, no section begins in it; export the drawing as DXF (ASCII or binary)."
         )
-    if b"EOF" not in data[-_TAIL:]:
+    if not _has_end(data):
         raise InputError(
             f"{name}: the DXF is cut short, its end mark EOF is missing after {len(data)} bytes; copy or export it "
             "again."
@@ -157,29 +150,10 @@ def _refuse_others(data: bytes, name: str) -> None:
     _refuse_endless_curves(data, name)
 
 
-def _with_one_section(data: bytes) -> bytes:
-    """Return a file with the entities of all its sections of them in the first one: the library keeps one alone."""
-    begins = list(_ENTITIES.finditer(data)) if data.count(b"ENTITIES") > 1 else []
-    if len(begins) > 1:
-        file_end = _FILE_END.search(data, begins[0].end())
-        begins = [each for each in begins if file_end is None or each.start() < file_end.start()]
-    ends = [_SECTION_END.search(data, begin.end()) for begin in begins]
-    sections = [(begin, end) for begin, end in zip(begins, ends, strict=True) if end is not None]
-    if len(sections) < 2:
-        return data
-    parts = [data[: sections[0][0].end()], *(data[begin.end() : end.start()] for begin, end in sections)]
-    first, *others = sections
-    at = first[1].start()
-    for begin, end in others:
-        parts.append(data[at : begin.start()])
-        at = end.end()
-    return b"".join([*parts, data[at:]])
-
-
 def _refuse_endless_curves(data: bytes, name: str) -> None:
     """Refuse splines and polylines of more points than are read, before the library makes objects of them all."""
     at = 0
-    for word in re.finditer(rb"(?:LWPOLY|SP)LINE", data):
+    for word in _OF_MANY_POINTS.finditer(data):
         begin = data.rfind(b"\n", 0, max(data.rfind(b"\n", 0, word.start()), 0)) + 1
         found = _ENDLESS.match(data, begin) if word.start() >= at else None
         if found is None:
@@ -187,7 +161,7 @@ def _refuse_endless_curves(data: bytes, name: str) -> None:
         at = found.end()
         if found.end() - found.start() > _SUSPECT:
             kinds = Counter(each[1] for each in _POINT.finditer(found[0]))
-            most, what = (MOST_POINTS, "spline") if found[1] == b"SPLINE" else (MOST_CURVES, "polyline")
+            most, what = (MOST_POINTS, "spline") if found[1].upper() == b"SPLINE" else (MOST_CURVES, "polyline")
             if kinds and max(kinds.values()) > most:
                 line = data.count(b"\n", 0, found.start()) + 1
                 raise InputError(f"{name}:{line}: {too_many(max(kinds.values()), most, what)}")
@@ -197,37 +171,37 @@ def _load_sound(data: bytes, repaired: int) -> LoadedDocument:
     """Return the document of a file in which so many faults were repaired before."""
     load_ezdxf()
     from ezdxf.lldxf.encoding import decode_dxf_unicode
-    from ezdxf.lldxf.loader import load_dxf_structure
     from ezdxf.lldxf.tagger import ascii_tags_loader, binary_tags_loader, tag_compiler
 
     if data.startswith(_BINARY):
         tags = binary_tags_loader(data, errors="surrogateescape")
     elif b"\\U+" not in data:
-        stream = io.TextIOWrapper(io.BytesIO(data), encoding=_encoding(data[:_HEAD]), errors="surrogateescape")
+        stream = io.TextIOWrapper(io.BytesIO(data), encoding=encoding(data[:HEAD]), errors="surrogateescape")
         tags = ascii_tags_loader(stream)
     else:
-        text = decode_dxf_unicode(data.decode(_encoding(data[:_HEAD]), "surrogateescape"))
+        text = decode_dxf_unicode(data.decode(encoding(data[:HEAD]), "surrogateescape"))
         tags = ascii_tags_loader(io.StringIO(text, newline=None))
-    sections = load_dxf_structure(tag_compiler(iter(tags)))
-    repeated = without_repeated(sections)
-    return LoadedDocument(_probed(_document(sections)), repaired, repeated)
+    sections = sections_of(tag_compiler(tidied(tags)))
+    repeated, strays = without_repeated(sections), strays_of(sections)
+    return LoadedDocument(_probed(_document(sections)), repaired, repeated, strays)
 
 
 def _load_damaged(data: bytes) -> LoadedDocument:
     """Return the document of a damaged file."""
     load_ezdxf()
     from ezdxf.audit import Auditor
-    from ezdxf.recover import Recover
+    from ezdxf.recover import Recover, bytes_loader
 
-    found = Recover.run(io.BytesIO(data))
-    repeated = without_repeated(found.section_dict)
+    found = Recover.run(io.BytesIO(data), lambda stream: tidied(bytes_loader(stream)))
+    repeated, strays = without_repeated(found.section_dict), strays_of(found.section_dict)
     subclass_marks.put_in(found.section_dict)
     unreadable = subclass_marks.without_unreadable(found.section_dict)
     document = _document(found.section_dict)
     auditor = Auditor(document)
     auditor.run()
     told = len(found.errors) + len(found.fixes)
-    return LoadedDocument(document, unreadable + told + len(auditor.errors) + len(auditor.fixes), repeated)
+    faults = unreadable + told + len(auditor.errors) + len(auditor.fixes)
+    return LoadedDocument(document, faults, repeated, strays)
 
 
 def _document(sections: Any) -> Any:
@@ -235,6 +209,7 @@ def _document(sections: Any) -> Any:
     from ezdxf.document import Drawing
 
     sections.pop("THUMBNAILIMAGE", None)
+    without_empty_variables(sections.get("HEADER", []))
     subclass_marks.put_in(sections)
     document = Drawing()
     document._load_section_dict(sections)
@@ -252,18 +227,6 @@ def _probed(document: Any) -> Any:
     for block in document.blocks:
         _ = block.name, sum(1 for _ in block)
     return document
-
-
-def _encoding(head: bytes) -> str:
-    """Return the text encoding: UTF-8 since R2007, before that the code page that the header names."""
-    version, page = _VERSION.search(head), _CODEPAGE.search(head)
-    if version and version[1] >= b"AC1021":
-        return "utf-8"
-    if page is None:
-        return "cp1252"
-    from ezdxf.tools.codepage import toencoding
-
-    return str(toencoding(page[1].decode("ascii", "replace")))
 
 
 def _short(error: Exception) -> str:

@@ -88,9 +88,9 @@ def _values(lines: list[bytes]) -> Iterator[tuple[int, int]]:
             code = int(lines[number - 1])
         except ValueError:
             return
-        if code == 2 and lines[number - 2].strip() == b"SECTION":
-            section = lines[number].strip()
-        entity = lines[number].strip() if code == 0 else entity
+        if code == 2 and lines[number - 2].strip().upper() == b"SECTION":
+            section = lines[number].strip().upper()
+        entity = lines[number].strip().upper() if code == 0 else entity
         if code in _MEASURED and section in (b"ENTITIES", b"BLOCKS", b"OBJECTS", b"HEADER", b"TABLES"):
             yield number, code if section in (b"ENTITIES", b"BLOCKS") and entity in _READ else 0
 

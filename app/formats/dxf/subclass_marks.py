@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import takewhile
 from typing import Any
+
+from .sections import Sections, with_block_ends
 
 _OWN = {
     "LWPOLYLINE": "AcDbPolyline",
@@ -16,6 +19,8 @@ _OWN = {
     "MLINE": "AcDbMline",
 }
 """The mark of each kind that the library reads by its marks alone, behind that of what all kinds have."""
+_AT_ONE_PLACE = frozenset({"LINE", "CIRCLE", "ARC", "ELLIPSE", "POINT", "INSERT", "TEXT"})
+"""Kinds that have one place each."""
 _MARKED = frozenset({*_OWN, "HELIX", "WIPEOUT", "MESH", "MULTILEADER"})
 """Kinds that R12 does not know, and that are read as one of R12 in a file that says nothing of its version."""
 _ALL_KINDS = "AcDbEntity"
@@ -24,31 +29,32 @@ DAMAGED = " (damaged)"
 
 _COMMON = frozenset({6, 8, 48, 60, 62, 67, 370, 410, 420, 430, 440})
 """Codes of what all kinds have: line type, layer, its scale, whether it is seen, colour, paper, weight, layout."""
-_HANDLE, _OWNER, _GROUP, _MARK, _EMBEDDED = 5, 330, 102, 100, 101
-"""Codes of groups: handle, owner, what is in braces, subclass mark, embedded object."""
+_HANDLE, _OWNER, _GROUP, _MARK, _EMBEDDED, _EXTENDED, _PLACE = 5, 330, 102, 100, 101, 1001, 10
+"""Codes of groups: handle, owner, what is in braces, subclass mark, embedded object, data of another program, place."""
 _SEQUENCE_END, _PARTS_FOLLOW = "SEQEND", 66
 """What ends the vertices of a polyline or the attributes of a block, and the code that says that some follow."""
 _R12, _R2000 = "AC1009", "AC1015"
 _VERSION = "$ACADVER"
 
-Sections = dict[str, list[Any]]
-"""Of a file by name: each the entities of the library, as tags of codes and values."""
-
 
 def put_in(sections: Sections) -> None:
-    """Give the entities that are read by their marks those that they lack, sequences the ends that they lack, and take
-    away handles that are none, in whose place the library makes new ones.
+    """Give the entities that are read by their marks those that they lack, sequences and blocks the ends that they
+    lack, take away handles that are none, in whose place the library makes new ones, and call damaged what two entities
+    have become one of.
 
     A file that names no version is R12 for the library, where no mark is looked at; one that has entities of later
     versions all the same is taken for one of R2000.
     """
-    kinds = set()
+    kinds, blocks = set(), sections.get("BLOCKS", [])
+    blocks[:] = with_block_ends(blocks)
     for entities in _drawn(sections):
         entities[:] = _with_sequence_ends(entities)
         for at, tags in enumerate(entities):
             kind = tags[0].value
             kinds.add(kind)
             _without_wrong_handle(tags)
+            if kind in _AT_ONE_PLACE and _is_merged(tags):
+                _call_damaged(tags)
             if kind in _OWN and not _is_marked(tags, kind):
                 entities[at] = _with_marks(tags, kind)
     if kinds & _MARKED:
@@ -93,7 +99,9 @@ def _drawn(sections: Sections) -> Iterator[list[Any]]:
 
 
 def _with_sequence_ends(entities: list[Any]) -> Iterator[Any]:
-    """Yield entities with the end mark of each sequence of vertices or attributes that lacks it."""
+    """Yield entities with the end mark of each sequence of vertices or attributes that lacks it, and without such marks
+    where nothing ends.
+    """
     from ezdxf.lldxf.tags import Tags
     from ezdxf.lldxf.types import DXFTag
 
@@ -102,9 +110,10 @@ def _with_sequence_ends(entities: list[Any]) -> Iterator[Any]:
         kind = tags[0].value
         if follows and kind not in (follows, _SEQUENCE_END):
             yield Tags([DXFTag(0, _SEQUENCE_END)])
+        if follows or kind != _SEQUENCE_END:
+            yield tags
         if kind != follows:
             follows = _following(tags)
-        yield tags
     if follows:
         yield Tags([DXFTag(0, _SEQUENCE_END)])
 
@@ -130,9 +139,14 @@ def _is_handle(text: str) -> bool:
         return False
 
 
+def _is_merged(tags: Any) -> bool:
+    """Tell whether an entity has two places: the line that begins another one is lost, and so are both."""
+    codes = takewhile(lambda code: code not in (_EMBEDDED, _EXTENDED), (int(tag.code) for tag in tags))
+    return sum(code == _PLACE for code in codes) > 1
+
+
 def _is_marked(tags: Any, kind: str) -> bool:
-    found = (tag.value for tag in tags if tag.code == _MARK)
-    return (next(found, ""), next(found, "")) == (_ALL_KINDS, _OWN[kind])
+    return [tag.value for tag in tags if tag.code == _MARK] == [_ALL_KINDS, _OWN[kind]]
 
 
 def _with_marks(tags: Any, kind: str) -> Any:

@@ -18,6 +18,7 @@ def reading_findings(content: SvgContent) -> Iterator[Finding]:
     """Say what is damaged, missing, or read by a guess."""
     yield from _faults(content)
     yield from _unread(content)
+    yield from _unplaced(content)
     yield from _texts(content)
     yield from _of_fonts(content)
 
@@ -126,6 +127,20 @@ def _unread(content: SvgContent) -> Iterator[Finding]:
             FindingKind.LEFT_OUT,
             f"{what} missing from the part, {where} line {first.line}: the length {first.what[:60]!r} cannot be read; "
             "write it in mm, px or user units.",
+            amount=float(count),
+        )
+
+
+def _unplaced(content: SvgContent) -> Iterator[Finding]:
+    """Name elements that are missing since it is not known where they lie."""
+    if content.unplaced:
+        first, count = content.unplaced[0], len(content.unplaced)
+        what = "1 element is" if count == 1 else f"{count} elements are"
+        where = "in" if count == 1 else "the first in"
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{what} missing from the part, {where} line {first.line}: the transform {first.what[:60]!r} cannot be "
+            "followed; ungroup it in the editor, or save as plain SVG.",
             amount=float(count),
         )
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from .xml import Node
+from .xml import INKSCAPE, SODIPODI, Node
 
-INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
-SODIPODI = "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"
 CSS_PER_INCH = 96.0
 """User units to the inch, as CSS has them."""
 _OLD_INKSCAPE = 90.0

@@ -1,4 +1,4 @@
-"""SVG's attributes as numbers: lists, transforms, and the map of a viewBox into its place."""
+"""SVG's attributes as numbers: lists, and the map of a viewBox into its place."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from ...geometry.affine import IDENTITY, Affine
+from ...geometry.affine import Affine
 
 PIXEL = 25.4 / 96
 """Size of a CSS pixel, mm."""
@@ -14,7 +14,6 @@ MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0
 """Units of length that have a size of their own, mm."""
 NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _LIST = re.compile(rf"[\s,]*({NUMBER})")
-_TRANSFORM = re.compile(r"[\s,]*([a-zA-Z]+)\s*\(([^()]*)\)")
 
 
 class UnreadableError(ValueError):
@@ -34,51 +33,6 @@ def numbers(text: str) -> list[float]:
     if text[at:].strip(" \t\r\n,"):
         raise UnreadableError(text, found)
     return found
-
-
-def transform(text: str) -> Affine:
-    """Return the map of a transform attribute, y downwards as in the file.
-
-    Raises:
-        UnreadableError: a name or a count of numbers that SVG does not know.
-    """
-    made, at = IDENTITY, 0
-    while match := _TRANSFORM.match(text, at):
-        made = made.after(_one(match[1], numbers(match[2]), text))
-        at = match.end()
-    if text[at:].strip(" \t\r\n,") not in ("", "none"):
-        raise UnreadableError(text)
-    return made
-
-
-def _one(kind: str, given: list[float], text: str) -> Affine:
-    count = len(given)
-    if kind == "matrix" and count == 6:
-        a, b, c, d, e, f = given
-        return Affine(a, c, b, d, e, f)
-    if kind == "translate" and count in (1, 2):
-        return Affine(x0=given[0], y0=given[1] if count == 2 else 0.0)
-    if kind == "scale" and count in (1, 2):
-        return Affine(given[0], 0.0, 0.0, given[-1])
-    if not all(map(math.isfinite, given)):
-        raise UnreadableError(text)
-    if kind == "rotate" and count in (1, 3):
-        return _rotation(given[0], (given[1], given[2]) if count == 3 else (0.0, 0.0))
-    if kind == "skewX" and count == 1:
-        return Affine(xy=math.tan(math.radians(given[0])))
-    if kind == "skewY" and count == 1:
-        return Affine(yx=math.tan(math.radians(given[0])))
-    raise UnreadableError(text)
-
-
-_QUARTERS = {0.0: (1.0, 0.0), 90.0: (0.0, 1.0), 180.0: (-1.0, 0.0), 270.0: (0.0, -1.0)}
-"""Quarter turns are exact, so that what is drawn square stays square."""
-
-
-def _rotation(degrees: float, centre: tuple[float, float]) -> Affine:
-    c, s = _QUARTERS.get(degrees % 360.0) or (math.cos(math.radians(degrees)), math.sin(math.radians(degrees)))
-    x, y = centre
-    return Affine(c, -s, s, c, x - c * x + s * y, y - s * x - c * y)
 
 
 @dataclass(frozen=True, slots=True)

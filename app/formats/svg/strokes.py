@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from ...core import tolerances
 from ...geometry.affine import Affine
 from ...model.curves import Point
 from .lengths import LengthBasis, length
-from .numbers import UnreadableError
+from .numbers import UnreadableError, ViewBox
 from .style import SvgStyle
 from .xml import Node
 
@@ -95,23 +95,22 @@ def _width(style: SvgStyle, state: OutlineState) -> float:
     return width * math.sqrt(abs(state.to.xx * state.to.yy - state.to.xy * state.to.yx))
 
 
-def origin(text: str, box: str, basis: LengthBasis) -> Point:
+def origin(text: str, place: ViewBox, basis: LengthBasis) -> Point:
     """Return what a transform turns about, user units.
 
     Args:
-        text: of transform-origin. box: of transform-box, "" where it is not said. basis: its shares are of.
+        text: of transform-origin, "" = its corner. place: what it is in. basis: its other lengths are relative to.
 
     Raises:
-        UnreadableError: it is none, or a share of what the shape itself takes.
+        UnreadableError: it is none, or a share of a place whose size nobody knows.
     """
-    words = text.lower().split()[:2]
+    words = text.lower().split()[:2] or ["0", "0"]
     if len(words) == 1:
         words.append("center")
     if words[0] in ("top", "bottom") or words[1] in ("left", "right"):
         words.reverse()
     across, up = (length(_WORDS.get(word, word)) for word in words)
-    shared = across.is_share or up.is_share
-    of_page = box in ("", "view-box")
-    if (shared and not (of_page and all(basis.viewport))) or not (of_page or across.user(basis) == up.user(basis) == 0):
+    if (across.is_share or up.is_share) and not (place.width and place.height):
         raise UnreadableError(text)
-    return across.user(basis, "x"), up.user(basis, "y")
+    sized = replace(basis, viewport=(place.width, place.height))
+    return place.x + across.user(sized, "x"), place.y + up.user(sized, "y")

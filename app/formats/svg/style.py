@@ -13,7 +13,8 @@ from .colours import colour, is_clear
 from .lengths import MEDIUM, letter_height, size_of_font
 from .selectors import Selector, Specificity, keys_of, selector
 from .style_rules import imported, is_on_screen, without_comments, written_rules
-from .xml import Node
+from .transforms import INDIVIDUAL, written_transform
+from .xml import LINKED, STYLES, Node
 
 _READ = (
     "display",
@@ -46,8 +47,11 @@ _READ = (
 _GEOMETRY = ("x", "y", "width", "height", "cx", "cy", "r", "rx", "ry")
 """Places and sizes of shapes, which a style sheet may give in the place of attributes."""
 
-_UNFOLLOWED = ("translate", "rotate", "scale", "offset-path", "d")
+_UNFOLLOWED = ("offset-path", "d")
 """What a style sheet may say of a shape's place and form that is not read; as attributes they are something else."""
+
+_OF_SHEETS = frozenset((*_READ, *_GEOMETRY, *_UNFOLLOWED, *INDIVIDUAL))
+"""What is read of style sheets."""
 
 _COLOURS = ("fill", "stroke", "color")
 
@@ -55,7 +59,8 @@ _VISIBILITY = {"visible": True, "initial": True, "hidden": False, "collapse": Fa
 """What else is said says nothing."""
 
 _VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,([^()]*))?\)", re.IGNORECASE)
-_ZERO = re.compile(r"[+-]?0*\.?0+%?")
+_ZERO = re.compile(r"[+-]?0*\.?0+%?|-\d*\.?\d+%?")
+"""An opacity of nothing; one below that is the same."""
 _DEEPEST, _LONGEST = 10, 1000
 """Variables within variables, and letters of a value with all of them in place."""
 
@@ -63,7 +68,6 @@ _LETTERS = ("color", "font-size", "font")
 _OF_THE_MOMENT = re.compile(r":(?:hover|active|focus|visited|link|target|before|after|selection)\b|::", re.IGNORECASE)
 """What a drawing looks like under the mouse or in letters; it says nothing of its shapes."""
 
-_UNITS = re.compile(r"(?<=[\d.])(?:px|deg)\b")
 _IMPORTANT = re.compile(r"!\s*important", re.IGNORECASE)
 
 
@@ -78,12 +82,12 @@ class SvgStyle:
         clips: its own clip and mask, as written. clip_evenodd: in a clip, areas are by that rule.
         overflow: of what it draws beyond its viewport, as written. alpha_mask: a mask of what is opaque, not light.
         faint: it is painted with some opacity between none and all, or that is not known.
-        transform: the element's own, as the attribute would have it; "" for none.
+        transform: all of the element's own, one after another; "" for none.
         origin: what that is about, if not the origin of coordinates, as written.
         variables: by name, --x, with what elements round it have set.
         geometry: places and sizes that style sheets give the element itself.
         em, rem: height of its letters, and of the root's, user units, which lengths may be in.
-        box: what the origin's shares are of, as written. evenodd: areas are filled by that rule.
+        box: what the origin lies in, as written. evenodd: areas are filled by that rule.
         width: of the outline, as written, "" = not said. scales: it grows with the drawing. dashed: it has gaps.
         markers: values of the properties that put arrowheads and the like on it.
         unfollowed: what is said of its place or form and not read.
@@ -177,8 +181,10 @@ class StyleSheet:
     def __init__(self, root: Node) -> None:
         self._rules: dict[str, list[_StyleRule]] = defaultdict(list)
         self._parents: dict[int, Node] = {}
-        sheets = [each.text for each in root.every() if each.tag == "style" and _is_in_force(each)]
-        outer = [*root.outer_sheets, *(each for text in sheets for each in imported(text))]
+        named = [each for each in root.every() if each.tag in (*STYLES, LINKED)]
+        sheets = [each.text for each in named if each.tag in STYLES and _is_in_force(each)]
+        linked = [f"link {each.attributes.get('href', '')}" for each in named if _is_linked_sheet(each)]
+        outer = [*root.outer_sheets, *linked, *(each for text in sheets for each in imported(text))]
         self.unread: list[str] = [" ".join(written.split()) for written in outer]
         self.unread_hides = bool(self.unread)
         self._count = 0
@@ -226,13 +232,19 @@ def _is_in_force(sheet: Node) -> bool:
     return language in ("", "text/css") and is_on_screen(sheet.attributes.get("media", ""))
 
 
+def _is_linked_sheet(node: Node) -> bool:
+    """Tell whether an element names a style sheet for a screen in another file."""
+    said = node.attributes.get("rel", "").lower().split()
+    return node.tag == LINKED and "stylesheet" in said and is_on_screen(node.attributes.get("media", ""))
+
+
 def declarations(text: str) -> Iterator[Declaration]:
     """Yield the properties in "name: value; name: value" that are of use here."""
     for part in without_comments(text).split(";"):
         key, _, value = part.partition(":")
         name, kept = key.strip(), _IMPORTANT.sub("", value).strip()
         name = name if name.startswith("--") else name.lower()
-        if kept and (name in _READ or name in _GEOMETRY or name in _UNFOLLOWED or name.startswith("--")):
+        if kept and (name in _OF_SHEETS or name.startswith("--")):
             yield Declaration(name, kept, kept != value.strip())
 
 
@@ -301,7 +313,7 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
         overflow=declared.get("overflow", ""),
         alpha_mask=declared.get("mask-type") == "alpha",
         faint=outer.faint or any(opacity.strip() not in ("1", "1.0", "100%") for opacity in opacities),
-        transform=_UNITS.sub("", declared.get("transform", "")),
+        transform=written_transform(declared),
         origin=declared.get("transform-origin", ""),
         variables=variables,
         geometry={key: declared[key] for key in _GEOMETRY if key in declared},

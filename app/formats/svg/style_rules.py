@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 _COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)|<!--|-->", re.DOTALL)
@@ -17,12 +17,17 @@ _NOT_FOR_SHAPES = re.compile(r"//fonts?\.|font[^/?#]*(?:[?#].*)?\Z", re.IGNORECA
 """In the address of a sheet that only brings letters, as those of web fonts do: its host, or the end of its path."""
 _NOT_ON_SCREENS = re.compile(r"\s*(?:only\s+)?(?:print|speech)\b", re.IGNORECASE)
 
-_HOLDS_RULES = re.compile(r"@(?:supports|layer|container|scope)\b", re.IGNORECASE)
+_HOLDS_RULES = re.compile(r"@(?:supports(?!\s+not\b)|layer|container|scope)\b", re.IGNORECASE)
 """At-rules whose rules are in force on a screen."""
 _ELSEWHERE = re.compile(r"@(?!media\b)|@media\s+(?:only\s+)?(?:print|speech)\b|@media[^{]*\bprefers-", re.IGNORECASE)
 """At-rules without rules for shapes, and those for paper, voices and dark screens."""
+_BRACES = re.compile(r"[{}]")
 _DEEPEST = 10
-"""At-rules within at-rules."""
+"""At-rules and rules within one another."""
+_MOST_SELECTORS = 1000
+"""Of a rule within others, which goes on from each of theirs."""
+_UNREADABLE = ":too-many"
+"""Stands for selectors that are too many, or nested too deep, to be followed."""
 
 
 class WrittenRule(NamedTuple):
@@ -70,12 +75,52 @@ def written_rules(text: str) -> Iterator[WrittenRule]:
 def _rules(text: str, depth: int) -> Iterator[WrittenRule]:
     for head, body in _blocks(text):
         if not head.startswith("@"):
-            yield WrittenRule(head, body)
+            yield from _nested(head, body, depth)
         elif depth < _DEEPEST and (_HOLDS_RULES.match(head) or any(map(is_on_screen, _media(head)))):
             yield from _rules(body, depth + 1)
         elif not _ELSEWHERE.match(head):
             named = head.replace(",", " or")
             yield from (WrittenRule(named, inner) for _, inner in _blocks(body))
+
+
+def _nested(head: str, body: str, depth: int) -> Iterator[WrittenRule]:
+    """Yield a rule, and those that stand within it: their selectors go on from its own, or have & in its place."""
+    if "{" not in body:
+        yield WrittenRule(head, body)
+        return
+    yield WrittenRule(head, _own(body))
+    for inner, text in _blocks(body):
+        if depth >= _DEEPEST:
+            yield WrittenRule(_UNREADABLE, _BRACES.sub(";", text))
+        elif inner.startswith("@"):
+            yield from _within(head, _rules(f"{inner}{{&{{{text}}}}}", depth + 1))
+        else:
+            yield from _within(head, _nested(inner, text, depth + 1))
+
+
+def _within(head: str, rules: Iterable[WrittenRule]) -> Iterator[WrittenRule]:
+    """Yield rules that stand within one of these selectors."""
+    outer = [each.strip() for each in head.split(",")]
+    for selectors, declared in rules:
+        inner = [each.strip() for each in selectors.split(",")]
+        if len(outer) * len(inner) > _MOST_SELECTORS:
+            yield WrittenRule(_UNREADABLE, declared)
+        else:
+            made = (each.replace("&", one) if "&" in each else f"{one} {each}" for one in outer for each in inner)
+            yield WrittenRule(",".join(made), declared)
+
+
+def _own(body: str) -> str:
+    """Return the declarations of a rule without the rules that stand within it."""
+    kept, begin, depth = "", 0, 0
+    for part in _PART.finditer(body):
+        if part["sign"] == "{":
+            depth += 1
+        elif part["sign"] == "}":
+            depth, begin = max(depth - 1, 0), part.end()
+        elif part["sign"] == ";" and not depth:
+            kept, begin = kept + body[begin : part.end()], part.end()
+    return kept if depth else kept + body[begin:]
 
 
 def _media(head: str) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import PurePath
 
@@ -106,9 +107,11 @@ def read_svg(
         return usable_curves(content.curves, None, _anchors(content, layers, how.without_layers) if to_zero else None)
 
     found = placed(how.to_zero)
-    left_out = +(
-        content.left_out + found.missing + Counter({LeftOutSort("shape of unreadable length"): len(content.unread)})
-    )
+    unread = {
+        LeftOutSort("shape of unreadable length"): len(content.unread),
+        LeftOutSort("element of unreadable transform"): len(content.unplaced),
+    }
+    left_out = +(content.left_out + found.missing + Counter(unread))
     if not found.entities:
         why = (
             "all of the drawing lies beyond 1 km"
@@ -211,7 +214,8 @@ def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False)
     Raises:
         UnreadableError: a length or the viewBox cannot be read.
     """
-    width, height = (_given(root, key) for key in ("width", "height"))
+    style = StyleSheet(root).style(root, SvgStyle())
+    width, height = (_given(root, key, style) for key in ("width", "height"))
     box = view_box(root.attributes["viewBox"]) if "viewBox" in root.attributes else None
     physical = next(
         (given for given in (width, height) if given is not None and given.is_physical and not overrule), None
@@ -221,8 +225,7 @@ def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False)
         unit, width, height = units.value, None if box else width, None if box else height
     else:
         unit = pixel
-    em = StyleSheet(root).style(root, SvgStyle()).em
-    wide, high = _mm(width, unit, em), _mm(height, unit, em)
+    wide, high = (_mm(each, unit, style.em) for each in (width, height))
     if box is None:
         to, view = Affine(unit, 0.0, 0.0, unit), ((wide or 0.0) / unit, (high or 0.0) / unit)
     else:
@@ -235,14 +238,26 @@ def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False)
     return _Page(Affine(1.0, 0.0, 0.0, -1.0, -x, y).after(to), view, shown, physical is not None)
 
 
-def _given(root: Node, key: str) -> WrittenLength | None:
-    """Return the page's width or height; None where it is not given or only a share of a window."""
-    text = root.attributes.get(key, "auto").strip()
-    found = None if text in ("auto", "") else length(text)
+def _given(root: Node, key: str, style: SvgStyle) -> WrittenLength | None:
+    """Return the page's width or height; None where it is not given or only a share of a window.
+
+    What a style sheet says of it counts where that alone has a size of its own: else it is the size of a window.
+    """
+    found = _written(root.attributes.get(key, ""))
+    if found is None or not found.is_physical:
+        with suppress(UnreadableError):
+            sized = _written(style.geometry.get(key, ""))
+            found = sized if sized is not None and sized.is_physical else found
+    return found
+
+
+def _written(text: str) -> WrittenLength | None:
+    """Return a length above 0; None for nothing, or for a share of a window."""
+    found = None if text.strip() in ("auto", "") else length(text)
     if found is None or found.is_share:
         return None
     if not 0 < found.user(LengthBasis((0.0, 0.0))) < math.inf:
-        raise UnreadableError(text)
+        raise UnreadableError(text.strip())
     return found
 
 

@@ -21,18 +21,18 @@ from ..drawing import LeftOutReason, LeftOutSort
 from ..drawing_account import MOST_CURVES, LayeredCurve
 from ..dxf.splines import MOST_POINTS
 from .clips import Clip, ClipReader, Seen, covers, seen_of, viewport_clip
-from .generator import INKSCAPE, SODIPODI
 from .joined import beziers_joined, joined
 from .lengths import FONT_LENGTH, LengthBasis, Viewport
-from .numbers import UnreadableError, ViewBox, fitted, transform, view_box
+from .numbers import UnreadableError, ViewBox, fitted, view_box
 from .painted import bounding, closed_by_line
 from .path import SvgPath
 from .shapes import LENGTHS, SHAPES, measure, shape
 from .strokes import PaintedOutlines, origin
 from .style import StyleSheet, SvgStyle
-from .xml import DEEPEST, Node
+from .transforms import UnplacedError, transform
+from .xml import DEEPEST, INKSCAPE, LINK, SODIPODI, Node
 
-_LINK = "http://www.w3.org/1999/xlink href"
+_LINK = f"{LINK} href"
 _NOT_CURVES = ("image", "foreignObject", "video", "audio", "iframe", "canvas")
 TEXTS = ("text", "flowRoot")
 BLACK, WHITE = "#000000", "#ffffff"
@@ -40,6 +40,9 @@ _GROUND = 1e-3
 """By so much of a page its ground may be too small."""
 _TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
 _ENGLISH = re.compile(r"(?:^|,)\s*en\b", re.IGNORECASE)
+_SIGN = re.compile(r"_x([0-9A-Fa-f]{2}|[0-9A-Fa-f]{4})_")
+_SHADE = re.compile(r"\s*url\(\s*[\"']?#([^)\"']+?)[\"']?\s*\)(.*)", re.DOTALL)
+"""A paint of this file, and what is taken where there is none of that name."""
 _BREAK = re.compile(r"[\x00-\x1f]+")
 
 
@@ -84,6 +87,7 @@ class SvgContent:
         nothing: places of shapes without length.
         faults: shapes whose data cannot be read to the end.
         unread: shapes that are missing, for a length of theirs cannot be read: it, and its line.
+        unplaced: elements that are missing, for a transform of theirs cannot be followed: it, and its line.
         texts: that can be seen, and are missing too.
         of_font: shapes with lengths that depend on what a font is like.
         clipped: shapes that are read whole although a clip or a mask hides a part of them.
@@ -101,6 +105,7 @@ class SvgContent:
     nothing: list[Point | None] = field(default_factory=list)
     faults: list[SvgFault] = field(default_factory=list)
     unread: list[SvgFault] = field(default_factory=list)
+    unplaced: list[SvgFault] = field(default_factory=list)
     texts: list[UnreadWords] = field(default_factory=list)
     of_font: int = 0
     clipped: int = 0
@@ -166,7 +171,7 @@ class SvgWalker:
             view: size of the root's viewport, user units.
 
         Raises:
-            InputError: a transform or a viewBox cannot be read; uses go in a circle, too deep, or unfold to too much.
+            InputError: a viewBox cannot be read; uses go in a circle, too deep, or unfold to too much.
         """
         self._size(self._root, {}, 0)
         style = self._styles.style(self._root, SvgStyle())
@@ -212,7 +217,15 @@ class SvgWalker:
             self._one(node, state)
 
     def _one(self, node: Node, outer: InheritedState) -> None:
-        if node.tag in _NOT_CURVES:
+        try:
+            self._element(node, outer)
+        except UnplacedError as error:
+            self._sheet.unplaced.append(SvgFault(node.line, str(error.args[0])))
+
+    def _element(self, node: Node, outer: InheritedState) -> None:
+        if node.attributes.get("requiredExtensions"):  # no viewer has any
+            self._sheet.left_out[LeftOutSort(node.tag, LeftOutReason.INVISIBLE)] += 1
+        elif node.tag in _NOT_CURVES:
             self._sheet.left_out[LeftOutSort(node.tag)] += 1
         elif node.tag in TEXTS:
             self._text(node, self._inside(node, outer))
@@ -249,9 +262,9 @@ class SvgWalker:
 
     def _in_place(self, node: Node, outer: InheritedState) -> InheritedState:
         """Return the state inside an element, without its own clips."""
-        style, to, layer = self._styles.style(node, outer.style), outer.to, outer.layer
+        style, to, layer = self._with_paints(self._styles.style(node, outer.style)), outer.to, outer.layer
         self._sheet.unfollowed.update(style.unfollowed)
-        if style.transform:
+        if style.transform and style.shown:
             to = to.after(self._transform(node, style, outer.basis))
         named = "" if outer.copied else self._layer_name(node, outer.depth)
         if named:
@@ -263,18 +276,48 @@ class SvgWalker:
             style = replace(style, shown=outer.style.shown)
         return replace(outer, to=to, style=style, layer=layer, depth=outer.depth + 1)
 
+    def _with_paints(self, style: SvgStyle) -> SvgStyle:
+        """Return a style with what is painted in place of shades and patterns that are not in the file."""
+        if "url(" not in style.fill and "url(" not in style.stroke:
+            return style
+        fill, stroke = map(self._paint, (style.fill, style.stroke))
+        return replace(style, fill=fill, stroke=stroke)
+
+    def _paint(self, written: str) -> str:
+        found = _SHADE.match(written)
+        return written if found is None or found[1] in self._ids else found[2].strip() or "none"
+
     def _transform(self, node: Node, style: SvgStyle, basis: LengthBasis) -> Affine:
+        """Return where an element's own transform brings it.
+
+        Raises:
+            UnplacedError: that cannot be told.
+        """
         try:
-            made = transform(style.transform)
-        except UnreadableError:
-            self._refuse(node, f"the transform {style.transform[:60]!r} cannot be read; ungroup it and save again")
-        if made == IDENTITY or not style.origin:
-            return made
-        try:
-            x, y = origin(style.origin, style.box, basis)
-        except UnreadableError:
-            self._refuse(node, f"a transform about {style.origin[:60]!r} cannot be read; ungroup it and save again")
-        return Affine(x0=x, y0=y).after(made).after(Affine(x0=-x, y0=-y))
+            place = self._reference(node, style, basis)
+            made = transform(style.transform, replace(basis, viewport=(place.width, place.height)))
+            if made == IDENTITY:
+                return made
+            x, y = origin(style.origin, place, basis)
+        except (UnreadableError, ArithmeticError):
+            raise UnplacedError(" about ".join(filter(None, (style.transform, style.origin)))) from None
+        return Affine(x0=x, y0=y).after(made).after(Affine(x0=-x, y0=-y)) if x or y else made
+
+    def _reference(self, node: Node, style: SvgStyle, basis: LengthBasis) -> ViewBox:
+        """Return what an element's transform is relative to, user units.
+
+        Raises:
+            UnreadableError: the box round a group, or round an outline's width.
+        """
+        if style.box in ("", "view-box"):
+            return ViewBox(0.0, 0.0, *basis.viewport)
+        with_outline = style.box in ("stroke-box", "border-box") and style.outlined
+        sized = replace(node, attributes={**node.attributes, **style.geometry})
+        drawn = shape(sized, basis, MOST_CURVES) if not with_outline else None
+        box = None if drawn is None else bounds_of_all(curve for run in drawn.runs for curve in run)
+        if box is None or not all(map(math.isfinite, box)):
+            raise UnreadableError(style.box)
+        return ViewBox(box[0], box[1], box[2] - box[0], box[3] - box[1])
 
     def _layer_name(self, node: Node, depth: int) -> str:
         """Return the name of the layer that a group is; a file without Inkscape's layers has its top groups that are
@@ -282,7 +325,8 @@ class SvgWalker:
         """
         if node.tag != "g" or (not _is_layer(node) if self._named_layers else depth > 0):
             return ""
-        labels = (_BREAK.sub(" ", node.attributes.get(key, "")) for key in (f"{INKSCAPE} label", "data-name", "id"))
+        own = (node.attributes.get(key, "") for key in (f"{INKSCAPE} label", "data-name"))
+        labels = (_BREAK.sub(" ", each) for each in (*own, _decoded(node.attributes.get("id", ""))))
         return next((label for label in labels if label.strip()), "layer" if self._named_layers else "")
 
     def _use(self, node: Node, state: InheritedState) -> None:
@@ -295,12 +339,14 @@ class SvgWalker:
         x, y = self._measured(node, ("x", "y"), state, (0.0, 0.0))
         state = replace(state, to=state.to.after(Affine(x0=x, y0=y)), copied=True)
         self._open.append(id(target))
-        if target.tag in ("symbol", "svg"):
-            inner = self._inside(target, state)
-            self._children(target.children, self._viewport(target, inner, node))
-        else:
-            self._one(target, state)
-        self._open.pop()
+        try:
+            if target.tag in ("symbol", "svg"):
+                inner = self._inside(target, state)
+                self._children(target.children, self._viewport(target, inner, node))
+            else:
+                self._one(target, state)
+        finally:
+            self._open.pop()
 
     def _viewport(self, node: Node, state: InheritedState, sized: Node) -> InheritedState:
         """Return the state inside an element with a viewport of its own, whose size another one may give."""
@@ -462,6 +508,11 @@ def _moves(written: str) -> bool:
 def _of_font(node: Node) -> bool:
     """True where a place or size of a shape that is read depends on what a font is like."""
     return any(FONT_LENGTH.search(node.attributes.get(key, "")) for key in LENGTHS)
+
+
+def _decoded(name: str) -> str:
+    """Return the name of an element as it was typed: some editors write what no name may have as _x0020_."""
+    return _SIGN.sub(lambda sign: chr(int(sign[1], 16)), name)
 
 
 def _is_layer(node: Node) -> bool:

@@ -15,11 +15,10 @@ from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from ...model.part import Entity, Layer, Part
 from ..drawing import WrittenDrawing
 from ..drawing_conversions import Conversions, box_round
-from .generator import INKSCAPE, SODIPODI
 from .joined import joined
 from .svg import HITOFUDE
 from .walk import BLACK
-from .xml import SVG
+from .xml import INKSCAPE, SODIPODI, SVG
 
 _WIDEST = math.tau / 3
 """Arcs are drawn in parts no wider than this: from the ends and radii of a wider one its centre comes back less

@@ -13,8 +13,14 @@ from xml.parsers import expat
 
 from ...core.errors import MOST_QUOTED, InputError
 from ..drawing_account import MOST_CURVES
+from .xml_text import plainly_encoded, with_prefixes
 
 SVG = "http://www.w3.org/2000/svg"
+LINK = "http://www.w3.org/1999/xlink"
+INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+SODIPODI = "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"
+_USUAL = {"svg": SVG, "xlink": LINK, "inkscape": INKSCAPE, "sodipodi": SODIPODI}
+_UNDECLARED = expat.errors.codes[expat.errors.XML_ERROR_UNBOUND_PREFIX]
 DEEPEST = 100
 """Elements nested deeper than this are refused."""
 MOST_BYTES = 256 << 20
@@ -27,7 +33,12 @@ MOST_USES = 10_000
 _USE = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos);)[^#;&\s<>]{1,200};")
 _LONGEST_COMMENTS = 4096
 _WRITTEN = ("text", "tspan", "textPath", "a", "flowRoot", "flowPara", "flowSpan", "flowDiv", "flowRegionBreak")
-_WITH_TEXT = ("style", *_WRITTEN)
+_XHTML = "http://www.w3.org/1999/xhtml"
+STYLES = ("style", f"{_XHTML} style")
+"""Elements that hold style sheets."""
+LINKED = f"{_XHTML} link"
+"""Element that names what lies in another file, such as a style sheet."""
+_WITH_TEXT = (*STYLES, *_WRITTEN)
 _HEAD = 1 << 16
 _COMPRESSED = b"\x1f\x8b"
 
@@ -83,7 +94,11 @@ def read_xml(data: bytes, name: str) -> Node:
     if b"<" not in data[:_HEAD].replace(b"\0", b""):
         raise InputError(f"{name}: this is not an SVG file, no element begins in it; export the drawing as SVG.")
     _refuse_repeated_entities(data, name)
-    return _Reader(name).read(data)
+    data = plainly_encoded(data)
+    try:
+        return _Reader(name).read(data)
+    except _UndeclaredPrefixError:
+        return _Reader(name, lenient=False).read(with_prefixes(data, _USUAL))
 
 
 def _unpacked(data: bytes, name: str) -> bytes:
@@ -109,9 +124,14 @@ def _refuse_repeated_entities(data: bytes, name: str) -> None:
         )
 
 
+class _UndeclaredPrefixError(Exception):
+    """A name has a prefix that stands for no namespace, as parts copied out of other files have."""
+
+
 class _Reader:
-    def __init__(self, name: str) -> None:
-        self._name = name
+    def __init__(self, name: str, lenient: bool = True) -> None:
+        """Make a reader; a lenient one tells of prefixes that are not declared by an error of their own."""
+        self._name, self._lenient = name, lenient
         self._parser = expat.ParserCreate(namespace_separator=" ")
         self._parser.buffer_text, self._parser.buffer_size = True, 1 << 20
         self._parser.StartElementHandler = self._start
@@ -130,6 +150,8 @@ class _Reader:
         try:
             self._parser.Parse(data, True)
         except expat.ExpatError as error:
+            if self._lenient and error.code == _UNDECLARED:
+                raise _UndeclaredPrefixError from None
             what = expat.ErrorString(error.code)
             raise InputError(
                 f"{self._name}:{error.lineno}: the XML is damaged, column {error.offset + 1}: {what}; "

@@ -47,6 +47,8 @@ _BROKEN = (
 
 _ROOT = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 """The kind of relation that leads to the model to build."""
+_SET_ASIDE = "0"
+"""What slicers say of whether an item is printed, where it is not."""
 _NO_PART = ("support", "solidsupport", "other")
 """Types of objects that hold a part while it is printed, or nothing of it."""
 
@@ -64,7 +66,8 @@ def three_mf_triangles(name: str, data: bytes) -> Floats:
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             package = _Package(name, archive)
-            items = [(package.target(each, package.main), _matrix(each)) for each in _all(package.root(), "item")]
+            built = (each for each in _all(package.root(), "item") if each.get("printable") != _SET_ASIDE)
+            items = [(package.target(each, package.main), _matrix(each)) for each in built]
             parts = [triangles for target, matrix in items for triangles in _placed(package, target, matrix, 0)]
     except _BROKEN as error:
         raise _damaged(name) from error
