@@ -34,6 +34,7 @@ class DialectRules:
         tool_changes: M6 is known. splines: "G5" (LinuxCNC), "G6.2" (Fanuc) or "".
         calls: how deep subroutines may call one another.
         longest_line: bytes of a line, its end not counted where that is one byte.
+        longest_code: characters of a line without its blanks and comments.
         parameters: the largest number of a parameter.
         repeats_by_k: K of a canned cycle says how often it is done, as L does.
         macro_b: it has Fanuc's macro B: operators of its own, and a parameter that nobody has set is vacant and not 0.
@@ -52,6 +53,7 @@ class DialectRules:
     splines: str = "G5"
     calls: int = MANY
     longest_line: int = MANY
+    longest_code: int = MANY
     parameters: int = 99_999
     repeats_by_k: bool = False
     macro_b: bool = False
@@ -144,7 +146,9 @@ _LINUXCNC_LACKS = frozenset(
 
 DIALECT_RULES: dict[Dialect, DialectRules] = {
     Dialect.LINUXCNC: DialectRules("LinuxCNC", calls=9, longest_line=252, parameters=5601, missing=_LINUXCNC_LACKS),
-    Dialect.GRBL: DialectRules("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
+    Dialect.GRBL: DialectRules(
+        "grbl", ngc_flow=False, tool_changes=False, splines="", longest_code=79, missing=_GRBL_LACKS
+    ),
     Dialect.FANUC: DialectRules(
         "Fanuc",
         ngc_flow=False,

@@ -60,6 +60,9 @@ _CYCLES = {
     "G43.5": "a tool that tilts",
 }
 
+_POLAR_TOO = frozenset({"G112", "G113"})
+"""Work offsets of Haas that are polar interpolation on its newer controls, as on Fanuc's."""
+
 UNITS_OF_MACH3 = {"G70": "G20", "G71": "G21"}
 """Its older names of the units."""
 
@@ -190,18 +193,24 @@ def adapt(control: Control, block: Block) -> None:
         _drop(block, "pqr")
         control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
     if control.rules.macro_b:
+        _pass_look_ahead(control, block)
         _refuse_lathe(block)
         _keep_cutter(control, block)
     if control.options.dialect is Dialect.MACH3:
         _take_radius(block)
+        _go_to_switches(control, block)
     for code in list(block.unknown):
         if control.options.dialect is Dialect.MACH3 and code in UNITS_OF_MACH3:
             block.unknown.remove(code)
             _set_units(block, UNITS_OF_MACH3[code])
         elif code in _CYCLES:
             raise BlockFault(f"{code} is {_CYCLES[code]}, which is not followed; {REMEDY}", letter="g")
-        if code == "G154" or (code.startswith("G") and 110 <= float(code[1:]) <= 129):
+        if control.options.dialect is Dialect.HAAS and _is_work_offset_of_haas(code):
             block.unknown.remove(code)
+            if code in _POLAR_TOO:
+                control.warn(
+                    f"{code} is a work offset of older Haas mills, and polar interpolation of newer ones.", "g"
+                )
             block.codes[ModalGroup.OFFSET] = "G54.1"
             block.values.setdefault("p", float(code[1:]) - 109)
         elif code == _CALL_FROM_FILES and control.options.dialect is Dialect.FANUC:
@@ -213,6 +222,18 @@ def adapt(control: Control, block: Block) -> None:
             block.unknown.remove(code)
             _drop(block, "pq")
             control.warn(f"{code} ({_PASSED[code]}) is passed over.", "g")
+
+
+def _pass_look_ahead(control: Control, block: Block) -> None:
+    """Pass over G8 P, which is no mode of lathes here."""
+    if block.codes.get(ModalGroup.LATHE) == "G8":
+        del block.codes[ModalGroup.LATHE]
+        block.unknown.append("G8")
+
+
+def _is_work_offset_of_haas(code: str) -> bool:
+    """Tell whether a code chooses one of its additional zeros; to Fanuc G112 and G113 are polar interpolation."""
+    return code == "G154" or (code.startswith("G") and 110 <= float(code[1:]) <= 129)
 
 
 def _keep_cutter(control: Control, block: Block) -> None:
@@ -245,6 +266,17 @@ def _take_radius(block: Block) -> None:
     if code in ("G41", "G42") and "p" in block.values and "d" not in block.values:
         block.codes[ModalGroup.RADIUS] = f"{code}.1"
         block.values["d"] = 2.0 * block.values.pop("p")
+
+
+def _go_to_switches(control: Control, block: Block) -> None:
+    """Take G28.1 with axes for the way home that it is on Mach3: on others it notes where the tool is."""
+    if block.codes.get(ModalGroup.ONCE) == "G28.1" and block.has(AXES):
+        block.codes[ModalGroup.ONCE] = "G28"
+        control.warn(
+            "G28.1 sends its axes to their switches; where these are the machine alone knows, and what counts from "
+            "there is read as if they were at its zero.",
+            "g",
+        )
 
 
 def _set_units(block: Block, code: str) -> None:
@@ -409,7 +441,7 @@ def call_or_return(flow: Flow, control: Control, block: Block) -> bool:
             go_to(flow, whole(block.values["p"], "P of M99"))
             return True
         return False
-    number, count = _called(control, block, code)
+    number, count = _called(flow, control, block, code)
     if count:
         flow.call(_begun_at(flow, block, _goal(flow, control, code, number)), None, count)
     return True
@@ -430,11 +462,14 @@ def _begun_at(flow: Flow, block: Block, called: Subroutine) -> Subroutine:
     return called._replace(begin=to)
 
 
-def _called(control: Control, block: Block, code: str) -> tuple[int, int]:
-    """Return which subroutine is called and how often; Fanuc writes both in P too: four digits of number."""
+def _called(flow: Flow, control: Control, block: Block, code: str) -> tuple[int, int]:
+    """Return which subroutine is called and how often; Fanuc writes both in P too: four digits of number, where no
+    program has all the digits for its own.
+    """
     number = whole(block.need("p", code), f"P of {code}")
     count = whole(block.values.get("l", 1.0), f"L of {code}")
-    if code == "M98" and control.rules.fanuc_flow and not block.has("l") and number > 9999:
+    fanuc = code == "M98" and control.options.dialect is Dialect.FANUC
+    if fanuc and not block.has("l") and number > 9999 and flow.places.subroutine(str(number)) is None:
         number, count = number % 10_000, number // 10_000
     if not 0 <= count <= MOST_CALLS:
         raise BlockFault(f"a subroutine cannot be called {count} times; use 1 to {MOST_CALLS}.", letter="l")
