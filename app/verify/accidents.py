@@ -23,6 +23,7 @@ from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Workpiece
 from ..simulation.sweeps.course import Course
 from ..simulation.sweeps.trim import CutResult, RapidHit
+from .bent_rapids import bent_rapids
 from .course import MOST, NARROW, CutterTravel, FineStock, KnownCourse
 from .holder_contacts import HolderContact, HolderReport, holder_contacts
 from .plunges import fast_plunges, plunges
@@ -43,6 +44,7 @@ class ProgramStage:
         where: words for the place of a motion in the text, such as "NC line 7", by its row.
         plunge_rates: that the program's header names, mm/min, by T number.
         under: thickness of the waste below the stock that its header tells of, mm.
+        rapids_bend: its control may move each axis of a rapid at its own rate.
     """
 
     known: KnownCourse
@@ -53,6 +55,7 @@ class ProgramStage:
     where: Callable[[int], str]
     plunge_rates: Mapping[int, float]
     under: float = 0.0
+    rapids_bend: bool = False
 
     @property
     def motions(self) -> Motions:
@@ -97,10 +100,11 @@ def accidents(stage: ProgramStage, progress: Progress = NO_PROGRESS) -> Accident
         Cancelled: the job was asked to stop.
     """
     looked = narrow_rapids(stage.known.course, stage.metal, stage.before, stage.cut.rapids, progress.part(0.0, 0.3))
-    holders = holder_contacts(stage.known.course, stage.before, stage.cutters, stage.tools, progress.part(0.3, 0.7))
+    holders = holder_contacts(stage.known.course, stage.before, stage.cutters, stage.tools, progress.part(0.3, 0.6))
     findings = (
         *_start(stage),
         *_rapids(stage, looked),
+        *_bent_rapids(stage, looked, progress.part(0.6, 0.7)),
         *_sideways_out(stage),
         *_at_unknown_places(stage),
         *_plunges(stage, progress.part(0.7, 0.85)),
@@ -144,6 +148,27 @@ def _rapids(stage: ProgramStage, looked: NarrowRapids) -> Iterator[Finding]:
             amount=float(len(hits) - NAMED),
         )
     yield from _unseen(stage, looked.unseen, "rapids")
+
+
+def _bent_rapids(stage: ProgramStage, looked: NarrowRapids, progress: Progress) -> Iterator[Finding]:
+    """Yield the rapids that pass metal where they go straight, and may meet it where they do not."""
+    if not stage.rapids_bend:
+        return
+    told = {hit.motion for hit in looked.rapids}
+    found = bent_rapids(stage.known.course, stage.before, stage.cutters, progress)
+    hits = [hit for hit in found if hit.motion not in told]
+    for hit in hits[:NAMED]:
+        text = (
+            f"The rapid in {stage.where(hit.motion)} passes the metal on a straight way alone; where the control moves "
+            f"each axis at its own rate it goes {hit.depth:.3f} mm deep into it at ({hit.x:.3f}, {hit.y:.3f}, "
+            f"{hit.z:.3f}); lift it first, go along one axis at a time, or use G1."
+        )
+        yield stage.finding(FindingKind.RAPID_IN_MATERIAL, text, hit.motion, (hit.x, hit.y), hit.depth)
+    if len(hits) > NAMED:
+        text = (
+            f"{len(hits) - NAMED} more rapids may go through metal where the control moves each axis at its own rate."
+        )
+        yield Finding(FindingKind.RAPID_IN_MATERIAL, text, amount=float(len(hits) - NAMED))
 
 
 def _unseen(stage: ProgramStage, count: int, what: str) -> Iterator[Finding]:

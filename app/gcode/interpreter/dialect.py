@@ -38,6 +38,7 @@ class DialectRules:
         parameters: the largest number of a parameter.
         repeats_by_k: K of a canned cycle says how often it is done, as L does.
         macro_b: it has Fanuc's macro B: operators of its own, and a parameter that nobody has set is vacant and not 0.
+        rapids_bend: it may be set to move each axis of a rapid at its own rate.
         missing: G words that other dialects have and this one refuses.
     """
 
@@ -57,6 +58,7 @@ class DialectRules:
     parameters: int = 99_999
     repeats_by_k: bool = False
     macro_b: bool = False
+    rapids_bend: bool = False
     missing: frozenset[str] = frozenset()
 
 
@@ -160,6 +162,7 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         splines="G6.2",
         repeats_by_k=True,
         macro_b=True,
+        rapids_bend=True,
     ),
     Dialect.HAAS: DialectRules(
         "Haas",
@@ -171,6 +174,7 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         length_from_tool=False,
         splines="",
         macro_b=True,
+        rapids_bend=True,
     ),
     Dialect.MACH3: DialectRules(
         "Mach3",

@@ -171,6 +171,7 @@ class InterpreterRun:
             noted.stock,
             self._text.line_count,
             noted.header,
+            self._rules.rapids_bend,
         )
 
     def _miss_end(self) -> None:

@@ -220,7 +220,8 @@ def _stage(context: CutContext, k: int, before: Workpiece, after: CutResult, don
     def where(row: int) -> str:
         return context.setup.where(done + row)
 
-    return ProgramStage(context.courses[k], before, after, metal, context.setup.tools, where, rates, under)
+    bends = context.setup.programs[k].rapids_bend
+    return ProgramStage(context.courses[k], before, after, metal, context.setup.tools, where, rates, under, bends)
 
 
 def _joined(first: CutResult, then: CutResult, motions: int) -> CutResult:
