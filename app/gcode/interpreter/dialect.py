@@ -146,6 +146,28 @@ _LINUXCNC_LACKS = frozenset(
     }
 )
 
+_MACRO_B_LACKS = frozenset(
+    {
+        "G5.2",
+        "G5.3",
+        "G28.1",
+        "G33.1",
+        "G38.2",
+        "G38.3",
+        "G38.4",
+        "G38.5",
+        "G43.2",
+        "G59.1",
+        "G59.2",
+        "G59.3",
+        "G90.1",
+        "G91.1",
+        "G92.2",
+        "G92.3",
+    }
+)
+"""What LinuxCNC and its kin alone have; Fanuc and Haas stop with an alarm."""
+
 DIALECT_RULES: dict[Dialect, DialectRules] = {
     Dialect.LINUXCNC: DialectRules("LinuxCNC", calls=9, longest_line=252, parameters=5601, missing=_LINUXCNC_LACKS),
     Dialect.GRBL: DialectRules(
@@ -163,6 +185,7 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         repeats_by_k=True,
         macro_b=True,
         rapids_bend=True,
+        missing=_MACRO_B_LACKS | {"G187"},
     ),
     Dialect.HAAS: DialectRules(
         "Haas",
@@ -175,6 +198,7 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         splines="",
         macro_b=True,
         rapids_bend=True,
+        missing=_MACRO_B_LACKS | {"G30.1", "G41.1", "G42.1", "G43.1"},
     ),
     Dialect.MACH3: DialectRules(
         "Mach3",
@@ -182,6 +206,6 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         fanuc_flow=True,
         length_from_tool=False,
         splines="",
-        missing=frozenset({"G51.1"}),
+        missing=frozenset({"G51.1", "G187"}),
     ),
 }

@@ -27,6 +27,9 @@ _FIRST = rf"\A(?:(?!{_CODE})[^\n]*\n)*?(?:{_NUMBERED})"
 where O numbers but a subroutine behind the program, as in Mach3, a length without a point is no count of microns.
 """
 
+_ARC_MODE = re.compile(r"^[^(;\n]*\bg9[01]\.1(?![\d.])", re.IGNORECASE | re.MULTILINE)
+"""How centres of arcs count is said to LinuxCNC, grbl and Mach3 alone; of these the last has numbers of programs."""
+
 _OWN = re.compile(
     r"\(hitofude for (" + "|".join(rules.title.lower() for rules in DIALECT_RULES.values()) + r")\b", re.IGNORECASE
 )
@@ -64,4 +67,5 @@ def guess_dialect(data: bytes) -> Dialect:
     own = _OWN.search(text)
     if own is not None:
         return next(dialect for dialect, rules in DIALECT_RULES.items() if rules.title.lower() == own[1].lower())
-    return next((dialect for dialect, words in _TELLING if words.search(text)), Dialect.LINUXCNC)
+    found = next((dialect for dialect, words in _TELLING if words.search(text)), Dialect.LINUXCNC)
+    return Dialect.MACH3 if found is Dialect.FANUC and _ARC_MODE.search(text) else found

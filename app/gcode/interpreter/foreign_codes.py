@@ -60,6 +60,19 @@ _CYCLES = {
     "G43.5": "a tool that tilts",
 }
 
+_OTHERWISE = {
+    "G30.1": "the way to a floating reference point",
+    "G41.1": "a blade that is turned along the path",
+    "G42.1": "a blade that is turned along the path",
+    "G43.1": "a length along a tool that tilts",
+}
+"""What Fanuc does by codes that LinuxCNC uses for something else."""
+
+_BUILDERS = frozenset({ModalGroup.PINS, ModalGroup.STATE}), frozenset({"M50", "M51", "M52", "M53", "M61"})
+"""Groups of M codes, and single ones, that LinuxCNC has for its own, and other controls leave to who builds the
+machine: pins, saved states, overrides, a tool's number.
+"""
+
 _POLAR_TOO = frozenset({"G112", "G113"})
 """Work offsets of Haas that are polar interpolation on its newer controls, as on Fanuc's."""
 
@@ -196,6 +209,9 @@ def adapt(control: Control, block: Block) -> None:
         _pass_look_ahead(control, block)
         _refuse_lathe(block)
         _keep_cutter(control, block)
+    _leave_to_builder(block)
+    if control.options.dialect is Dialect.FANUC:
+        _refuse_otherwise(block)
     if control.options.dialect is Dialect.MACH3:
         _take_radius(block)
         _go_to_switches(control, block)
@@ -222,6 +238,26 @@ def adapt(control: Control, block: Block) -> None:
             block.unknown.remove(code)
             _drop(block, "pq")
             control.warn(f"{code} ({_PASSED[code]}) is passed over.", "g")
+
+
+def _leave_to_builder(block: Block) -> None:
+    """Take the M codes that LinuxCNC alone gives a meaning for unknown ones."""
+    groups, codes = _BUILDERS
+    for group, code in list(block.codes.items()):
+        if group in groups or code in codes:
+            del block.codes[group]
+            block.unknown.append(code)
+
+
+def _refuse_otherwise(block: Block) -> None:
+    """Refuse what Fanuc does otherwise than LinuxCNC.
+
+    Raises:
+        Fault: the block has such a code.
+    """
+    for code in block.codes.values():
+        if code in _OTHERWISE:
+            raise BlockFault(f"{code} is {_OTHERWISE[code]}, which is not followed; {REMEDY}", letter="g")
 
 
 def _pass_look_ahead(control: Control, block: Block) -> None:

@@ -70,8 +70,10 @@ _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
 
 _PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
 
-_PROGRAM_NAME = re.compile(r"o?<[^<>]{1,32}>")
-"""What newer Fanuc controls begin a program with in the place of its number."""
+_NO_BLOCK = re.compile(r"o?<[^<>]{1,32}>|/?(?:n[0-9]+)?(?:popen|pclos|[bd]prnt\[.*\])")
+"""Lines of macro B that change nothing: the name that newer Fanuc controls begin a program with in the place of its
+number, and what is printed.
+"""
 
 _COMPUTED = re.compile(r"[#\[]")
 """What the lane computes for controls with O words alone."""
@@ -337,7 +339,7 @@ class InterpreterRun:
         if code.startswith("$") and self._options.dialect is Dialect.GRBL:
             self._control.warn("commands of the control itself ($) are passed over.")
             return ""
-        if not code or (self._rules.macro_b and _PROGRAM_NAME.fullmatch(code)):
+        if not code or (self._rules.macro_b and _NO_BLOCK.fullmatch(code)):
             return ""
         if code.startswith("%") or _O_WORD.match(code) is not None or (self._rules.fanuc_flow and is_macro(code)):
             return code

@@ -78,6 +78,50 @@ def test_offsets_of_haas_are_those_of_no_other(code: str) -> None:
     assert any("polar interpolation" in said for said in told_here) == (code in ("G112", "G113"))
 
 
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "G90.1",
+        "G91.1",
+        "G92.2",
+        "G92.3",
+        "G28.1",
+        "G30.1",
+        "G38.2 Z-1. F100.",
+        "G38.5 Z-1. F100.",
+        "G41.1 D5. X9.",
+        "G42.1 D5. X9.",
+        "G43.1 Z1.",
+        "G43.2 H1",
+        "G59.1",
+        "G59.3",
+    ],
+)
+def test_codes_of_linuxcnc_alone_are_refused(dialect: Dialect, line: str) -> None:
+    """They were obeyed as LinuxCNC does, without a word."""
+    text = f"O1\nG21 G90 G94 G0 X0. Y0. Z5.\n{line}\nG1 X2. F100.\nM30\n"
+    said = told(text, dialect)
+    assert "a.ngc:3:" in said and ("does not know" in said or "is not followed" in said)
+
+
+@pytest.mark.parametrize("dialect", OTHERS)
+@pytest.mark.parametrize("line", ["M50 P0", "M61 Q5", "M62 P1", "M66 P0 L0", "M70", "M72", "M73"])
+def test_m_codes_of_linuxcnc_alone_are_the_builders(dialect: Dialect, line: str) -> None:
+    """M72 brings no feed mode back, nor does M61 change the tool."""
+    text = f"O1\nG21 G90 G94 G0 X0. Y0. Z5.\n{line}\nG1 X2. F100.\nM30\n"
+    code = line.split()[0]
+    assert [said for said in warnings(text, dialect) if code in said] == [
+        f"{code} is the machine builder's own; what it does is not followed."
+    ]
+    assert read(text, dialect).states[-1].tool == 0
+
+
+def test_smoothing_of_haas_is_no_code_of_others() -> None:
+    for dialect in (Dialect.FANUC, Dialect.MACH3):
+        assert "does not know G187" in told("G21 G0 X1.\nG187 P3\nM30\n", dialect)
+
+
 def test_axes_that_mach3_sends_to_their_switches_are_told() -> None:
     text = "G21 G90 G0 X5 Y5 Z5\nG28.1 Z12\nG92 Z0\nG1 Z-1 F100\nM30\n"
     assert any("switches" in said for said in warnings(text, Dialect.MACH3))
@@ -103,6 +147,14 @@ def test_names_of_programs_on_newer_fanucs(name: str) -> None:
     assert ends(read(text, Dialect.FANUC)) == [(1, 0, 0)]
     assert not warnings(text, Dialect.FANUC)
     assert "called by names are not followed" in told("G21 G0 X1.\nM98 <SUB>\nM30\n", Dialect.FANUC)
+
+
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_what_macro_b_prints_changes_nothing(dialect: Dialect) -> None:
+    text = "O1\nG21 G90\n#1=2.\nPOPEN\nN20 DPRNT[X#1[44]*Y#2[44]]\nBPRNT[ A #1[3] ]\nPCLOS\nG0 X#1\nM30\n"
+    assert ends(read(text, dialect)) == [(2, 0, 0)]
+    assert not warnings(text, dialect)
+    assert told(text, Dialect.MACH3)
 
 
 @pytest.mark.parametrize("cycle", ["G73", "G83"])
