@@ -308,6 +308,8 @@ def _arc(control: Control, block: Block) -> None:
             f"{code} in another plane than X Y is not followed while the work offset is turned (R of its table row).",
             letter="g",
         )
+    if control.options.dialect is Dialect.GRBL and block.has("ijk"[u] + "ijk"[v]) and not block.has("r"):
+        block.values.pop("ijk"[w], None)  # which grbl passes over
     _check_arc_words(block, "ijk"[w], code)
     end = _target(control, block)
     centre = _centre_by_r(control, block, end) if block.has("r") else _centre_by_ijk(control, block)

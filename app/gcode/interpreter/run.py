@@ -132,6 +132,7 @@ class InterpreterRun:
             self._skip_leader()
             warn_of_bytes(self._control, self._file)
             warn_of_numbers(self._control, self._text.data)
+            self._warn_of_percent()
             while self._flow.next.offset < len(self._text.data):
                 if not self._step():
                     break
@@ -175,6 +176,13 @@ class InterpreterRun:
             noted.header,
             self._rules.rapids_bend,
         )
+
+    def _warn_of_percent(self) -> None:
+        """Tell of a per cent sign where grbl would come to it."""
+        found = _PERCENT.search(self._text.data) if self._options.dialect is Dialect.GRBL else None
+        if found is not None:
+            self._control.line = self._text.data.count(b"\n", 0, found.start()) + 1
+            self._control.warn("grbl 1.1 refuses a per cent sign; take it out, if the sender does not.", "%")
 
     def _miss_end(self) -> None:
         """Tell that the text has no end, if the control wants one."""

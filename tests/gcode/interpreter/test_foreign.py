@@ -168,6 +168,30 @@ def test_p_of_pecks_is_a_dwell_on_haas(cycle: str) -> None:
     assert any("P stands in a block" in said for said in warnings(text, Dialect.FANUC))
 
 
+@pytest.mark.parametrize(
+    ("plane", "words"), [("G17", "X6 Y0 I3 J0 K0"), ("G18", "X6 Z0 I3 K0 J1"), ("G19", "Y6 Z0 J3 I-2 K0")]
+)
+def test_grbl_passes_over_the_third_coordinate_of_a_centre(plane: str, words: str) -> None:
+    """Some posts write all three of each arc; LinuxCNC refuses it."""
+    text = f"G21 G90 {plane}\nG0 X0 Y0 Z0\nG2 {words} F100\nM2\n"
+    third = {"G17": "K", "G18": "J", "G19": "I"}[plane]
+    without = " ".join(word for word in words.split() if word[0] != third)
+    assert not read(text, Dialect.GRBL).problems
+    for name in ("end", "centre"):
+        both = [getattr(read(each, Dialect.GRBL).motions, name) for each in (text, text.replace(words, without))]
+        assert np.array_equal(both[0], both[1], equal_nan=True)
+    assert f"{third} is no coordinate of this plane's arcs" in told(text)
+    lone = text.replace(words, f"X6 Y6 Z6 {third}3")
+    assert "is no coordinate" in told(lone, Dialect.GRBL)
+    assert "both a radius and a centre" in told(text.replace(words, f"{words} R3"), Dialect.GRBL)
+
+
+def test_a_per_cent_sign_is_told_for_grbl() -> None:
+    said = [each for each in warnings("%\nG21 G0 X1\nM2\n%\n", Dialect.GRBL) if "per cent" in each]
+    assert said == ["grbl 1.1 refuses a per cent sign; take it out, if the sender does not."]
+    assert not warnings("G21 G0 X1 (50 %)\nM2\n", Dialect.GRBL)
+
+
 def test_lines_longer_than_grbl_takes_are_told() -> None:
     """It counts neither blanks nor comments, and has room for 79 characters."""
     words = "G3X-100.1234567Y-100.1234567Z-5.0000000I-50.1234567J-50.1234567F1000.0"
@@ -532,7 +556,8 @@ def test_blocks_behind_a_per_cent_sign_are_told(dialect: Dialect) -> None:
     for sign in ("% spindle on", "%"):
         text = f"%\n(made by hand)\n{sign}\nG21 G90\nG1 X5. F100.\nM30\n"
         assert any("blocks behind it are not read" in said for said in warnings(text, dialect)), sign
-    assert not warnings("%\nG21 G90\nG1 X5. F100.\nM30\n%\nmade by hand\n", dialect)
+    said = warnings("%\nG21 G90\nG1 X5. F100.\nM30\n%\nmade by hand\n", dialect)
+    assert [each for each in said if "grbl 1.1 refuses" not in each] == []
     called = "%\nO1\nG21\nM98 P2\nM30\n%\n(the other one)\nO2\nG0 X1.\nM99\n"
     assert not any("are not read" in said for said in warnings(called, Dialect.FANUC))
 
