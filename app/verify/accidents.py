@@ -27,6 +27,7 @@ from .bent_rapids import bent_rapids
 from .course import MOST, NARROW, CutterTravel, FineStock, KnownCourse
 from .holder_contacts import HolderContact, HolderReport, holder_contacts
 from .plunges import fast_plunges, plunges
+from .standing_spindle import StandingCut
 
 NAMED = 50
 """Accidents of one kind that are told one by one."""
@@ -45,6 +46,7 @@ class ProgramStage:
         plunge_rates: that the program's header names, mm/min, by T number.
         under: thickness of the waste below the stock that its header tells of, mm.
         rapids_bend: its control may move each axis of a rapid at its own rate.
+        standing: what it cuts while the spindle stands.
     """
 
     known: KnownCourse
@@ -56,6 +58,7 @@ class ProgramStage:
     plunge_rates: Mapping[int, float]
     under: float = 0.0
     rapids_bend: bool = False
+    standing: StandingCut | None = None
 
     @property
     def motions(self) -> Motions:
@@ -105,6 +108,7 @@ def accidents(stage: ProgramStage, progress: Progress = NO_PROGRESS) -> Accident
         *_start(stage),
         *_rapids(stage, looked),
         *_bent_rapids(stage, looked, progress.part(0.6, 0.7)),
+        *_standing_spindle(stage),
         *_sideways_out(stage),
         *_at_unknown_places(stage),
         *_plunges(stage, progress.part(0.7, 0.85)),
@@ -179,6 +183,25 @@ def _unseen(stage: ProgramStage, count: int, what: str) -> Iterator[Finding]:
             f"{stage.before.grid.pitch:.3g} mm wide; use more cells ({option('grid')})."
         )
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(count))
+
+
+def _standing_spindle(stage: ProgramStage) -> Iterator[Finding]:
+    """Yield that metal is cut while the spindle stands; a remark where the program leaves it to somebody else."""
+    standing = stage.standing
+    if standing is None:
+        return
+    x, y, _ = stage.motions.end[standing.row].tolist()
+    if standing.starts:
+        others = "" if standing.motions == 1 else f", the first of {standing.motions} motions that do"
+        tool = int(stage.known.course.tool[standing.row])
+        text = (
+            f"{stage.where(standing.row)} cuts metal with {f'T{tool}' if tool else 'the tool'} while the spindle "
+            f"stands{others}; start it (M3) behind the tool change or M5 before."
+        )
+    else:
+        text = "The program never starts the spindle (M3), and cuts metal; switch it on by hand, or write M3 into it."
+    line = int(stage.motions.line[standing.row])
+    yield Finding(FindingKind.SPINDLE, text, x, y, counts=standing.starts, line=line)
 
 
 def _sideways_out(stage: ProgramStage) -> Iterator[Finding]:

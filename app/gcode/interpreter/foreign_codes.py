@@ -68,6 +68,9 @@ _OTHERWISE = {
 }
 """What Fanuc does by codes that LinuxCNC uses for something else."""
 
+_STARTS = {"M13": "M3", "M14": "M4"}
+"""What builders of Fanuc's and Haas' machines start the spindle by, and the coolant with it."""
+
 _BUILDERS = frozenset({ModalGroup.PINS, ModalGroup.STATE}), frozenset({"M50", "M51", "M52", "M53", "M61"})
 """Groups of M codes, and single ones, that LinuxCNC has for its own, and other controls leave to who builds the
 machine: pins, saved states, overrides, a tool's number.
@@ -241,12 +244,15 @@ def adapt(control: Control, block: Block) -> None:
 
 
 def _leave_to_builder(block: Block) -> None:
-    """Take the M codes that LinuxCNC alone gives a meaning for unknown ones."""
+    """Take the M codes that LinuxCNC alone gives a meaning for unknown ones, and what is likely of others."""
     groups, codes = _BUILDERS
     for group, code in list(block.codes.items()):
         if group in groups or code in codes:
             del block.codes[group]
             block.unknown.append(code)
+    for code in block.unknown:
+        if code in _STARTS:
+            block.codes.setdefault(ModalGroup.SPINDLE, _STARTS[code])
 
 
 def _refuse_otherwise(block: Block) -> None:

@@ -441,6 +441,7 @@ def _probe(control: Control, block: Block) -> None:
     if nowhere and control.motion in _PROBES_THAT_MUST_TOUCH:
         raise BlockFault(f"{control.motion} begins where it ends, so it can probe nothing.", letter="g")
     control.warn(f"{control.motion} stops where the probe touches; it is shown up to its end.", "g")
+    control.probe_lines.add(control.line)
     if not nowhere:
         _line(control, block)
     if not control.rules.fanuc_flow:

@@ -259,6 +259,7 @@ class NcProgram:
         header: what the header of our own says beside that; None in any other program.
         rapids_bend: the control may be set to move each axis of a rapid at its own rate, so that its way is not
             straight.
+        probe_lines: lines of the motions that end where a probe touches.
     """
 
     motions: Motions
@@ -271,6 +272,7 @@ class NcProgram:
     line_count: int = 0
     header: HeaderNote | None = None
     rapids_bend: bool = False
+    probe_lines: frozenset[int] = frozenset()
 
     @property
     def error(self) -> ProgramProblem | None:

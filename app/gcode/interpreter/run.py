@@ -175,6 +175,7 @@ class InterpreterRun:
             self._text.line_count,
             noted.header,
             self._rules.rapids_bend,
+            frozenset(control.probe_lines),
         )
 
     def _warn_of_percent(self) -> None:
