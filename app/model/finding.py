@@ -58,6 +58,7 @@ class FindingKind(Enum):
     HOLE = "hole", "hole in a surface"
     SIZE = "size", "doubtful size"
     FEED = "feed", "plunge at full feed"
+    SPINDLE = "spindle", "cut with a standing spindle"
     RIDGE = "ridge", "ridges between passes"
     PROGRAM = "program", "error in the program"
 

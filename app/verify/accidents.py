@@ -23,9 +23,11 @@ from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Workpiece
 from ..simulation.sweeps.course import Course
 from ..simulation.sweeps.trim import CutResult, RapidHit
+from .bent_rapids import bent_rapids
 from .course import MOST, NARROW, CutterTravel, FineStock, KnownCourse
 from .holder_contacts import HolderContact, HolderReport, holder_contacts
 from .plunges import fast_plunges, plunges
+from .standing_spindle import StandingCut
 
 NAMED = 50
 """Accidents of one kind that are told one by one."""
@@ -43,6 +45,8 @@ class ProgramStage:
         where: words for the place of a motion in the text, such as "NC line 7", by its row.
         plunge_rates: that the program's header names, mm/min, by T number.
         under: thickness of the waste below the stock that its header tells of, mm.
+        rapids_bend: its control may move each axis of a rapid at its own rate.
+        standing: what it cuts while the spindle stands.
     """
 
     known: KnownCourse
@@ -53,6 +57,8 @@ class ProgramStage:
     where: Callable[[int], str]
     plunge_rates: Mapping[int, float]
     under: float = 0.0
+    rapids_bend: bool = False
+    standing: StandingCut | None = None
 
     @property
     def motions(self) -> Motions:
@@ -97,10 +103,12 @@ def accidents(stage: ProgramStage, progress: Progress = NO_PROGRESS) -> Accident
         Cancelled: the job was asked to stop.
     """
     looked = narrow_rapids(stage.known.course, stage.metal, stage.before, stage.cut.rapids, progress.part(0.0, 0.3))
-    holders = holder_contacts(stage.known.course, stage.before, stage.cutters, stage.tools, progress.part(0.3, 0.7))
+    holders = holder_contacts(stage.known.course, stage.before, stage.cutters, stage.tools, progress.part(0.3, 0.6))
     findings = (
         *_start(stage),
         *_rapids(stage, looked),
+        *_bent_rapids(stage, looked, progress.part(0.6, 0.7)),
+        *_standing_spindle(stage),
         *_sideways_out(stage),
         *_at_unknown_places(stage),
         *_plunges(stage, progress.part(0.7, 0.85)),
@@ -146,6 +154,27 @@ def _rapids(stage: ProgramStage, looked: NarrowRapids) -> Iterator[Finding]:
     yield from _unseen(stage, looked.unseen, "rapids")
 
 
+def _bent_rapids(stage: ProgramStage, looked: NarrowRapids, progress: Progress) -> Iterator[Finding]:
+    """Yield the rapids that pass metal where they go straight, and may meet it where they do not."""
+    if not stage.rapids_bend:
+        return
+    told = {hit.motion for hit in looked.rapids}
+    found = bent_rapids(stage.known.course, stage.before, stage.cutters, progress)
+    hits = [hit for hit in found if hit.motion not in told]
+    for hit in hits[:NAMED]:
+        text = (
+            f"The rapid in {stage.where(hit.motion)} passes the metal on a straight way alone; where the control moves "
+            f"each axis at its own rate it goes {hit.depth:.3f} mm deep into it at ({hit.x:.3f}, {hit.y:.3f}, "
+            f"{hit.z:.3f}); lift it first, go along one axis at a time, or use G1."
+        )
+        yield stage.finding(FindingKind.RAPID_IN_MATERIAL, text, hit.motion, (hit.x, hit.y), hit.depth)
+    if len(hits) > NAMED:
+        text = (
+            f"{len(hits) - NAMED} more rapids may go through metal where the control moves each axis at its own rate."
+        )
+        yield Finding(FindingKind.RAPID_IN_MATERIAL, text, amount=float(len(hits) - NAMED))
+
+
 def _unseen(stage: ProgramStage, count: int, what: str) -> Iterator[Finding]:
     """Yield a remark where there was too much to look at between the cells."""
     if count:
@@ -154,6 +183,25 @@ def _unseen(stage: ProgramStage, count: int, what: str) -> Iterator[Finding]:
             f"{stage.before.grid.pitch:.3g} mm wide; use more cells ({option('grid')})."
         )
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(count))
+
+
+def _standing_spindle(stage: ProgramStage) -> Iterator[Finding]:
+    """Yield that metal is cut while the spindle stands; a remark where the program leaves it to somebody else."""
+    standing = stage.standing
+    if standing is None:
+        return
+    x, y, _ = stage.motions.end[standing.row].tolist()
+    if standing.starts:
+        others = "" if standing.motions == 1 else f", the first of {standing.motions} motions that do"
+        tool = int(stage.known.course.tool[standing.row])
+        text = (
+            f"{stage.where(standing.row)} cuts metal with {f'T{tool}' if tool else 'the tool'} while the spindle "
+            f"stands{others}; start it (M3) behind the tool change or M5 before."
+        )
+    else:
+        text = "The program never starts the spindle (M3), and cuts metal; switch it on by hand, or write M3 into it."
+    line = int(stage.motions.line[standing.row])
+    yield Finding(FindingKind.SPINDLE, text, x, y, counts=standing.starts, line=line)
 
 
 def _sideways_out(stage: ProgramStage) -> Iterator[Finding]:

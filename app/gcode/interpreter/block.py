@@ -152,6 +152,8 @@ def _instead(code: str, at: int) -> str:
     """Return what is expected in the place of a letter that begins no word."""
     if code[at] == "," and code[at + 1 : at + 2] in ("c", "r", "a"):
         return "corners by ,C and ,R and angles by ,A are not followed: write them as moves"
+    if code[at] == "<":
+        return "programs that are called by names are not followed: give them numbers"
     return f"expected {'a decimal point in numbers' if code[at] == ',' else 'a letter with a number'}"
 
 

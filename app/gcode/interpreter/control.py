@@ -128,7 +128,8 @@ class Control:
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
         set_parameters: the control's own that the program sets and that no code has asked for yet.
         requested: parameters that the machine tells, or that nobody has set, and the line that read each first.
-        columns, splines, events, homeward, warnings: what comes out; a warning is a text, and of which word.
+        columns, splines, events, homeward, probe_lines, warnings: what comes out; a warning is a text, and of which
+            word.
     """
 
     def __init__(self, options: ReadOptions) -> None:
@@ -163,6 +164,7 @@ class Control:
         self.splines: dict[int, Nurbs] = {}
         self.events: list[Event] = []
         self.homeward: list[int] = []
+        self.probe_lines: set[int] = set()
         self.warnings: dict[str, WordInLine] = {}
         self.parameters = Parameters(self.own_parameter, self.set_own_parameter, self.rules, lambda: self.least)
         self.set_parameters = SetParameters()

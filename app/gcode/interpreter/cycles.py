@@ -81,7 +81,8 @@ class Cycle:
             that stay, and the initial height, as they were written, also over G20 and G21.
         fanuc: words stay from one code to the next; a dwell need not be said; 0 repeats bore nothing, as on Fanuc and
             Haas.
-        lessens: I, J and K of G73 and G83 are the first peck, by how much each one is less, and the least, as on Haas.
+        lessens: I, J and K of G73 and G83 are the first peck, by how much each one is less, and the least, and P is a
+            dwell at the bottom, as on Haas.
         planes_stay: R and depth stay as the heights that they meant, also where G91 follows G90, as on Fanuc and Haas;
             else as the numbers that were written. planes: those heights, of the blocks before; None = not said yet.
     """
@@ -403,8 +404,7 @@ def _deep_drill(hole: _Hole) -> Iterator[Step]:
         yield hole.feed(depth)
         yield hole.rapid(hole.r)
         yield hole.rapid(_above_chips(hole, depth))
-    yield hole.feed(hole.bottom)
-    yield hole.rapid(hole.clear)
+    yield from _last_peck(hole)
 
 
 def _break_chips(hole: _Hole) -> Iterator[Step]:
@@ -412,7 +412,14 @@ def _break_chips(hole: _Hole) -> Iterator[Step]:
     for depth in _pecks(hole):
         yield hole.feed(depth)
         yield hole.rapid(_above_chips(hole, depth))
+    yield from _last_peck(hole)
+
+
+def _last_peck(hole: _Hole) -> Iterator[Step]:
+    """To the bottom and out of the hole; on Haas with the dwell of P between."""
     yield hole.feed(hole.bottom)
+    if hole.cycle.lessens and hole.cycle.dwell:
+        yield Dwell(hole.cycle.dwell)
     yield hole.rapid(hole.clear)
 
 

@@ -34,9 +34,11 @@ class DialectRules:
         tool_changes: M6 is known. splines: "G5" (LinuxCNC), "G6.2" (Fanuc) or "".
         calls: how deep subroutines may call one another.
         longest_line: bytes of a line, its end not counted where that is one byte.
+        longest_code: characters of a line without its blanks and comments.
         parameters: the largest number of a parameter.
         repeats_by_k: K of a canned cycle says how often it is done, as L does.
         macro_b: it has Fanuc's macro B: operators of its own, and a parameter that nobody has set is vacant and not 0.
+        rapids_bend: it may be set to move each axis of a rapid at its own rate.
         missing: G words that other dialects have and this one refuses.
     """
 
@@ -52,9 +54,11 @@ class DialectRules:
     splines: str = "G5"
     calls: int = MANY
     longest_line: int = MANY
+    longest_code: int = MANY
     parameters: int = 99_999
     repeats_by_k: bool = False
     macro_b: bool = False
+    rapids_bend: bool = False
     missing: frozenset[str] = frozenset()
 
 
@@ -142,9 +146,33 @@ _LINUXCNC_LACKS = frozenset(
     }
 )
 
+_MACRO_B_LACKS = frozenset(
+    {
+        "G5.2",
+        "G5.3",
+        "G28.1",
+        "G33.1",
+        "G38.2",
+        "G38.3",
+        "G38.4",
+        "G38.5",
+        "G43.2",
+        "G59.1",
+        "G59.2",
+        "G59.3",
+        "G90.1",
+        "G91.1",
+        "G92.2",
+        "G92.3",
+    }
+)
+"""What LinuxCNC and its kin alone have; Fanuc and Haas stop with an alarm."""
+
 DIALECT_RULES: dict[Dialect, DialectRules] = {
     Dialect.LINUXCNC: DialectRules("LinuxCNC", calls=9, longest_line=252, parameters=5601, missing=_LINUXCNC_LACKS),
-    Dialect.GRBL: DialectRules("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
+    Dialect.GRBL: DialectRules(
+        "grbl", ngc_flow=False, tool_changes=False, splines="", longest_code=79, missing=_GRBL_LACKS
+    ),
     Dialect.FANUC: DialectRules(
         "Fanuc",
         ngc_flow=False,
@@ -156,6 +184,8 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         splines="G6.2",
         repeats_by_k=True,
         macro_b=True,
+        rapids_bend=True,
+        missing=_MACRO_B_LACKS | {"G187"},
     ),
     Dialect.HAAS: DialectRules(
         "Haas",
@@ -167,6 +197,8 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         length_from_tool=False,
         splines="",
         macro_b=True,
+        rapids_bend=True,
+        missing=_MACRO_B_LACKS | {"G30.1", "G41.1", "G42.1", "G43.1"},
     ),
     Dialect.MACH3: DialectRules(
         "Mach3",
@@ -174,6 +206,6 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         fanuc_flow=True,
         length_from_tool=False,
         splines="",
-        missing=frozenset({"G51.1"}),
+        missing=frozenset({"G51.1", "G187"}),
     ),
 }

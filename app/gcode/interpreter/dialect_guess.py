@@ -17,12 +17,18 @@ too.
 _OLD_UNITS = r"^\s*(?:n\d+\s*)?(?:g[\d.]+\s*)*g7[01](?![\d.])\s*(?:g[\d.]+\s*)*(?:[(;]|\r?$)"
 """G70 and G71 among codes that set modes: units to Mach3 alone; the cycles that others have by them want words."""
 
+_SAFETY = r"^[^(;\n]*\bg64\s*g50\s"
+"""How posts for Mach3 and for Tormach's first controls end scaling in their safety line: LinuxCNC knows no G50."""
+
 _CODE = r"^\s*(?:/\s*)?(?:n\s*\d+\s*)?[gmtsxyz]\s*-?[\d.]"
-_NUMBERED = r"^\s*[o:]\s*\d{1,5}\s*(?:\(|\r?$)"
+_NUMBERED = r"^\s*(?:[o:]\s*\d{1,5}|<[^<>\n]{1,32}>)\s*(?:\(|\r?$)"
 _FIRST = rf"\A(?:(?!{_CODE})[^\n]*\n)*?(?:{_NUMBERED})"
-"""A program's number before any code. To Fanuc and Haas every program begins so; where O numbers but a subroutine
-behind the program, as in Mach3, a length without a point is no count of microns.
+"""A program's number, or the name that newer controls take, before any code. To Fanuc and Haas every program begins so;
+where O numbers but a subroutine behind the program, as in Mach3, a length without a point is no count of microns.
 """
+
+_ARC_MODE = re.compile(r"^[^(;\n]*\bg9[01]\.1(?![\d.])", re.IGNORECASE | re.MULTILINE)
+"""How centres of arcs count is said to LinuxCNC, grbl and Mach3 alone; of these the last has numbers of programs."""
 
 _OWN = re.compile(
     r"\(hitofude for (" + "|".join(rules.title.lower() for rules in DIALECT_RULES.values()) + r")\b", re.IGNORECASE
@@ -33,12 +39,12 @@ _TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
     (dialect, re.compile(words, re.IGNORECASE | re.MULTILINE))
     for dialect, words in (
         (Dialect.GRBL, r"\bgrbl|^\s*\$[a-z0-9]"),
-        (Dialect.MACH3, r"\bmach\s?(?:2\s?/\s?)?3|" + _OLD_UNITS),
+        (Dialect.MACH3, r"\bmach\s?(?:2\s?/\s?)?3|" + _OLD_UNITS + "|" + _SAFETY),
         (
             Dialect.LINUXCNC,
             r"linuxcnc|^\s*(n\d+\s*)?o\s*<|#\s*<|^\s*(n\d+\s*)?o\s*\d+\s*(sub|if|while|do|repeat|call)\b|g5\.[23]|g5\.1\s*[xyij]|g64\s*p",
         ),
-        (Dialect.HAAS, _NAMED + r"haas|^[^(\n]*g\s*(187|154\s*p|103\s*p)"),
+        (Dialect.HAAS, _NAMED + r"haas|^[^(\n]*g\s*(187|154\s*p|103\s*p|11[014-9](?![\d.])|12\d(?![\d.]))"),
         (
             Dialect.FANUC,
             _NAMED + r"fanuc|" + _FIRST + r"|\bif\s*\[.*goto|while\s*\[.*\]\s*do\s*\d"
@@ -61,4 +67,5 @@ def guess_dialect(data: bytes) -> Dialect:
     own = _OWN.search(text)
     if own is not None:
         return next(dialect for dialect, rules in DIALECT_RULES.items() if rules.title.lower() == own[1].lower())
-    return next((dialect for dialect, words in _TELLING if words.search(text)), Dialect.LINUXCNC)
+    found = next((dialect for dialect, words in _TELLING if words.search(text)), Dialect.LINUXCNC)
+    return Dialect.MACH3 if found is Dialect.FANUC and _ARC_MODE.search(text) else found

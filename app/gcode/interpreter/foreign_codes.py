@@ -60,6 +60,25 @@ _CYCLES = {
     "G43.5": "a tool that tilts",
 }
 
+_OTHERWISE = {
+    "G30.1": "the way to a floating reference point",
+    "G41.1": "a blade that is turned along the path",
+    "G42.1": "a blade that is turned along the path",
+    "G43.1": "a length along a tool that tilts",
+}
+"""What Fanuc does by codes that LinuxCNC uses for something else."""
+
+_STARTS = {"M13": "M3", "M14": "M4"}
+"""What builders of Fanuc's and Haas' machines start the spindle by, and the coolant with it."""
+
+_BUILDERS = frozenset({ModalGroup.PINS, ModalGroup.STATE}), frozenset({"M50", "M51", "M52", "M53", "M61"})
+"""Groups of M codes, and single ones, that LinuxCNC has for its own, and other controls leave to who builds the
+machine: pins, saved states, overrides, a tool's number.
+"""
+
+_POLAR_TOO = frozenset({"G112", "G113"})
+"""Work offsets of Haas that are polar interpolation on its newer controls, as on Fanuc's."""
+
 UNITS_OF_MACH3 = {"G70": "G20", "G71": "G21"}
 """Its older names of the units."""
 
@@ -190,18 +209,27 @@ def adapt(control: Control, block: Block) -> None:
         _drop(block, "pqr")
         control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
     if control.rules.macro_b:
+        _pass_look_ahead(control, block)
         _refuse_lathe(block)
         _keep_cutter(control, block)
+    _leave_to_builder(block)
+    if control.options.dialect is Dialect.FANUC:
+        _refuse_otherwise(block)
     if control.options.dialect is Dialect.MACH3:
         _take_radius(block)
+        _go_to_switches(control, block)
     for code in list(block.unknown):
         if control.options.dialect is Dialect.MACH3 and code in UNITS_OF_MACH3:
             block.unknown.remove(code)
             _set_units(block, UNITS_OF_MACH3[code])
         elif code in _CYCLES:
             raise BlockFault(f"{code} is {_CYCLES[code]}, which is not followed; {REMEDY}", letter="g")
-        if code == "G154" or (code.startswith("G") and 110 <= float(code[1:]) <= 129):
+        if control.options.dialect is Dialect.HAAS and _is_work_offset_of_haas(code):
             block.unknown.remove(code)
+            if code in _POLAR_TOO:
+                control.warn(
+                    f"{code} is a work offset of older Haas mills, and polar interpolation of newer ones.", "g"
+                )
             block.codes[ModalGroup.OFFSET] = "G54.1"
             block.values.setdefault("p", float(code[1:]) - 109)
         elif code == _CALL_FROM_FILES and control.options.dialect is Dialect.FANUC:
@@ -213,6 +241,41 @@ def adapt(control: Control, block: Block) -> None:
             block.unknown.remove(code)
             _drop(block, "pq")
             control.warn(f"{code} ({_PASSED[code]}) is passed over.", "g")
+
+
+def _leave_to_builder(block: Block) -> None:
+    """Take the M codes that LinuxCNC alone gives a meaning for unknown ones, and what is likely of others."""
+    groups, codes = _BUILDERS
+    for group, code in list(block.codes.items()):
+        if group in groups or code in codes:
+            del block.codes[group]
+            block.unknown.append(code)
+    for code in block.unknown:
+        if code in _STARTS:
+            block.codes.setdefault(ModalGroup.SPINDLE, _STARTS[code])
+
+
+def _refuse_otherwise(block: Block) -> None:
+    """Refuse what Fanuc does otherwise than LinuxCNC.
+
+    Raises:
+        Fault: the block has such a code.
+    """
+    for code in block.codes.values():
+        if code in _OTHERWISE:
+            raise BlockFault(f"{code} is {_OTHERWISE[code]}, which is not followed; {REMEDY}", letter="g")
+
+
+def _pass_look_ahead(control: Control, block: Block) -> None:
+    """Pass over G8 P, which is no mode of lathes here."""
+    if block.codes.get(ModalGroup.LATHE) == "G8":
+        del block.codes[ModalGroup.LATHE]
+        block.unknown.append("G8")
+
+
+def _is_work_offset_of_haas(code: str) -> bool:
+    """Tell whether a code chooses one of its additional zeros; to Fanuc G112 and G113 are polar interpolation."""
+    return code == "G154" or (code.startswith("G") and 110 <= float(code[1:]) <= 129)
 
 
 def _keep_cutter(control: Control, block: Block) -> None:
@@ -245,6 +308,17 @@ def _take_radius(block: Block) -> None:
     if code in ("G41", "G42") and "p" in block.values and "d" not in block.values:
         block.codes[ModalGroup.RADIUS] = f"{code}.1"
         block.values["d"] = 2.0 * block.values.pop("p")
+
+
+def _go_to_switches(control: Control, block: Block) -> None:
+    """Take G28.1 with axes for the way home that it is on Mach3: on others it notes where the tool is."""
+    if block.codes.get(ModalGroup.ONCE) == "G28.1" and block.has(AXES):
+        block.codes[ModalGroup.ONCE] = "G28"
+        control.warn(
+            "G28.1 sends its axes to their switches; where these are the machine alone knows, and what counts from "
+            "there is read as if they were at its zero.",
+            "g",
+        )
 
 
 def _set_units(block: Block, code: str) -> None:
@@ -409,7 +483,7 @@ def call_or_return(flow: Flow, control: Control, block: Block) -> bool:
             go_to(flow, whole(block.values["p"], "P of M99"))
             return True
         return False
-    number, count = _called(control, block, code)
+    number, count = _called(flow, control, block, code)
     if count:
         flow.call(_begun_at(flow, block, _goal(flow, control, code, number)), None, count)
     return True
@@ -430,11 +504,14 @@ def _begun_at(flow: Flow, block: Block, called: Subroutine) -> Subroutine:
     return called._replace(begin=to)
 
 
-def _called(control: Control, block: Block, code: str) -> tuple[int, int]:
-    """Return which subroutine is called and how often; Fanuc writes both in P too: four digits of number."""
+def _called(flow: Flow, control: Control, block: Block, code: str) -> tuple[int, int]:
+    """Return which subroutine is called and how often; Fanuc writes both in P too: four digits of number, where no
+    program has all the digits for its own.
+    """
     number = whole(block.need("p", code), f"P of {code}")
     count = whole(block.values.get("l", 1.0), f"L of {code}")
-    if code == "M98" and control.rules.fanuc_flow and not block.has("l") and number > 9999:
+    fanuc = code == "M98" and control.options.dialect is Dialect.FANUC
+    if fanuc and not block.has("l") and number > 9999 and flow.places.subroutine(str(number)) is None:
         number, count = number % 10_000, number // 10_000
     if not 0 <= count <= MOST_CALLS:
         raise BlockFault(f"a subroutine cannot be called {count} times; use 1 to {MOST_CALLS}.", letter="l")

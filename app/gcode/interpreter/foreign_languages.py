@@ -38,16 +38,18 @@ def _telling(words: str) -> re.Pattern[str]:
 
 _LANGUAGES = (
     _Language(
-        "a program in Heidenhain's plain language", _telling(r"^\s*\d+\s+(?:BEGIN\s+PGM|TOOL\s+CALL|BLK\s+FORM)\b")
+        "a program in Heidenhain's plain language", _telling(r"^\s*(?:\d+\s+)?(?:BEGIN\s+PGM|TOOL\s+CALL|BLK\s+FORM)\b")
     ),
     _Language(
         "a Heidenhain program in DIN/ISO",
         _telling(r"^\s*%[^\n%]{1,60}\sG7[01]\s*\*?\s*$|^\s*(?:N\d+\s*)?G30\s+G17\s+X|^\s*N\d+\s[^\n*;]*\*\s*$"),
     ),
+    _Language("an Eding CNC program with its own subroutines", _telling(r"^\s*(?:GOSUB|ENDSUB)\b")),
     _Language(
         "a Siemens Sinumerik program",
         _telling(
             r"^\s*%_N_|\bG(?:710|700|641|642)\b|\bCYCLE\d+\s*\(|\bPOCKET\d\s*\(|\bWORKPIECE\s*\(|\bCR\s*=|[A-Z]\d?\s*=\s*(?:AC|IC)\s*\(|\bT\d*\s*=\s*\""
+            r"|\b(?:RNDM?|CHF|CHR|GOTO[BF])\b|\bG500\b|^[^;#\n]*\b[XYZ]\s*=\s*[-+\d(]"
             r"|^\s*R\d+\s*=|^\s*(?:N\d+\s*)?(?:A?TRANS|A?ROT|MSG|SUPA)\b"
         ),
     ),
@@ -67,6 +69,24 @@ _LANGUAGES = (
         "a program for a 3D printer",
         _telling(r"^\s*M(?:8[23]\b|(?:104|109|140|190)\s*[SR]\d)|^\s*(?:N\d+\s*)?G[01]\b[^;(\n]*\bE-?[\d.]"),
         "a mill has no extruder: open the solid itself, as STL, and make its paths here",
+    ),
+    _Language(
+        "a program for Marlin, Smoothieware or Klipper",
+        _telling(r"^\s*(?:M11[78]\s+[A-Z]{2}|M300\s*S|M(?:400|420|221)\b|[A-Z]{2,}_[A-Z_]+(?:\s+\w+=|\s*$))"),
+    ),
+    _Language(
+        "a ShopBot program",
+        _telling(r"^\s*(?:[MJ][2-5XYZ]|[MJV]S|TR|C6|C7|C9)\s*,\s*[-.\d]"),
+    ),
+    _Language(
+        "a Gerber drawing of a circuit board",
+        _telling(r"^\s*(?:%(?:FS[LT]|MO(?:MM|IN)\*|ADD\d)|G04[^\n]*\*\s*$)"),
+        "save its outline as DXF or SVG and open it as a drawing",
+    ),
+    _Language(
+        "a list of a circuit board's holes (Excellon)",
+        _telling(r"^\s*(?:(?:METRIC|INCH)(?:,[TL]Z\b|\s*$)|FMAT,\d|T\d+C[\d.]+\s*$)"),
+        "save the holes as DXF and open it as a drawing",
     ),
 )
 """In the order in which they are asked: the surest words first."""

@@ -15,7 +15,7 @@ cycles.
 LINES_LEFT, ROWS, MOST_UNROLLED, LONGEST = range(18, 22)
 """Lines to do; motions there may be; motions of cycles there may be; bytes of a line."""
 LINUXCNC, COMPUTES, TOOL_CHANGES, EXTENDED = range(22, 26)
-"""Whether the control is LinuxCNC; knows expressions as it does; changes tools; knows G90.1, G97, G98, G99."""
+"""Whether the control is LinuxCNC; knows expressions as it does; changes tools; knows G97, G98, G99."""
 WORK_OFFSET, UNITS, LENGTH_FREE, SURFACE = range(26, 30)
 """A hundred times the G codes of work offset and units in force; whether no tool length is, and constant surface
 speed.

@@ -104,7 +104,10 @@ def _slot_of_g(code, ints):
         return _PLANE
     if code == 9000 or code == 9100:
         return _DISTANCE
-    if code == 9110 or (code == 9010 and ints[EXTENDED] != 0):
+    # Of the controls beside LinuxCNC grbl has G91.1 alone, and those with more codes are not alike.
+    if ints[LINUXCNC] != 0 and code == 9010:
+        return _ARC_DISTANCE
+    if code == 9110 and (ints[LINUXCNC] != 0 or ints[EXTENDED] == 0):
         return _ARC_DISTANCE
     if code == 9400:
         return _FEED_MODE

@@ -308,6 +308,8 @@ def _arc(control: Control, block: Block) -> None:
             f"{code} in another plane than X Y is not followed while the work offset is turned (R of its table row).",
             letter="g",
         )
+    if control.options.dialect is Dialect.GRBL and block.has("ijk"[u] + "ijk"[v]) and not block.has("r"):
+        block.values.pop("ijk"[w], None)  # which grbl passes over
     _check_arc_words(block, "ijk"[w], code)
     end = _target(control, block)
     centre = _centre_by_r(control, block, end) if block.has("r") else _centre_by_ijk(control, block)
@@ -439,6 +441,7 @@ def _probe(control: Control, block: Block) -> None:
     if nowhere and control.motion in _PROBES_THAT_MUST_TOUCH:
         raise BlockFault(f"{control.motion} begins where it ends, so it can probe nothing.", letter="g")
     control.warn(f"{control.motion} stops where the probe touches; it is shown up to its end.", "g")
+    control.probe_lines.add(control.line)
     if not nowhere:
         _line(control, block)
     if not control.rules.fanuc_flow:

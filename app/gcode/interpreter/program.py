@@ -257,6 +257,9 @@ class NcProgram:
         tools, stock: what comments say.
         line_count: lines of the text.
         header: what the header of our own says beside that; None in any other program.
+        rapids_bend: the control may be set to move each axis of a rapid at its own rate, so that its way is not
+            straight.
+        probe_lines: lines of the motions that end where a probe touches.
     """
 
     motions: Motions
@@ -268,6 +271,8 @@ class NcProgram:
     stock: StockNote | None = None
     line_count: int = 0
     header: HeaderNote | None = None
+    rapids_bend: bool = False
+    probe_lines: frozenset[int] = frozenset()
 
     @property
     def error(self) -> ProgramProblem | None:

@@ -70,6 +70,11 @@ _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
 
 _PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
 
+_NO_BLOCK = re.compile(r"o?<[^<>]{1,32}>|/?(?:n[0-9]+)?(?:popen|pclos|[bd]prnt\[.*\])")
+"""Lines of macro B that change nothing: the name that newer Fanuc controls begin a program with in the place of its
+number, and what is printed.
+"""
+
 _COMPUTED = re.compile(r"[#\[]")
 """What the lane computes for controls with O words alone."""
 
@@ -94,7 +99,7 @@ class InterpreterRun:
         self._not_quick = _NOT_QUICK_IN_MACRO_B if self._rules.fanuc_flow else _NOT_QUICK
         self._flow = Flow(JumpTargets(self._text), self._control)
         self._longest = min(options.limits.line_length, self._rules.longest_line - self._text.dropped)
-        self._quick = FastLane(self._control, self._text.data, self._longest)
+        self._quick = FastLane(self._control, self._text.data, min(self._longest, self._rules.longest_code))
         self._kept: dict[int, ParsedLine | str] = {}
         self._problems: list[ProgramProblem] = []
         self._furthest, self._told, self._again = -1, 0, False
@@ -127,6 +132,7 @@ class InterpreterRun:
             self._skip_leader()
             warn_of_bytes(self._control, self._file)
             warn_of_numbers(self._control, self._text.data)
+            self._warn_of_percent()
             while self._flow.next.offset < len(self._text.data):
                 if not self._step():
                     break
@@ -168,7 +174,16 @@ class InterpreterRun:
             noted.stock,
             self._text.line_count,
             noted.header,
+            self._rules.rapids_bend,
+            frozenset(control.probe_lines),
         )
+
+    def _warn_of_percent(self) -> None:
+        """Tell of a per cent sign where grbl would come to it."""
+        found = _PERCENT.search(self._text.data) if self._options.dialect is Dialect.GRBL else None
+        if found is not None:
+            self._control.line = self._text.data.count(b"\n", 0, found.start()) + 1
+            self._control.warn("grbl 1.1 refuses a per cent sign; take it out, if the sender does not.", "%")
 
     def _miss_end(self) -> None:
         """Tell that the text has no end, if the control wants one."""
@@ -325,10 +340,15 @@ class InterpreterRun:
         code = code_of(self._text.line(at.offset), nested=self._options.dialect is not Dialect.LINUXCNC)
         if SLASH.match(code) is not None and self._leaves_out(code):
             return ""
+        if len(code) > self._rules.longest_code:
+            self._control.warn(
+                f"{self._rules.title} 1.1 takes lines of up to {self._rules.longest_code} characters beside blanks and "
+                "comments, and refuses longer ones, which some of its kin take."
+            )
         if code.startswith("$") and self._options.dialect is Dialect.GRBL:
             self._control.warn("commands of the control itself ($) are passed over.")
             return ""
-        if not code:
+        if not code or (self._rules.macro_b and _NO_BLOCK.fullmatch(code)):
             return ""
         if code.startswith("%") or _O_WORD.match(code) is not None or (self._rules.fanuc_flow and is_macro(code)):
             return code
@@ -440,7 +460,7 @@ class InterpreterRun:
     def _unused(self, block: Block) -> str:
         """Return a letter that neither the block's codes nor the motion in force takes, or ""."""
         letter, motion = block.unused(), block.codes.get(ModalGroup.MOTION, self._control.motion)
-        lessens = self._options.dialect is Dialect.HAAS and motion in PECKS and letter in ("i", "j", "k")
+        lessens = self._options.dialect is Dialect.HAAS and motion in PECKS and letter in ("i", "j", "k", "p")
         repeats = letter == "k" and self._rules.repeats_by_k and motion in CYCLES
         return "" if lessens or repeats or (letter and letter in TAKES.get(motion, "")) else letter
 

@@ -26,7 +26,7 @@ ALIKE = frozenset(_ALIKE_TEXT.split())
 """Codes that mean the same everywhere, are said in another way, or end what is never in force in a program that can be
 read.
 """
-_SAID_OTHERWISE = ("G61.1", "G64", "G90.1", "G97", "G98", "G99", "G187")
+_SAID_OTHERWISE = ("G61.1", "G64", "G90.1", "G91.1", "G97", "G98", "G99", "G187")
 """Of these only what they mean is written, so that it is nothing whether the other control has the word."""
 WRITTEN_OUT = ("G73", "G81", "G82", "G83", "G85", "G86", "G89")
 """Cycles that can be written as moves, dwells and M words, and mean the same."""

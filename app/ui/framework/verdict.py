@@ -28,6 +28,7 @@ _RED = (
     FindingKind.RAPID_IN_MATERIAL,
     FindingKind.START_IN_STOCK,
     FindingKind.PLUNGE,
+    FindingKind.SPINDLE,
     FindingKind.HOLDER_CONTACT,
     FindingKind.SHANK_CONTACT,
     FindingKind.BELOW_TABLE,

@@ -32,6 +32,7 @@ from ...verify.holder_contacts import HolderReport
 from ...verify.judge import HeightBounds, JudgementInput, bounded, certify, judge, part_target
 from ...verify.judgement import Judgement, findings_of
 from ...verify.parts import FlatPart, SolidPart, beyond, doubtful_size
+from ...verify.standing_spindle import fed_standing, standing_cut
 from ...verify.wall_probe import WallProbe, unseen_walls
 from .setup import CELLS, CutOptions, CutSetup
 
@@ -157,7 +158,8 @@ def cut_all(context: CutContext, progress: Progress) -> CutOutcome:
     options = context.options
     if options.window is None or not options.judge:
         return _one_after_the_other(context, progress)
-    rough = replace(options, window=None, trace=False, engine=Engine.CPU, cells=min(options.cells, CELLS))
+    traced = any(fed_standing(program).any() for program in context.setup.programs)
+    rough = replace(options, window=None, trace=traced, engine=Engine.CPU, cells=min(options.cells, CELLS))
     of_all = CutContext.of(replace(context.setup, part=None), rough, context.graphics)
     whole = _one_after_the_other(of_all, progress.part(0.0, 0.5))
     seen = _one_after_the_other(replace(context, options=replace(options, judge=False)), progress.part(0.5, 1.0))
@@ -220,7 +222,19 @@ def _stage(context: CutContext, k: int, before: Workpiece, after: CutResult, don
     def where(row: int) -> str:
         return context.setup.where(done + row)
 
-    return ProgramStage(context.courses[k], before, after, metal, context.setup.tools, where, rates, under)
+    program = context.setup.programs[k]
+    return ProgramStage(
+        context.courses[k],
+        before,
+        after,
+        metal,
+        context.setup.tools,
+        where,
+        rates,
+        under,
+        program.rapids_bend,
+        standing_cut(program, after),
+    )
 
 
 def _joined(first: CutResult, then: CutResult, motions: int) -> CutResult:

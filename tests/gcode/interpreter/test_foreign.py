@@ -6,6 +6,7 @@ import pytest
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.dialect_guess import guess_dialect
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
+from app.gcode.interpreter.program import EventKind
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind
 from tests.gcode.interpreter.programs import ends, read, told, warnings
@@ -59,12 +60,145 @@ def test_the_next_hole_is_reached_level() -> None:
 def test_modes_that_change_no_path_are_passed_over(code: str) -> None:
     text = f"G21\n{code}\nG0 X1.\nM30\n"
     assert ends(read(text, Dialect.FANUC)) == [(1, 0, 0)]
-    assert any("passed over" in warning for warning in warnings(text, Dialect.FANUC))
+    others = [said for said in warnings(text, Dialect.FANUC) if "decimal point" not in said]
+    assert ["passed over" in said for said in others] == [True]
 
 
 def test_offsets_of_haas() -> None:
     assert read("G21 G154 P7\nG0 X1.\nM30\n", Dialect.HAAS).states[0].work_offset == "G54.1 P7"
     assert read("G21 G111\nG0 X1.\nM30\n", Dialect.HAAS).states[0].work_offset == "G54.1 P2"
+
+
+@pytest.mark.parametrize("code", ["G112", "G113", "G120", "G154 P1"])
+def test_offsets_of_haas_are_those_of_no_other(code: str) -> None:
+    """To Fanuc G112 is polar interpolation, which was read as a work offset, without a word."""
+    for dialect in (Dialect.FANUC, Dialect.MACH3):
+        assert "is not known" in told(f"G21 {code}\nG0 X1.\nM30\n", dialect)
+    told_here = warnings(f"G21 {code}\nG0 X1.\nM30\n", Dialect.HAAS)
+    assert any("polar interpolation" in said for said in told_here) == (code in ("G112", "G113"))
+
+
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "G90.1",
+        "G91.1",
+        "G92.2",
+        "G92.3",
+        "G28.1",
+        "G30.1",
+        "G38.2 Z-1. F100.",
+        "G38.5 Z-1. F100.",
+        "G41.1 D5. X9.",
+        "G42.1 D5. X9.",
+        "G43.1 Z1.",
+        "G43.2 H1",
+        "G59.1",
+        "G59.3",
+    ],
+)
+def test_codes_of_linuxcnc_alone_are_refused(dialect: Dialect, line: str) -> None:
+    """They were obeyed as LinuxCNC does, without a word."""
+    text = f"O1\nG21 G90 G94 G0 X0. Y0. Z5.\n{line}\nG1 X2. F100.\nM30\n"
+    said = told(text, dialect)
+    assert "a.ngc:3:" in said and ("does not know" in said or "is not followed" in said)
+
+
+@pytest.mark.parametrize("dialect", OTHERS)
+@pytest.mark.parametrize("line", ["M50 P0", "M61 Q5", "M62 P1", "M66 P0 L0", "M70", "M72", "M73"])
+def test_m_codes_of_linuxcnc_alone_are_the_builders(dialect: Dialect, line: str) -> None:
+    """M72 brings no feed mode back, nor does M61 change the tool."""
+    text = f"O1\nG21 G90 G94 G0 X0. Y0. Z5.\n{line}\nG1 X2. F100.\nM30\n"
+    code = line.split()[0]
+    assert [said for said in warnings(text, dialect) if code in said] == [
+        f"{code} is the machine builder's own; what it does is not followed."
+    ]
+    assert read(text, dialect).states[-1].tool == 0
+
+
+def test_smoothing_of_haas_is_no_code_of_others() -> None:
+    for dialect in (Dialect.FANUC, Dialect.MACH3):
+        assert "does not know G187" in told("G21 G0 X1.\nG187 P3\nM30\n", dialect)
+
+
+def test_axes_that_mach3_sends_to_their_switches_are_told() -> None:
+    text = "G21 G90 G0 X5 Y5 Z5\nG28.1 Z12\nG92 Z0\nG1 Z-1 F100\nM30\n"
+    assert any("switches" in said for said in warnings(text, Dialect.MACH3))
+    assert not warnings(text.replace(" Z12", ""), Dialect.MACH3)
+    assert not warnings(text)
+
+
+@pytest.mark.parametrize("dialect", [Dialect.HAAS, Dialect.MACH3, Dialect.FANUC])
+def test_a_program_of_five_digits_is_called_by_all_of_them(dialect: Dialect) -> None:
+    """Fanuc alone takes digits before the last four for a count, where no program has all of them for its number."""
+    text = "G21 G90 G0 X0.\nM98 P{0}\nM30\nO{1}\nG91 G0 X1.\nM99\n"
+    assert ends(read(text.format(32345, 32345), dialect)) == [(0, 0, 0), (1, 0, 0)]
+    twice = text.format(22345, 2345)
+    if dialect is Dialect.FANUC:
+        assert ends(read(twice, dialect))[1:] == [(1, 0, 0), (2, 0, 0)]
+    else:
+        assert "there is no subroutine O22345" in told(twice, dialect)
+
+
+@pytest.mark.parametrize("name", ["<PART-1>", "<PLATE_2> (of 2026)", "O<PART>"])
+def test_names_of_programs_on_newer_fanucs(name: str) -> None:
+    text = f"%\n{name}\nG21 G0 X1.\nM30\n%\n"
+    assert ends(read(text, Dialect.FANUC)) == [(1, 0, 0)]
+    assert not warnings(text, Dialect.FANUC)
+    assert "called by names are not followed" in told("G21 G0 X1.\nM98 <SUB>\nM30\n", Dialect.FANUC)
+
+
+@pytest.mark.parametrize("dialect", [Dialect.FANUC, Dialect.HAAS])
+def test_what_macro_b_prints_changes_nothing(dialect: Dialect) -> None:
+    text = "O1\nG21 G90\n#1=2.\nPOPEN\nN20 DPRNT[X#1[44]*Y#2[44]]\nBPRNT[ A #1[3] ]\nPCLOS\nG0 X#1\nM30\n"
+    assert ends(read(text, dialect)) == [(2, 0, 0)]
+    assert not warnings(text, dialect)
+    assert told(text, Dialect.MACH3)
+
+
+@pytest.mark.parametrize("cycle", ["G73", "G83"])
+def test_p_of_pecks_is_a_dwell_on_haas(cycle: str) -> None:
+    text = f"G21 G90 G0 X0. Y0. Z5.\nG99 {cycle} X1. Y1. Z-9. R1. Q4. P500 F100.\nG80\nM30\n"
+    program = read(text, Dialect.HAAS)
+    assert not program.problems
+    assert [(e.value, e.before) for e in program.events if e.kind is EventKind.DWELL] == [
+        (0.5, len(program.motions) - 1)
+    ]
+    assert any("P stands in a block" in said for said in warnings(text, Dialect.FANUC))
+
+
+@pytest.mark.parametrize(
+    ("plane", "words"), [("G17", "X6 Y0 I3 J0 K0"), ("G18", "X6 Z0 I3 K0 J1"), ("G19", "Y6 Z0 J3 I-2 K0")]
+)
+def test_grbl_passes_over_the_third_coordinate_of_a_centre(plane: str, words: str) -> None:
+    """Some posts write all three of each arc; LinuxCNC refuses it."""
+    text = f"G21 G90 {plane}\nG0 X0 Y0 Z0\nG2 {words} F100\nM2\n"
+    third = {"G17": "K", "G18": "J", "G19": "I"}[plane]
+    without = " ".join(word for word in words.split() if word[0] != third)
+    assert not read(text, Dialect.GRBL).problems
+    for name in ("end", "centre"):
+        both = [getattr(read(each, Dialect.GRBL).motions, name) for each in (text, text.replace(words, without))]
+        assert np.array_equal(both[0], both[1], equal_nan=True)
+    assert f"{third} is no coordinate of this plane's arcs" in told(text)
+    lone = text.replace(words, f"X6 Y6 Z6 {third}3")
+    assert "is no coordinate" in told(lone, Dialect.GRBL)
+    assert "both a radius and a centre" in told(text.replace(words, f"{words} R3"), Dialect.GRBL)
+
+
+def test_a_per_cent_sign_is_told_for_grbl() -> None:
+    said = [each for each in warnings("%\nG21 G0 X1\nM2\n%\n", Dialect.GRBL) if "per cent" in each]
+    assert said == ["grbl 1.1 refuses a per cent sign; take it out, if the sender does not."]
+    assert not warnings("G21 G0 X1 (50 %)\nM2\n", Dialect.GRBL)
+
+
+def test_lines_longer_than_grbl_takes_are_told() -> None:
+    """It counts neither blanks nor comments, and has room for 79 characters."""
+    words = "G3X-100.1234567Y-100.1234567Z-5.0000000I-50.1234567J-50.1234567F1000.0"
+    assert len(words) == 70
+    for line, tells in ((words + "S10000M3", False), (words + "S10000.0M3", True), (words + " (" + "a" * 90, False)):
+        text = f"G21 G0 X0 Y0 Z0\n{line}{')' if '(' in line else ''}\nM30\n"
+        assert any("79 characters" in said for said in warnings(text, Dialect.GRBL)) == tells, len(line)
 
 
 def test_a_macro_gets_its_arguments_by_their_letters() -> None:
@@ -422,7 +556,8 @@ def test_blocks_behind_a_per_cent_sign_are_told(dialect: Dialect) -> None:
     for sign in ("% spindle on", "%"):
         text = f"%\n(made by hand)\n{sign}\nG21 G90\nG1 X5. F100.\nM30\n"
         assert any("blocks behind it are not read" in said for said in warnings(text, dialect)), sign
-    assert not warnings("%\nG21 G90\nG1 X5. F100.\nM30\n%\nmade by hand\n", dialect)
+    said = warnings("%\nG21 G90\nG1 X5. F100.\nM30\n%\nmade by hand\n", dialect)
+    assert [each for each in said if "grbl 1.1 refuses" not in each] == []
     called = "%\nO1\nG21\nM98 P2\nM30\n%\n(the other one)\nO2\nG0 X1.\nM99\n"
     assert not any("are not read" in said for said in warnings(called, Dialect.FANUC))
 

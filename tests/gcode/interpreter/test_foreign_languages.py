@@ -29,6 +29,17 @@ from tests.conftest import ROOT
         ("IN;SP1;PU0,0;PD100,0;\n", "HP-GL", 1),
         ("G28\nM82\nG1 X5 E3.2 F1200\n", "3D printer", 2),
         ("G21\nG1 X5 Y5 Z0.2 E3.2 F1200\n", "3D printer", 2),
+        ("BEGIN PGM 1 MM\nTOOL CALL 5 Z S2000\n", "Heidenhain", 1),
+        ("G17 G90 G71\nG1 X20 RND=2\n", "Siemens", 2),
+        ("G17 G90\nG1 Z=-2 F=100\n", "Siemens", 2),
+        ("G21\nsub cut\nG1 X5 F100\nendsub\n", "Eding", 4),
+        ("G21\nM117 Turn it on\n", "Marlin", 2),
+        ("SET_PIN PIN=laser VALUE=0\nG0 X1\n", "Klipper", 1),
+        ("SA\nJZ,0.8\nM3,1.0,2.0,-0.1\n", "ShopBot", 2),
+        ("%FSLAX46Y46*%\n%MOMM*%\nD10*\n", "Gerber", 1),
+        ("G04 made by hand*\nX1Y1D02*\n", "Gerber", 1),
+        ("M48\nFMAT,2\nMETRIC\nT1C0.8\n", "Excellon", 2),
+        ("M48\nINCH,TZ\nT01C0.0315\n", "Excellon", 2),
     ],
 )
 def test_the_language_is_named_at_the_line_that_tells(text: str, named: str, line: int) -> None:
@@ -44,6 +55,8 @@ def test_the_language_is_named_at_the_line_that_tells(text: str, named: str, lin
         "G21\nG1 X1 F100 Q\n",
         "(T1 D=6. CR=0. - ZMIN=-3. - flat end mill)\nG21\nG1 X1 F100 Q\n",
         "M190 P0\nM66 P3 L3 Q1\nF#<_hal[plasmac.cut-feed-rate]>\n",
+        "; from X=0 to X=20\n#<z>=-2\nG21\nG1 X1 F100 Q\n",
+        "M117 P1\nM62 P0\nG21\nG1 X1 F100 Q\n",
     ],
 )
 def test_nothing_is_named_where_a_program_is_only_wrong(text: str) -> None:

@@ -34,6 +34,12 @@ GOLDEN = sorted((ROOT / "tests" / "gcode" / "golden").iterdir())
         ("WHILE [#1 LT 5] DO1\n", Dialect.FANUC),
         ("O1000\nG54.1 P3\n", Dialect.FANUC),
         ("O1000\nG187 P3\n", Dialect.HAAS),
+        ("O1000\nG111\n", Dialect.HAAS),
+        ("O1000\nG112\n", Dialect.FANUC),
+        ("O1000 (PLATE)\nG21 G90 G91.1\n", Dialect.MACH3),
+        ("O1000 (G91.1)\nG21 G90\n", Dialect.FANUC),
+        ("%\n<PLATE> (of 2)\nG21\n", Dialect.FANUC),
+        ("(T1 D=6.)\nG90 G54 G64 G50 G17 G40 G80 G94 G91.1 G49\n", Dialect.MACH3),
     ],
 )
 def test_what_only_one_control_says_tells(text: str, dialect: Dialect) -> None:
