@@ -17,6 +17,7 @@ from app.formats.job.toml import read_job
 from app.geometry.distance import DistanceField
 from app.geometry.outlines import polygon_contour
 from app.geometry.primitives import contour_rows, lengths, sample
+from app.model.chamfer_operation import ChamferBall
 from app.model.curves import Line
 from app.model.finding import FindingKind
 from app.model.moves import Purpose
@@ -203,6 +204,33 @@ def test_a_neighbour_stops_it_short_whether_closed_or_the_open_edge_of_another_o
     assert not any(
         "stops short" in each.text for each in made_of(lines, "left", CONE, one, other.format("false")).findings
     )
+
+
+def test_it_stops_short_of_the_metal_behind_the_end_of_a_line() -> None:
+    """A wedge of 40 degrees: beside the long edge the ball comes by the end of the short one, 4 mm from the corner, and
+    keeps off the metal that no chamfer takes off behind that end.
+    """
+    made = made_of("polyline 20,0 0,0 3.06,2.57\n", "right", BALL)
+    (short,) = [each for each in made.findings if each.kind is FindingKind.LEFT_OUT]
+    assert not any(each.kind is FindingKind.GOUGE for each in made.findings)
+    (begin,) = {
+        tuple(each) for each in made.program.moves.start[made.program.moves.purpose == Purpose.CONTOUR].tolist()
+    }
+    end, ahead = np.array([3.06, 2.57]), np.array([3.06, 2.57]) / np.hypot(3.06, 2.57)
+    corner = end + 0.5 * np.array([-ahead[1], ahead[0]])
+    ball = ChamferBall.of(3.0, 0.5, 0.5)
+    assert np.hypot(*(begin[:2] - corner)) == pytest.approx(ball.off + 0.5, abs=2e-3)
+    assert np.hypot(short.x - begin[0], short.y - begin[1]) < 0.1
+
+
+def test_of_a_way_into_a_corner_the_part_that_keeps_off_is_cut() -> None:
+    """In a wedge that is 0.5 mm wide at the end of its short edge the cone goes as far as that lets it."""
+    made = made_of("polyline 20,0 0,0 8,0.5\n", "right")
+    carved = made.program.moves
+    deep = carved.end[:, 2] < 0
+    (short,) = [each for each in made.findings if each.kind is FindingKind.LEFT_OUT]
+    assert carved.end[deep, 0].min() < 0.1 and 0 < short.amount < 2.0 and len(carved.end[deep]) < 30
+    assert not any(each.kind is FindingKind.GOUGE for each in made.findings)
 
 
 @pytest.mark.parametrize(
