@@ -183,13 +183,14 @@ def _together(ways: Sequence[_Way], alone: Sequence[bool], strip: SideStrip) -> 
             break
         kept = [number for number in kept if number in whole]
     other = {True: "another open line of the same operation", False: "itself"}
-    errors = [_too_near(ways[k].line, strip, other[alone[k]]) for k in range(len(ways)) if k not in kept]
+    errors = {k: _too_near(ways[k].line, strip, other[alone[k]]) for k in range(len(ways)) if k not in kept}
     if not kept:
         raise errors[0]
+    findings = tuple(_left_out(ways[k].line, error) for k, error in errors.items())
     found = [each for each in links if any(link.after is not None for link in each)]
     contours = [contour for each in found for contour in _bounds(each, ways)]
     bare = [Contour(_chords(link.points), link.after is None) for each in found for link in each]
-    return StripsBesideLines(contours, bare, tuple(map(_left_out, errors)))
+    return StripsBesideLines(contours, bare, findings)
 
 
 def _air(ways: Sequence[_Way], reach: float) -> list[shapely.Polygon]:
@@ -210,9 +211,7 @@ def _metal(lines: Sequence[Floats], width: float) -> list[shapely.Geometry]:
     back = width * np.column_stack([ahead[:, 1], -ahead[:, 0]])
     chords = shapely.linestrings(np.stack([starts, ends], axis=1))
     boxes = shapely.polygons(np.stack([starts, starts + back, ends + back, ends], axis=1))
-    last = np.cumsum([len(points) - 1 for points in lines])[:-1] - 1
-    turn = np.arctan2(ahead[:-1, 0] * ahead[1:, 1] - ahead[:-1, 1] * ahead[1:, 0], (ahead[:-1] * ahead[1:]).sum(axis=1))
-    turn[last] = 0.0
+    turn = _turns(ahead, [len(points) - 1 for points in lines])
     bent = np.flatnonzero(turn > 0).tolist()
     fans = [_fan(ends[k], back[k], float(turn[k])) for k in bent]
     tree = shapely.STRtree(chords)
@@ -222,6 +221,18 @@ def _metal(lines: Sequence[Floats], width: float) -> list[shapely.Geometry]:
     return seen + [
         _seen(fan, chords[_near(tree, fan, [k, k + 1])], corners[k]) for k, fan in zip(bent, fans, strict=True)
     ]
+
+
+def _turns(ahead: Floats, counts: Sequence[int]) -> Floats:
+    """Return by how much (n - 1,) lines turn to the left behind each of n chords, radians; 0 behind the last of a line.
+
+    Args:
+        ahead: (n, 2) directions of the chords of all lines. counts: of each line.
+    """
+    across = ahead[:-1, 0] * ahead[1:, 1] - ahead[:-1, 1] * ahead[1:, 0]
+    turn: Floats = np.arctan2(across, (ahead[:-1] * ahead[1:]).sum(axis=1))
+    turn[np.cumsum(counts)[:-1] - 1] = 0.0
+    return turn
 
 
 def _near(tree: shapely.STRtree, shape: shapely.Polygon, but: Sequence[int]) -> NDArray[np.int64]:
@@ -240,7 +251,7 @@ def _seen(shape: shapely.Polygon, chords: NDArray[np.object_], eye: Floats) -> s
         if chord.geom_type == "LineString" and not chord.is_empty:
             ends = shapely.get_coordinates(chord)[[0, -1]]
             away = eye[2] * ends - eye[:2]
-            behind = ends + away * (shape.length / np.hypot(*away.T)[:, None])
+            behind = ends + away * (shape.length / np.maximum(np.hypot(*away.T), _SKIN)[:, None])
             shape = shapely.difference(shape, shapely.convex_hull(shapely.MultiPoint([*ends, *behind])))
     return shape
 
@@ -304,8 +315,8 @@ def _bounds(links: Sequence[_Link], ways: Sequence[_Way]) -> Iterator[Contour]:
         yield replace(ways[first].line, primitives=tuple(primitives), closed=True, entity_ids=tuple(ids))
 
 
-def _left_out(error: GeometryError) -> Finding:
-    return Finding(FindingKind.LEFT_OUT, str(error))
+def _left_out(line: Contour, error: GeometryError) -> Finding:
+    return Finding(FindingKind.LEFT_OUT, str(error), *line.primitives[0].start, entity_ids=line.entity_ids)
 
 
 def _too_near(line: Contour, strip: SideStrip, what: str) -> GeometryError:

@@ -105,8 +105,8 @@ def test_a_gap_is_between_the_walls_and_lets_a_flat_tip_in() -> None:
 
 
 def test_what_stands_between_walls_round_the_plug_is_found() -> None:
-    """An island like a keyhole: into its slot of 1.8 mm no flat tool goes, and between the ways of the pointed one along
-    its walls the plug has a ridge: 0.9 mm to either side are less than a cone of 15 degrees leaves 1 mm above its tip.
+    """An island like a keyhole: no flat tool goes into its slot of 1.8 mm, and between the ways of the pointed one
+    along its walls a ridge stands on the plug, as high as a cone of 15 degrees is where it is 0.9 mm wide.
     """
     keyhole = "rect 0,0 36,20\npolyline 8,7 14,7 14,9.1 24,9.1 24,10.9 14,10.9 14,13 8,13 close\n"
     pair = pair_of(keyhole, InlayOptions(0.4, 0.0, 1.0), angle=30.0)
