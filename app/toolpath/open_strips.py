@@ -56,7 +56,7 @@ class StripsBesideLines(NamedTuple):
     findings: tuple[Finding, ...] = ()
 
 
-class _Way(NamedTuple):
+class _EdgeLine(NamedTuple):
     """A line in the direction in which its area lies on the left.
 
     Attributes:
@@ -91,15 +91,15 @@ def _apart(made: Sequence[StripsBesideLines]) -> bool:
     return not (one < other).any()
 
 
-def _way(line: Contour, strip: SideStrip) -> _Way:
+def _way(line: Contour, strip: SideStrip) -> _EdgeLine:
     primitives: tuple[Primitive, ...] = line.primitives
     if not strip.left:
         primitives = tuple(reversed_curve(each) for each in reversed(primitives))  # type: ignore[misc]
     rows = contour_rows(replace(line, primitives=primitives))
-    return _Way(line, primitives, np.concatenate([sample(rows, _CHORD), rows[-1:, 2:4]]))
+    return _EdgeLine(line, primitives, np.concatenate([sample(rows, _CHORD), rows[-1:, 2:4]]))
 
 
-def _strip(way: _Way, strip: SideStrip) -> StripsBesideLines | None:
+def _strip(way: _EdgeLine, strip: SideStrip) -> StripsBesideLines | None:
     """Return the area on the left of a line; None where it bends back within reach."""
     points = way.points
     ahead = headings_at(contour_rows(replace(way.line, primitives=way.primitives))[[0, -1]], np.array([0.0, 1.0]))
@@ -164,7 +164,7 @@ class _Link(NamedTuple):
     broken: frozenset[int] = frozenset()
 
 
-def _together(ways: Sequence[_Way], alone: Sequence[bool], strip: SideStrip) -> StripsBesideLines:
+def _together(ways: Sequence[_EdgeLine], alone: Sequence[bool], strip: SideStrip) -> StripsBesideLines:
     """Return the areas on the left of lines that may be near one another, but for those that are not whole on a ring.
 
     Args:
@@ -193,7 +193,7 @@ def _together(ways: Sequence[_Way], alone: Sequence[bool], strip: SideStrip) -> 
     return StripsBesideLines(contours, bare, findings)
 
 
-def _air(ways: Sequence[_Way], reach: float) -> list[shapely.Polygon]:
+def _air(ways: Sequence[_EdgeLine], reach: float) -> list[shapely.Polygon]:
     """Return what lies within reach of lines, without the metal behind them, the area on the left of its rings."""
     lines = [shapely.LineString(way.points) for way in ways]
     around = shapely.union_all(shapely.buffer(lines, reach, quad_segs=_QUARTER))
@@ -265,14 +265,14 @@ def _fan(corner: Floats, back: Floats, turn: float) -> shapely.Polygon:
     return shapely.Polygon([corner, *(corner + rim)])
 
 
-def _links(area: shapely.Polygon, ways: Sequence[_Way], kept: Sequence[int]) -> list[_Link]:
+def _links(area: shapely.Polygon, ways: Sequence[_EdgeLine], kept: Sequence[int]) -> list[_Link]:
     """Return what of the rings round an area runs through the open; islands of no width are none."""
     islands = [ring for ring in area.interiors if shapely.Polygon(ring).area > _SKIN * ring.length]
     rings = [shapely.get_coordinates(ring) for ring in (area.exterior, *islands)]
     return [link for ring in rings for link in _links_of(ring, ways, kept)]
 
 
-def _links_of(ring: Floats, ways: Sequence[_Way], kept: Sequence[int]) -> Iterator[_Link]:
+def _links_of(ring: Floats, ways: Sequence[_EdgeLine], kept: Sequence[int]) -> Iterator[_Link]:
     """Yield what of a ring runs through the open, some lines being followed."""
     lines = [shapely.LineString(ways[k].points) for k in kept]
     places = np.stack([ring[:-1], (ring[:-1] + ring[1:]) / 2, ring[1:]])
@@ -292,12 +292,12 @@ def _links_of(ring: Floats, ways: Sequence[_Way], kept: Sequence[int]) -> Iterat
         yield _Link(points, after, before, frozenset(near))
 
 
-def _end_at(place: Floats, ways: Sequence[_Way], kept: Sequence[int], end: int) -> int | None:
+def _end_at(place: Floats, ways: Sequence[_EdgeLine], kept: Sequence[int], end: int) -> int | None:
     """Return which line ends, or begins, at a place, if one does."""
     return next((k for k in kept if np.hypot(*(ways[k].points[end] - place)) < 2 * _SKIN), None)
 
 
-def _bounds(links: Sequence[_Link], ways: Sequence[_Way]) -> Iterator[Contour]:
+def _bounds(links: Sequence[_Link], ways: Sequence[_EdgeLine]) -> Iterator[Contour]:
     """Yield the rings round one area: lines, and links from the end of one to the beginning of the next."""
     yield from (Contour(_chords(link.points), True) for link in links if link.after is None)
     behind = {link.after: link for link in links if link.after is not None}
