@@ -267,6 +267,7 @@ class MachiningAreas:
     def _beside_lines(self, key: _AreaKey, strip: SideStrip) -> MachiningArea | None:
         """Return what lies on one side of open lines, without what clamps hold."""
         found = strips(selected(self.drawn, tuple(key.curves)).open, strip)
+        self.findings += found.findings
         regions = self._regions(found.contours)
         if not regions:
             return None

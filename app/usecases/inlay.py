@@ -90,7 +90,7 @@ class InlayFit:
     """How plug and pocket fit, their programs read back and cut, one laid into the other, mm of height.
 
     Attributes:
-        overlap: the most that both stand in one place; 0 = nowhere.
+        overlap: the most that both stand in one place, on islands of the pocket and round it, too; 0 = nowhere.
         walls: the most that is between them along the walls, without the gap that was asked for.
         floor: between the plug's face and the pocket's floor at least; None where there is no flat floor.
         bound: what overlaps at most along the walls, between the cells too: what is proven to be left on both.
@@ -311,7 +311,7 @@ def fit_of(
     floor = inset > (jobs.face + sizes.glue) * jobs.rate + grid.pitch
     off = between[walls] - sizes.gap / jobs.rate if walls.any() else np.zeros(1)
     return InlayFit(
-        max(0.0, -float(between[inset > 0].min(initial=0.0))),
+        max(0.0, -float(between.min())),
         float(off.max()),
         float(between[floor].min()) if floor.any() else None,
         max(0.0, _left(pocket) + _left(plug) - sizes.gap / jobs.rate),
@@ -349,7 +349,8 @@ def _fit_findings(fit: InlayFit, jobs: InlayJobs, sizes: InlayOptions) -> list[F
     if fit.overlap > most:
         text = (
             f"Plug and pocket overlap by {fit.overlap:.4f} mm of height, so the plug does not go in; where the flat "
-            "tool leaves corners of a floor standing, a smaller one helps, else give them more gap."
+            "tool leaves corners of a floor standing, or narrow places round the plug, a smaller one helps, else give "
+            "them more gap."
         )
         found.append(Finding(FindingKind.TOLERANCE, text, amount=fit.overlap))
     if fit.walls > most:

@@ -104,6 +104,18 @@ def test_a_gap_is_between_the_walls_and_lets_a_flat_tip_in() -> None:
         pair_of(SQUARE, tip=0.2)
 
 
+def test_what_stands_between_walls_round_the_plug_is_found() -> None:
+    """An island like a keyhole: no flat tool goes into its slot of 1.8 mm, and between the ways of the pointed one
+    along its walls a ridge stands on the plug, as high as a cone of 15 degrees is where it is 0.9 mm wide.
+    """
+    keyhole = "rect 0,0 36,20\npolyline 8,7 14,7 14,9.1 24,9.1 24,10.9 14,10.9 14,13 8,13 close\n"
+    pair = pair_of(keyhole, InlayOptions(0.4, 0.0, 1.0), angle=30.0)
+    rate = math.tan(math.radians(15))
+    ridge = (0.9 - rate * 1.0) / rate - 1.0  # above the surface that the island has
+    assert pair.fit.overlap == pytest.approx(ridge, rel=0.05)
+    assert not pair.clean and any("narrow places round the plug" in each.text for each in pair.findings)
+
+
 @pytest.mark.parametrize("off", [0.05, -0.05])
 def test_a_plug_that_is_off_is_found(off: float) -> None:
     """The chamfer on purpose too narrow, so that the plug is too wide, or too wide."""

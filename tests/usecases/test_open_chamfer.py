@@ -9,13 +9,15 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+import shapely
 
 from app.core.errors import GeometryError
 from app.core.tolerances import WELD
 from app.formats.job.toml import read_job
 from app.geometry.distance import DistanceField
 from app.geometry.outlines import polygon_contour
-from app.geometry.primitives import contour_rows, lengths
+from app.geometry.primitives import contour_rows, lengths, sample
+from app.model.chamfer_operation import ChamferBall
 from app.model.curves import Line
 from app.model.finding import FindingKind
 from app.model.moves import Purpose
@@ -25,10 +27,13 @@ from app.operations.compute import compute
 from app.toolpath.open_strips import strips
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import MakeResult, finish, make
+from tests.examples import examples
 
 CONE = 'kind = "v"\ndiameter = 12.0\ntip_angle = 90.0\n'
 BALL = 'kind = "ball"\ndiameter = 6.0\n'
 BEND = "line 0,0 40,0\nline 40,0 40,30\n"
+SPIRAL = "polyline 20,-2 70,-2 70,3 -5,3 -5,-0.9 60,-0.9\n"
+"""What is air beside its one winding is metal behind the next."""
 
 
 def made_of(lines: str, side: str, tool: str = CONE, *operations: str) -> MakeResult:
@@ -104,12 +109,77 @@ def test_areas_beside_random_lines_have_no_line_without_length(reach: float) -> 
         points = np.cumsum(rng.uniform(-8, 8, (int(rng.integers(2, 4)), 2)), axis=0).round(3).tolist()
         line = Contour(tuple(Line(tuple(a), tuple(b)) for a, b in pairwise(points)), False)
         try:
-            (area,) = strips([line], SideStrip(bool(rng.random() < 0.5), reach)).contours
+            areas = strips([line], SideStrip(bool(rng.random() < 0.5), reach)).contours
         except GeometryError:
             continue
         made += 1
-        assert lengths(contour_rows(area)).min() > WELD
-    assert made > 50
+        assert all(lengths(contour_rows(area)).min() > WELD for area in areas)
+    assert made > 140
+
+
+def polyline(points: np.ndarray, number: int) -> Contour:
+    lines = tuple(Line(tuple(a), tuple(b)) for a, b in pairwise(points.tolist()))
+    return Contour(lines, False, entity_ids=(number,))
+
+
+def crooked_lines(rng: np.random.Generator) -> list[np.ndarray]:
+    """Return up to three lines of up to three pieces that cross neither themselves nor one another."""
+    while True:
+        drawn = [
+            np.cumsum(rng.uniform(-8, 8, (int(rng.integers(2, 5)), 2)), axis=0).round(3)
+            for _ in range(int(rng.integers(1, 4)))
+        ]
+        shapes = [shapely.LineString(points) for points in drawn]
+        apart = all(one.distance(other) > 0.1 for k, one in enumerate(shapes) for other in shapes[:k])
+        if apart and all(shape.is_simple for shape in shapes):
+            return drawn
+
+
+@pytest.mark.parametrize("left", [True, False])
+def test_beside_lines_that_bend_back_or_come_near_is_air_on_one_side_and_metal_on_the_other(left: bool) -> None:
+    """At 0.1 um from all places of all lines but for corners; whichever line is not there is told."""
+    rng, told = np.random.default_rng(27), 0
+    for _ in range(examples(60)):
+        drawn = crooked_lines(rng)
+        try:
+            made = strips([polyline(points, k) for k, points in enumerate(drawn)], SideStrip(left, 3.0))
+        except GeometryError:
+            told += len(drawn)
+            continue
+        area = shapely.Polygon()
+        for contour in made.contours:
+            area = area.symmetric_difference(shapely.Polygon(sample(contour_rows(contour), 1e-3)))
+        there = {number for contour in made.contours for number in contour.entity_ids}
+        assert len(there) + len(made.findings) == len(drawn)
+        told += len(made.findings)
+        for a, b in (ends for number in there for ends in pairwise(drawn[number])):
+            away = np.array([a[1] - b[1], b[0] - a[0]]) / np.hypot(*(b - a)) * (1e-4 if left else -1e-4)
+            places = a + np.outer(np.linspace(0.01, 0.99, 50), b - a)
+            assert shapely.contains_xy(area, places + away).all()
+            assert not shapely.contains_xy(area, places - away).any()
+    assert told < 25
+
+
+def test_a_bent_back_edge_and_two_that_face_each_other_are_cut_and_proven() -> None:
+    """A finger of metal 3 mm wide, a tip of 20 degrees, both sides of a groove; the reach is 2.6 mm."""
+    finger = "line 0,0 20,0\nline 20,0 20,3\nline 20,3 0,3\n"
+    tip = "line 0,0 20,0\nline 20,0 1.2,6.8\n"
+    groove = "line 0,0 20,0\nline 20,2 0,2\n"
+    for lines, side, length in ((finger, "right", 43.0), (tip, "right", 40.0), (groove, "left", 40.0)):
+        made = made_of(lines, side)
+        assert made.clean and not made.findings
+        (carved,) = (each["carved"] for each in json.loads(made.report.text())["operations"])
+        moves = made.program.moves
+        assert carved["places"] > 300 and carved["left_mm"] < 0.005
+        assert moves.lengths()[moves.purpose == Purpose.CONTOUR].sum() == pytest.approx(length, abs=1.0)
+
+
+def test_of_lines_that_contradict_one_another_one_is_cut_and_the_other_told() -> None:
+    """Metal is above the first, air below the second, which is 1 mm above the first."""
+    made = made_of("line 0,0 60,0\nline 0,1 60,1\n", "right")
+    (told,) = [each for each in made.findings if each.counts]
+    assert told.kind is FindingKind.LEFT_OUT and "begins at (0.000, 1.000)" in told.text
+    assert np.allclose(along_edge(made)[:, 1], -0.3)
 
 
 @pytest.mark.parametrize(("off", "kind"), [(-0.02, FindingKind.GOUGE), (0.02, FindingKind.LEFT_REACHABLE)])
@@ -136,11 +206,38 @@ def test_a_neighbour_stops_it_short_whether_closed_or_the_open_edge_of_another_o
     )
 
 
+def test_it_stops_short_of_the_metal_behind_the_end_of_a_line() -> None:
+    """A wedge of 40 degrees: beside the long edge the ball comes by the end of the short one, 4 mm from the corner, and
+    keeps off the metal that no chamfer takes off behind that end.
+    """
+    made = made_of("polyline 20,0 0,0 3.06,2.57\n", "right", BALL)
+    (short,) = [each for each in made.findings if each.kind is FindingKind.LEFT_OUT]
+    assert not any(each.kind is FindingKind.GOUGE for each in made.findings)
+    (begin,) = {
+        tuple(each) for each in made.program.moves.start[made.program.moves.purpose == Purpose.CONTOUR].tolist()
+    }
+    end, ahead = np.array([3.06, 2.57]), np.array([3.06, 2.57]) / np.hypot(3.06, 2.57)
+    corner = end + 0.5 * np.array([-ahead[1], ahead[0]])
+    ball = ChamferBall.of(3.0, 0.5, 0.5)
+    assert np.hypot(*(begin[:2] - corner)) == pytest.approx(ball.off + 0.5, abs=2e-3)
+    assert np.hypot(short.x - begin[0], short.y - begin[1]) < 0.1
+
+
+def test_of_a_way_into_a_corner_the_part_that_keeps_off_is_cut() -> None:
+    """In a wedge that is 0.5 mm wide at the end of its short edge the cone goes as far as that lets it."""
+    made = made_of("polyline 20,0 0,0 8,0.5\n", "right")
+    carved = made.program.moves
+    deep = carved.end[:, 2] < 0
+    (short,) = [each for each in made.findings if each.kind is FindingKind.LEFT_OUT]
+    assert carved.end[deep, 0].min() < 0.1 and 0 < short.amount < 2.0 and len(carved.end[deep]) < 30
+    assert not any(each.kind is FindingKind.GOUGE for each in made.findings)
+
+
 @pytest.mark.parametrize(
     ("lines", "words"),
     [
-        ("line 0,0 60,0\nline 0,1 60,1\n", "of another open line of the same operation"),
-        ("line 0,0 60,0\nline 60,0 60,1\nline 60,1 0,1\n", "of itself"),
+        (f"line 0,-1 40,-1\n{SPIRAL}", "of another open line of the same operation"),
+        (SPIRAL, "of itself"),
         ("rect 0,0 60,40\n", "takes open lines alone, and none is chosen"),
     ],
 )

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.primitives import Rows, lengths, points_at, sweeps
+from ...geometry.primitives import Rows, path_length, point_on, sweep_of
 from ...toolpath.engagement.rim_kernels import (
     bound_along,
     covers_disc,
@@ -154,17 +154,18 @@ class MetalFront:
         return most
 
     def _bound(self, row: Rows, enough: float) -> float:
-        size, turn = float(lengths(row[None])[0]), float(sweeps(row[None])[0])
-        x, y = points_at(row[None], np.array([0.5]))[0].tolist()
+        numbers = row.tolist()
+        size, turn = path_length(row[None]), sweep_of(numbers)
         limits = (enough, _COARSE * self.limit.radius, _FINEST, enough)
-        shapes = self._within((x, y), size / 2)
+        shapes = self._within(point_on(numbers, 0.5), size / 2)
         return float(bound_along(shapes, row, self.limit.radius, (turn, size), limits)[0])
 
 
 def _parts(row: Rows, longest: float) -> Rows:
     """Return a row in parts (n, 8) of a length at most, mm: few shapes are near a short one."""
-    count = max(1, math.ceil(float(lengths(row[None])[0]) / longest))
+    count = max(1, math.ceil(path_length(row[None]) / longest))
     parts = np.repeat(row[None], count, axis=0)
-    places = points_at(np.repeat(row[None], count - 1, axis=0), np.arange(1, count) / count)
-    parts[:-1, 2:4] = parts[1:, :2] = places
+    if count > 1:
+        numbers = row.tolist()
+        parts[:-1, 2:4] = parts[1:, :2] = [point_on(numbers, k / count) for k in range(1, count)]
     return parts

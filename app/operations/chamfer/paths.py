@@ -14,19 +14,24 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
+import shapely
+from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...core.wording import in_plane
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Ring, offset_levels
-from ...geometry.primitives import CX, TURN, R, contour_rows, lengths, points_at, reversed_rows, within_half_turn
+from ...geometry.primitives import CX, TURN, R, Rows, contour_rows, lengths, points_at, reversed_rows, within_half_turn
 from ...model.chamfer_operation import ChamferOperation
+from ...model.curves import Line
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.operation import Direction, Side
+from ...model.part import Contour
 from ...model.tool import Tool
 from ...toolpath.build import StrokeLabel
 from ...toolpath.drawn_contours import selected
@@ -37,8 +42,17 @@ from ..engrave.open_line import clear_parts, runs_of_parts
 from ..vcarve.branches import AxisBranch
 from ..vcarve.paths import CarvedPass, PassWriter, VCutter, carved
 
+Floats = NDArray[np.float64]
+
 _SAME = 1e-9
 """mm; lengths that differ by no more are equal."""
+_BEYOND = 1e-3
+"""mm of the metal behind the end of a line, more than the chamfer is wide, that the cutter need not keep off: more than
+a circle of 64 chords a quarter lacks."""
+_DENSE = 0.01
+"""mm between the cones of a way into a corner, of which a part is left out: between two of them a wall comes nearer by
+less than 0.1 um.
+"""
 _WELD = 1e-6
 """mm; places that are no farther apart are one."""
 
@@ -117,7 +131,8 @@ def chamfer(context: OperationContext, index: int, progress: Progress) -> None:
         (whole,) = carved(area.primitives, cone.narrowed, (-cone.depth,), progress.part(0.0, 0.8))
     followed = _followed(whole, area, operation)
     progress.step(0.8, "Neighbour walls")
-    kept, lost = _beside_neighbours(followed, context.areas, operation, tool, cone)
+    around = _Around(_neighbours(context.areas, operation), _held(context.areas), _behind_lines(area, operation))
+    kept, lost = _beside(followed, around, tool, cone)
     context.findings.extend(_stopped_short(lost, tool, cone))
     label = StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)
     writer = PassWriter(context.builder, label, levels_of(context, operation.cut), cone.narrowed)
@@ -167,12 +182,16 @@ def _at_bare(way: AxisBranch, area: MachiningArea) -> bool:
     return bool(area.bare.any() and area.bare[area.distances.nearest(way.discs[:, :2])[1]].any())
 
 
-def _beside_neighbours(
-    ways: CarvedPass, areas: MachiningAreas, operation: ChamferOperation, tool: Tool, cone: ChamferCutter
-) -> tuple[CarvedPass, list[tuple[float, float, float]]]:
-    """Return the ways on which the cone keeps off all other contours and clamps, and (x, y, length, mm) of the
-    others.
-    """
+class _Around(NamedTuple):
+    """Rows of what the cutter keeps off: contours that are not chamfered, clamps, and what is behind open lines."""
+
+    neighbours: Rows
+    held: Rows
+    behind: Rows
+
+
+def _neighbours(areas: MachiningAreas, operation: ChamferOperation) -> Rows:
+    """Return the rows of all other contours, among them open lines that other operations chamfer."""
     drawn, chosen = areas.drawn, selected(areas.drawn, operation.cut.curves)
     own = {id(contour) for contour in (chosen.open if operation.takes_open else chosen.closed)}
     edges = [
@@ -181,12 +200,42 @@ def _beside_neighbours(
         if each.cut.enabled and operation.takes_open and each.takes_open and each.wall_side is Side.INSIDE
         for line in selected(drawn, each.cut.curves).open
     ]
-    others = [contour for contour in (*drawn.closed, *edges) if id(contour) not in own]
-    held = [contour for region in drawn.clamps for contour in region.contours]
+    return _rows([contour for contour in (*drawn.closed, *edges) if id(contour) not in own])
+
+
+def _held(areas: MachiningAreas) -> Rows:
+    return _rows([contour for region in areas.drawn.clamps for contour in region.contours])
+
+
+def _rows(contours: Sequence[Contour]) -> Rows:
+    return within_half_turn(np.concatenate([np.zeros((0, 8)), *map(contour_rows, contours)]))
+
+
+def _behind_lines(area: MachiningArea, operation: ChamferOperation) -> Rows:
+    """Return the straight rows that bound the metal behind open lines, but for what a chamfer takes off at their ends.
+
+    A cutter that keeps off the rest by as much as it is wide on the top takes no more off there than the chamfer does,
+    by the triangle's inequality.
+    """
+    if not operation.takes_open:
+        return _rows([])
+    rows, before = area.primitives.rows, area.primitives.previous
+    ends = shapely.multipoints(rows[area.bare != area.bare[before], :2])
+    straight = rows[area.bare & (rows[:, TURN] == 0)]
+    lines = shapely.linestrings(straight[:, :4].reshape(-1, 2, 2))
+    left = shapely.get_parts(shapely.difference(lines, shapely.buffer(ends, operation.width + _BEYOND, quad_segs=64)))
+    kept = [shapely.get_coordinates(each).tolist() for each in left.tolist() if each.length > _WELD]
+    return _rows([Contour((Line(tuple(a), tuple(b)),), False) for a, b in kept])
+
+
+def _beside(
+    ways: CarvedPass, around: _Around, tool: Tool, cone: ChamferCutter
+) -> tuple[CarvedPass, list[tuple[float, float, float]]]:
+    """Return the ways on which the cone keeps off all round it, and (x, y, length, mm) of the others."""
     lost: list[tuple[float, float, float]] = []
-    for walls, wide in ((others, cone.top), (held, tool.radius)):
-        if walls:
-            field = DistanceField.of(within_half_turn(np.concatenate([contour_rows(each) for each in walls])))
+    for rows, wide in ((around.neighbours, cone.top), (around.behind, cone.top), (around.held, tool.radius)):
+        if len(rows):
+            field = DistanceField.of(rows)
             ways = CarvedPass(
                 ways.z, tuple(_clear_trails(ways, field, wide, cone, lost)), tuple(_clear(ways, field, wide, lost))
             )
@@ -196,14 +245,33 @@ def _beside_neighbours(
 def _clear_trails(
     ways: CarvedPass, field: DistanceField, wide: float, cone: ChamferCutter, lost: list[tuple[float, float, float]]
 ) -> Iterator[AxisBranch]:
-    """Yield the ways into corners all of whose cones keep off some walls; `wide`: where they are deepest, mm."""
+    """Yield what of the ways into corners keeps off some walls; `wide`: where they are deepest, mm."""
     for way in ways.trails:
-        need = way.discs[:, 2] + wide - cone.off
-        if (field.nearest(way.discs[:, :2])[0] >= need - _WELD).all():
+        clear = _clear_discs(way.discs, field, wide - cone.off)
+        if clear.all():
             yield way
-        else:
-            x, y = way.discs[0, :2].tolist()
-            lost.append((x, y, way.length))
+            continue
+        discs, given = _dense(way.discs)
+        clear = _clear_discs(discs, field, wide - cone.off)
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], clear, [False]]).astype(np.int8))).reshape(-1, 2)
+        places = [np.unique([a, *given[(given > a) & (given < b)], b - 1]) for a, b in edges.tolist()]
+        kept = [AxisBranch(discs[each]) for each in places if len(each) > 1]
+        x, y = discs[np.argmin(clear), :2].tolist()
+        lost.append((x, y, way.length - sum(each.length for each in kept)))
+        yield from kept
+
+
+def _clear_discs(discs: Floats, field: DistanceField, wider: float) -> NDArray[np.bool_]:
+    """Tell which discs, so much wider than they are, mm, keep off some walls."""
+    clear: NDArray[np.bool_] = field.nearest(discs[:, :2])[0] >= discs[:, 2] + wider - _WELD
+    return clear
+
+
+def _dense(discs: Floats) -> tuple[Floats, NDArray[np.int64]]:
+    """Return discs no farther apart than `_DENSE`, and which of them are those that are given."""
+    counts = np.maximum(np.ceil(np.hypot(*np.diff(discs[:, :2], axis=0).T) / _DENSE), 1).astype(np.int64)
+    parts = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(discs[:-1], discs[1:], counts, strict=True)]
+    return np.concatenate([*parts, discs[-1:]]), np.concatenate([[0], np.cumsum(counts)])
 
 
 def _clear(
@@ -219,7 +287,10 @@ def _clear(
             continue
         size = lengths(ring.rows)
         worst = int(np.argmax((1 - whole) * size))
-        x, y = points_at(ring.rows[[worst]], np.array([0.5]))[0].tolist()
+        mine = row == worst
+        gaps = np.concatenate([[0.0], np.column_stack([low[mine], high[mine]]).ravel(), [1.0]]).reshape(-1, 2)
+        widest = gaps[[np.argmax(gaps[:, 1] - gaps[:, 0])]].mean(axis=1)
+        x, y = points_at(ring.rows[[worst]], widest)[0].tolist()
         lost.append((x, y, float(((1 - whole) * size).sum())))
         yield from (replace(ring, rows=piece) for piece in runs_of_parts(ring.rows, row, low, high))
 

@@ -117,7 +117,7 @@ def clear_parts(
     rows: Rows, field: DistanceField, radius: float, bounded: bool = True
 ) -> tuple[NDArray[np.int64], Floats, Floats]:
     """Return (row, from, to) of all parts of rows, as fractions, in which a cutter is clear of what an area is bounded
-    by; without `bounded`, of walls that bound nothing.
+    by; without `bounded`, of walls that bound nothing. Parts are as long as they are clear.
 
     Distance changes by no more than the way gone, so one distance, from the middle of a part, can decide it all; what
     it does not decide is divided. The smallest parts count as clear when both their ends and their middle are.
@@ -144,7 +144,10 @@ def clear_parts(
         )
     rows_found, lows, highs = (np.concatenate([each[k] for each in found]) for k in range(3))
     order = np.lexsort((lows, rows_found))
-    return rows_found[order], lows[order], highs[order]
+    row, low, high = rows_found[order], lows[order], highs[order]
+    parted = (row[1:] != row[:-1]) | (low[1:] != high[:-1])  # halves of halves meet to the last digit
+    first, last = np.concatenate([[True], parted]), np.concatenate([parted, [True]])
+    return (row[first], low[first], high[last]) if len(row) else (row, low, high)
 
 
 def runs_of_parts(rows: Rows, row: NDArray[np.int64], low: Floats, high: Floats) -> Iterator[Rows]:
