@@ -449,7 +449,8 @@ class WindowController(QObject):
         canvas.prompt_changed.connect(lambda _: self.display_controller.show_prompt())
         canvas.hovered.connect(self.display_controller.show_hovered)
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
-        canvas.key_typed.connect(window.command_line.begin)
+        for typed in (canvas.key_typed, window.key_typed):
+            typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(self._on_tool)
         self.selection_ways = SelectionWays(window.workspace, self._contours, window)
         self.ribbon = SelectionRibbon(canvas, self.document, window.actions_, self.selection_ways)

@@ -84,10 +84,10 @@ class Legend(LegendSheet):
         self.fit_contents()
         self.colour_chosen.emit(by)
 
-    def show_left(self, left: bool, unreachable: bool) -> None:
-        """Have entries for what is left on the floor only when there is some."""
-        self.rows[PathLineKind.LEFT].setVisible(left)
-        self.rows[PathLineKind.UNREACHABLE].setVisible(unreachable)
+    def show_remainders(self, present: dict[PathLineKind, bool]) -> None:
+        """Have entries for what a program leaves standing, tabs among it, only when there is some."""
+        for sample, there in present.items():
+            self.rows[sample].setVisible(there)
         self.fit_contents()
 
     def show_job(self, job: Job) -> None:

@@ -281,7 +281,8 @@ class CutController(Controller):
         if not own or made is None:
             self._panel.show_told(None)
         elif self._computation.outdated:
-            self._panel.show_told(VerdictSummary(VerdictLevel.NONE, "Out of date: compute again"))
+            why = "compute again" if self._computation.possible else "nothing is drawn any more"
+            self._panel.show_told(VerdictSummary(VerdictLevel.NONE, f"Out of date: {why}"))
         else:
             self._panel.show_told(verdict_summary(made.findings, made.report.data))
         self._offer_mends()

@@ -39,7 +39,7 @@ _LAYER_OF = {
     Purpose.LINK: PathLayers.LINK,
     Purpose.LEAD: PathLayers.LEAD,
     Purpose.DRILL: PathLayers.PLUNGE,
-    Purpose.TAB: PathLayers.CONTOUR,
+    Purpose.TAB: PathLayers.TAB,
     Purpose.DOG_BONE: PathLayers.CONTOUR,
 }
 _LAYER_OF_KIND = {
@@ -48,7 +48,7 @@ _LAYER_OF_KIND = {
     PathLineKind.CONTOUR: PathLayers.CONTOUR,
     PathLineKind.PLUNGE: PathLayers.PLUNGE,
 }
-_CUTTING = (Purpose.POCKET, Purpose.CONTOUR, Purpose.TAB, Purpose.DOG_BONE)
+_CUTTING = (Purpose.POCKET, Purpose.CONTOUR, Purpose.DOG_BONE)
 _THIN = (Purpose.LINK, Purpose.LEAD, Purpose.PLUNGE)
 _MANY_PLUNGES, _RING_PX = 300, 10.0
 _ORDER = (Purpose.LINK, Purpose.PLUNGE, Purpose.POCKET, Purpose.LEAD, Purpose.CONTOUR, Purpose.DOG_BONE, Purpose.TAB)
@@ -116,6 +116,15 @@ class ProgramLayer:
             for contour in region.contours:
                 chain_path(contour.primitives, path)
             self._regions[region.number] = path
+
+    @property
+    def remainders(self) -> dict[PathLineKind, bool]:
+        """Which of what a program may leave there is: tabs, metal within reach, metal out of it."""
+        return {
+            PathLineKind.TAB: bool(np.any(self._layers & PathLayers.TAB.value)),
+            PathLineKind.LEFT: bool(self.left),
+            PathLineKind.UNREACHABLE: bool(self.unreachable),
+        }
 
     @property
     def box(self) -> Box | None:
