@@ -120,7 +120,7 @@ def test_a_program_without_a_ball_is_said_where_one_is_chosen():
     text = b"(T1 flat 6 mm)\nG21 G90 G17\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F200\nX20\nG0 Z5\nM2\n"
     source = FilmSource("flat.ngc", text, lambda name: b"", tools={1: Tool(1, diameter=6.0)})
     with pytest.raises(
-        InputError, match="flat.ngc has no ball cutter.*Tools and stock… at the right of its cut"
+        InputError, match=r"flat.ngc has no ball cutter.*Tools and stock… at the right of its cut"
     ) as said:
         own_cut_of_ball(source, NO_PROGRESS)
     assert catalogue("ja").look_up(str(said.value)) is not None
