@@ -140,7 +140,11 @@ def test_a_tool_that_does_not_fit_into_its_row_is_said_in_fewer_words_and_not_cu
     label = Elided("T121 Long flat 2 mm", shorter=("T121 2 mm", "T121"))
     qtbot.addWidget(label)
     width = label.fontMetrics().horizontalAdvance
-    for room, shown in (("T121 Long flat 2 mm", "T121 Long flat 2 mm"), ("T121 Long fl", "T121 2 mm"), ("T121 ", "T121")):
+    for room, shown in (
+        ("T121 Long flat 2 mm", "T121 Long flat 2 mm"),
+        ("T121 Long fl", "T121 2 mm"),
+        ("T121 ", "T121"),
+    ):
         label.resize(width(room), 20)
         assert label.shown == shown
     label.resize(width("T12"), 20)
