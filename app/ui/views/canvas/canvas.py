@@ -15,7 +15,7 @@ from ....model.curves import Point
 from ....model.finding import Finding
 from ....model.moves import Program
 from ....model.notes import Note
-from ....model.part import Entity
+from ....model.part import Entity, Part
 from ....model.stock_box import StockBox
 from ....raster.frame import BitmapFrame
 from ...framework.theme import Theme
@@ -103,7 +103,7 @@ class Canvas(InteractiveViewport):
         self._lit_path, self.owned = QPainterPath(), QPainterPath()
         self._purposes: tuple[PurposeShape, ...] = ()
         self._purposes_shown = False
-        self._stock_of: Box | None = None
+        self._stock_of: Part | None = None
         self._fresh = True
         self.setMinimumSize(200, 150)
         self.setAccessibleName("Drawing")
@@ -171,8 +171,8 @@ class Canvas(InteractiveViewport):
             return
         self.around.stock = stock
         self.repaint_scene()
-        drawn, self._stock_of = self._stock_of, self.picture.box
-        if stock is not None and drawn == self._stock_of:
+        drawn, self._stock_of = self._stock_of, self.document.part
+        if stock is not None and drawn is self._stock_of:
             self.widen_fit((stock.x0, stock.y0, stock.x1, stock.y1))
 
     def set_findings(self, findings: tuple[Finding, ...]) -> None:
