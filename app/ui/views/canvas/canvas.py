@@ -120,6 +120,11 @@ class Canvas(InteractiveViewport):
         self._set_look(replace(self._look, theme=theme))
 
     @property
+    def theme(self) -> Theme:
+        """What it is painted with."""
+        return self._look.theme
+
+    @property
     def mode(self) -> CanvasMode:
         """Whether the drawing or its paths are shown."""
         return self._mode

@@ -188,6 +188,7 @@ class ProgramLayer:
     def _pen(self, painter: QPainter, style: MoveStyle, look: PathDisplay, fine: bool) -> QPen:
         width = LINK_WIDTH if style.purpose in _THIN else TAB_WIDTH if style.purpose is Purpose.TAB else CUT_WIDTH
         dashes = CONTOUR_DASHES if style.purpose is Purpose.CONTOUR else ()
+        fine = fine and style.purpose is not Purpose.TAB  # tabs are few, and told from the path by their width
         return screen_pen(painter, self._colour(style, look), FINE if fine else width, dashes)
 
     def _colour(self, style: MoveStyle, look: PathDisplay) -> QColor:
