@@ -42,7 +42,8 @@ class Elided(QLabel):
     """One line that gives way where room is short, and then tells itself whole under the mouse.
 
     Attributes:
-        shorter: what is said in the text's place where that does not fit, the longest first; it is looked up as it is.
+        shorter: what is said in the text's place where that does not fit, the longest first; "" = nothing rather
+            than a part of a word.
     """
 
     def __init__(self, text: str = "", role: str = "", shorter: Sequence[str] = ()) -> None:
@@ -78,4 +79,7 @@ class Elided(QLabel):
         """As much as fits: all of it, what is said in its place, or its beginning."""
         metrics, wordings = self.fontMetrics(), (self.text(), *map(tr, self.shorter))
         fitting = (each for each in wordings if metrics.horizontalAdvance(each) <= self.width())
-        return next(fitting, None) or metrics.elidedText(wordings[-1], Qt.TextElideMode.ElideRight, self.width())
+        found = next(fitting, None)
+        if found is not None:
+            return found
+        return metrics.elidedText(wordings[-1], Qt.TextElideMode.ElideRight, self.width())
