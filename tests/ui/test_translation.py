@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QMessageBox,
+    QPlainTextEdit,
     QStyleOptionViewItem,
     QWidget,
 )
@@ -201,6 +202,13 @@ def test_what_an_empty_field_stands_for_is_shown_and_understood_in_the_language(
         assert field.value is None and field.reason.text() == "", word
 
 
+def test_what_an_empty_text_stands_for_is_looked_up_when_it_is_seen(qtbot, japanese) -> None:
+    panel = japanese.window_.stages_panel.chains
+    panel.text.setPlaceholderText("This step traces no line.")
+    panel.text.viewport().grab()
+    assert panel.text.placeholderText() == "この段階では線をたどりません。"
+
+
 def test_english_comes_back_without_a_trace(wiring) -> None:
     before = texts(wiring.window_)
     wiring.window_.actions_["language_ja"].trigger()
@@ -302,7 +310,7 @@ def seen_texts(window: QWidget) -> set[str]:
             found.add(widget.text())
         elif isinstance(widget, QComboBox):
             found |= {widget.itemText(at) for at in range(widget.count())}
-        elif isinstance(widget, QLineEdit):
+        elif isinstance(widget, QLineEdit | QPlainTextEdit):
             found.add(widget.placeholderText())
     return found
 
