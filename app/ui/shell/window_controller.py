@@ -85,6 +85,7 @@ from .start_page.controller import StartController
 from .text_page_coordinator import TextPageCoordinator
 from .translation import TranslationController
 from .view_stack import ViewStack
+from .zoom_coordinator import ZoomCoordinator
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
 JOB_PAGE = "Job"
@@ -211,6 +212,7 @@ class WindowController(QObject):
         self._scene = SceneCoordinator(window, display, self.scenes, self.nc, self.cut_controller)
         self._programs = ProgramCoordinator(window, display, self.nc, self.cut_controller)
         TextPageCoordinator(window, display, self.language)
+        self._zoom = ZoomCoordinator(window, display, self.nc)
         window.side.chosen.connect(self._on_side_page)
 
     def _on_side_page(self, name: str) -> None:

@@ -150,6 +150,11 @@ class Viewport(QWidget):
         self.repaint_scene()
         self.view_changed.emit()
 
+    @property
+    def moved(self) -> bool:
+        """Whether something else is looked at than what was fitted."""
+        return self._fitted is None
+
     def fit_to(self, box: Box) -> None:
         """Show a box in mm at once, and again when the size of the widget changes, until the view is moved."""
         self.set_view(fitted(box, self.free_area(box)))

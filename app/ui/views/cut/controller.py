@@ -108,7 +108,7 @@ class CutController(Controller):
 
     def _connect(self) -> None:
         activity = self._activity
-        self.foreign_worker.busy_changed.connect(lambda _: self.changed.emit())
+        self.foreign_worker.busy_changed.connect(self._on_cutting)
         self.worker.busy_changed.connect(self._on_preparing)
         for worker in (self.worker, self.foreign_worker):
             worker.failed.connect(self._on_failed)
@@ -227,6 +227,10 @@ class CutController(Controller):
 
     def _on_preparing(self, busy: bool) -> None:
         self._page.preparing = busy
+        self.changed.emit()
+
+    def _on_cutting(self, busy: bool) -> None:
+        self._page.cutting = busy
         self.changed.emit()
 
     def _cut_foreign(self) -> None:
