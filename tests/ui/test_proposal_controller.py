@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QRect, QRectF, QSize, Qt
@@ -373,6 +375,17 @@ def test_words_are_as_large_as_they_are_in_japanese(qtbot, plate):
     plate.window_.actions_["units_inch"].trigger()
     assert words_of(plate)[2] == "Pocket · 0.07874 in", "in the unit that is shown, and looked up when it is seen"
     plate.window_.actions_["units_mm"].trigger()
+
+
+def test_a_word_does_not_lie_over_the_size_of_the_stock(qtbot, plate):
+    proposed(qtbot, plate)
+    told, canvas = plate.purpose_words, plate.window_.canvas
+    qtbot.waitUntil(lambda: len(told.words) == 4, timeout=WAIT_MS)
+    for scale in (5.0, 4.0, 3.0, 2.5):
+        canvas.set_view(replace(canvas.view, scale=scale).centred((40.0, 25.0), canvas.area))
+        size = canvas.around.size_place(canvas.view).toAlignedRect()
+        assert not size.isEmpty()
+        assert not any(word.geometry().intersects(size) for word in told.words if not word.isHidden())
 
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK], ids=lambda theme: theme.name)

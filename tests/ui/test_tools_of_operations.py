@@ -147,5 +147,7 @@ def test_a_tool_that_does_not_fit_into_its_row_is_said_in_fewer_words_and_not_cu
     ):
         label.resize(width(room), 20)
         assert label.shown == shown
-    label.resize(width("T12"), 20)
+    label.resize(width("T121") - 1, 20)
     assert label.shown.endswith("…")
+    label.resize(width("…"), 20)
+    assert label.shown == "", "nothing rather than dots alone"

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QLabel, QToolTip, QWidget
 
 from .catalogue import tr
 
-_LEAST_PX = 24
+_LEAST_PX, _FEW_LETTERS = 24, 2
 
 
 def muted(text: str = "") -> QLabel:
@@ -82,4 +82,5 @@ class Elided(QLabel):
         found = next(fitting, None)
         if found is not None:
             return found
-        return metrics.elidedText(wordings[-1], Qt.TextElideMode.ElideRight, self.width())
+        begun = metrics.elidedText(wordings[-1], Qt.TextElideMode.ElideRight, self.width())
+        return begun if len(begun) > _FEW_LETTERS else ""  # "…" alone says nothing

@@ -241,7 +241,8 @@ class PurposeWords(QObject):
         canvas.show_purposes(shown)
         if found is None:
             return
-        places = WordPlaces(canvas.view, canvas.area.toRect(), found.boxes)
+        size = canvas.around.size_place(canvas.view).toAlignedRect()
+        places = WordPlaces(canvas.view, canvas.area.toRect(), found.boxes, [] if size.isEmpty() else [size])
         for word, placed in zip(self.words, found.areas, strict=False):
             if self._unit != display_unit_size():
                 word.setText(placed.word)
