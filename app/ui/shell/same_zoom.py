@@ -29,7 +29,7 @@ class FollowedPicture:
 
 
 @dataclass(frozen=True, slots=True)
-class _Look:
+class ViewedPlace:
     """What was looked at: the middle in the drawing, mm, and px for each mm."""
 
     middle: Point
@@ -43,7 +43,7 @@ class SameZoom(QObject):
         super().__init__(parent)
         self._pictures = pictures
         self._last: FollowedPicture | None = None
-        self._wanted: _Look | None = None
+        self._wanted: ViewedPlace | None = None
         self._given: object = None
 
     def follow(self, view: View) -> None:
@@ -72,10 +72,10 @@ class SameZoom(QObject):
         viewport.set_view(replace(viewport.view, scale=wanted.scale).centred(place, viewport.area))
 
 
-def _look_of(picture: FollowedPicture) -> _Look | None:
+def _look_of(picture: FollowedPicture) -> ViewedPlace | None:
     """Return what is looked at in a picture of the job; None where it shows everything."""
     viewport, zero = picture.viewport, picture.zero()
     if not viewport.moved or zero is None:
         return None
     x, y = viewport.view.to_world(viewport.area.center())
-    return _Look((x + zero[0], y + zero[1]), viewport.view.scale)
+    return ViewedPlace((x + zero[0], y + zero[1]), viewport.view.scale)
