@@ -34,6 +34,11 @@ def test_a_place_is_followed_into_the_program_and_back(qtbot, computed):
     look_at(canvas, PLACE)
     path = show_nc(qtbot, computed)
     assert looked_at(path) == pytest.approx((*PLACE, SCALE))
+    showing.show_view(View.CURVES)
+    curves = computed.window_.views.curves.path
+    qtbot.waitUntil(lambda: curves.picture is not None, timeout=WAIT_MS)
+    assert looked_at(curves) == pytest.approx((*PLACE, SCALE))
+    showing.show_view(View.NC)
     look_at(path, (20.0, 30.0))
     showing.show_view(View.CUT)
     showing.show_view(View.DRAW)

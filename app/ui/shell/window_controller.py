@@ -212,7 +212,7 @@ class WindowController(QObject):
         self._scene = SceneCoordinator(window, display, self.scenes, self.nc, self.cut_controller)
         self._programs = ProgramCoordinator(window, display, self.nc, self.cut_controller)
         TextPageCoordinator(window, display, self.language)
-        self._zoom = ZoomCoordinator(window, display, self.nc)
+        self._zoom = ZoomCoordinator(window, display, self.nc, self.smoothing_controller)
         window.side.chosen.connect(self._on_side_page)
 
     def _on_side_page(self, name: str) -> None:

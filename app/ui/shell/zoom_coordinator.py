@@ -7,6 +7,7 @@ from functools import partial
 from ...model.curves import Point
 from ...model.stock_box import stock_box, work_origin
 from ..framework.view import View
+from ..views.curves.controller import SmoothingController
 from ..views.nc.controller import NcController
 from ..views.nc.motion_shapes import ViewSide
 from ..views.nc.path_view import PathView
@@ -18,7 +19,9 @@ from .same_zoom import FollowedPicture, SameZoom
 class ZoomCoordinator:
     """Has Draw and Paths, NC and Curves look at the same place of the job."""
 
-    def __init__(self, window: MainWindow, display: DisplayController, nc: NcController) -> None:
+    def __init__(
+        self, window: MainWindow, display: DisplayController, nc: NcController, curves: SmoothingController
+    ) -> None:
         self._computation, self._nc = window.computation, nc
         canvas = window.canvas
         drawing = FollowedPicture(canvas, lambda: (0.0, 0.0), lambda: canvas, canvas.fit)
@@ -26,7 +29,8 @@ class ZoomCoordinator:
         views = {View.DRAW: drawing, View.PATHS: drawing, View.NC: program, View.CURVES: curved}
         self.zoom = SameZoom(views, window)
         display.view_changed.connect(self.zoom.follow)
-        nc.changed.connect(self.zoom.take)
+        for controller in (nc, curves):  # each shows its program when it is there, fitted
+            controller.changed.connect(self.zoom.take)
 
     def _followed(self, path: PathView) -> FollowedPicture:
         return FollowedPicture(path, partial(self._zero_of, path), lambda: path.picture, path.fit_now)
