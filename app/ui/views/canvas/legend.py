@@ -18,7 +18,8 @@ from ...panels.changes import kind_name
 from .modes import PathColourBy
 from .painting.engagement_colours import STEPS, colours
 
-WIDTH = 180
+WIDTH, _MOST_WIDTH = 180, 228
+"""As usual, and where names of several tools want more, px."""
 
 
 class EngagementScale(Themed, QWidget):
@@ -94,12 +95,17 @@ class Legend(LegendSheet):
         """Name the tools of the paths, and have entries for pockets, rest machining, contours and keep-out areas only
         when there are any.
         """
-        for sample in (PathLineKind.POCKET, PathLineKind.REST, PathLineKind.CONTOUR):
-            numbers = _tools(job.operations, sample)
-            self.rows[sample].show_names(_kind(job.operations, sample), numbers, WIDTH)
-            self.rows[sample].setVisible(bool(numbers))
-        holes = _tools(job.operations, PathLineKind.PLUNGE)
-        self.rows[PathLineKind.PLUNGE].show_names("Hole" if holes else PathLineKind.PLUNGE.value, holes, WIDTH)
+        paths = (PathLineKind.POCKET, PathLineKind.REST, PathLineKind.CONTOUR)
+        tools = {sample: _tools(job.operations, sample) for sample in (*paths, PathLineKind.PLUNGE)}
+        kinds = {sample: _kind(job.operations, sample) for sample in paths}
+        kinds[PathLineKind.PLUNGE] = "Hole" if tools[PathLineKind.PLUNGE] else PathLineKind.PLUNGE.value
+        wanted = max(self.rows[sample].width_for(kinds[sample], numbers) for sample, numbers in tools.items())
+        width = min(max(wanted, WIDTH), _MOST_WIDTH)
+        self.setFixedWidth(width)
+        for sample, numbers in tools.items():
+            self.rows[sample].show_names(kinds[sample], numbers, width)
+        for sample in paths:
+            self.rows[sample].setVisible(bool(tools[sample]))
         self.rows[PathLineKind.CLAMP].setVisible(bool(job.keep_out_layers))
         self.fit_contents()
 
