@@ -24,9 +24,14 @@ _REMEMBERED = 4096
 _MNEMONIC = re.compile(r"&(\w)")
 _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
 _BETWEEN_SENTENCES = re.compile(r"(?<=[.?!]) (?=[A-Z])")
-_IN_A_LIST = re.compile(r", | (?:or|and) ")
-_AS_TYPED = re.compile(r"""'[^']*'|"[^"]*"|[.#-]\S+|[A-Z]{1,2}\d*|[-+.\d]+""")
-"""Of a list: what is the same in every language: what is quoted, suffixes, options, words of programs, numbers."""
+_IN_A_LIST = re.compile(r"(?:, | (?:or|and) )(?![^()]*\))")
+"""Between names; what stands in brackets behind one is a part of it."""
+_AS_TYPED = re.compile(r"""'[^']*'|"[^"]*"|[.#-]\S+|[A-Z]{1,2}\d*|[-+.\d]+|\d+ [A-Z][A-Z\d_]+""")
+"""Of a list: what is the same in every language: what is quoted, suffixes, options, words of programs, numbers, and
+counted entities of a DXF.
+"""
+_BEHIND_BRACKETS = "), "
+"""Where it stands, an entry for the last name of a list would swallow those before."""
 _LETTER = re.compile(r"[A-Za-z]")
 _COLON = re.compile(": ")
 _TOOL = re.compile(r"(?<![A-Za-z])T$")
@@ -164,14 +169,14 @@ class Catalogue:
             return self._joined(names, joints)
         small = _CHANGED.search(before) is not None
         whole = self.look_up(part) or (self.look_up(part[:1].upper() + part[1:]) if small else None)
-        if whole is not None:
+        if whole is not None and _BEHIND_BRACKETS not in part:
             return whole
         if not joints or before.endswith(("'", '"')):  # a name that somebody gave
             return part
         known = [self.look_up(name) or self.look_up(name.capitalize()) for name in names]
         told = [other or (name if _AS_TYPED.fullmatch(name) else "") for name, other in zip(names, known, strict=True)]
         only_typed = not any(known) and not {*joints} - {", "}
-        return part if only_typed or not all(told) else self._joined(told, joints)
+        return whole or part if only_typed or not all(told) else self._joined(told, joints)
 
     def _joined(self, names: Sequence[str], joints: Sequence[str]) -> str:
         """Return a list with this language's joints; words of English stand apart from these."""

@@ -22,7 +22,7 @@ from app.exhibits.films.dexels import SAMPLE, CutFilmInput, dexel_film, sample_i
 from app.exhibits.films.effective import EffectiveFilmOptions, effective_film, range_trials, ranges_of
 from app.exhibits.films.making import FilmSource, film_files, make_film
 from app.exhibits.films.measures import distances_to_polyline
-from app.exhibits.films.program_input import input_of
+from app.exhibits.films.program_input import input_of, program_input
 from app.exhibits.films.programs import points_of
 from app.exhibits.films.proven import ChordAxis, intervals_in_cylinder, proven_film, surface_witness
 from app.exhibits.films.step import TEXTS, FilmStep, PublishedText, TextFilm
@@ -349,6 +349,19 @@ def test_a_program_without_a_ball_has_no_wedges_to_show() -> None:
     given = CutFilmInput("flat", SAMPLE.course(), {1: Cutter(5.0, 5.0, 0.0)}, sample_input().stock)
     with pytest.raises(InputError, match="ball"):
         dexel_film(given)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [("gear.draw", "a drawing"), ("a.PNG", "a picture"), ("b.stl", "a solid"), ("die.toml", "a scene")],
+)
+def test_what_is_no_program_is_told_so_and_not_taken_for_a_faulty_one(name: str, kind: str) -> None:
+    from app.core.errors import InputError
+
+    for read in (lambda: points_of(name, b"arc 1,2"), lambda: program_input(name, b"arc 1,2")):
+        with pytest.raises(InputError, match=f"{name} is {kind}.*an NC program"):
+            read()
+    assert len(points_of("no-suffix", resource("samples", "points.ngc").read_bytes())) > 4
 
 
 def test_a_program_is_read_as_the_window_reads_it() -> None:

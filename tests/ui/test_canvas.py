@@ -9,6 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Line
+from app.model.stock_box import StockBox
 from app.ui.framework.theme import LIGHT
 from app.ui.views.canvas.canvas import BitmapFrame, Canvas, CanvasTool
 from app.ui.views.canvas.painting.grid import cells_shown
@@ -423,3 +424,21 @@ def test_marks_of_the_display_are_no_riddle_in_a_drawing_that_does_not_fit_it(qt
     assert marked(), "its lower right corner"
     hand.document.run("rect 0,0 120,40")
     assert not marked()
+
+
+def test_a_stock_that_the_job_makes_larger_is_fitted_anew_unless_the_view_was_moved(plate: Hand) -> None:
+    canvas, qtbot = plate.canvas, plate.qtbot
+    canvas.set_stock(StockBox(10, 10, -10, 100, 70))
+    canvas.fit_to((10, 10, 100, 70))
+    canvas.set_stock(StockBox(-20, -20, -10, 130, 100))
+    qtbot.waitUntil(lambda: canvas.area.contains(canvas.view.to_screen((130, 100))))
+    assert canvas.area.contains(canvas.view.to_screen((-20, -20)))
+    plate.document.run("line 0,0 400,0")
+    still = canvas.view
+    canvas.set_stock(StockBox(-20, -20, -10, 430, 100))
+    assert canvas.view == still, "what is drawn does not move the view under the mouse"
+    canvas.zoom_by(2.0)
+    moved = canvas.view
+    canvas.set_stock(StockBox(-50, -50, -10, 460, 130))
+    qtbot.wait(200)
+    assert canvas.view == moved

@@ -8,12 +8,14 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from app.model.job import Job
 from app.model.operation import CutParameters, RestOperation
+from app.model.part import Part
 from app.model.tool import Tool
 from app.model.vcarve_operation import VcarveOperation
 from app.ui.framework.give_way import give_way
 from app.ui.framework.legend import LegendSheet
 from app.ui.framework.samples import PathLineKind
 from app.ui.framework.view import View
+from app.ui.views.canvas.legend import Legend
 from tests.ui.conftest import WAIT_MS
 
 
@@ -30,6 +32,20 @@ def test_a_long_list_of_tools_is_read_whole_in_the_legend(wiring, count):
     row = legend.rows[PathLineKind.POCKET]
     assert row.label.fontMetrics().horizontalAdvance(row.label.text()) <= row.label.width(), row.label.text()
     assert all(f"T{tool.number}" in row.toolTip() for tool in tools)
+
+
+def test_the_legend_is_wider_where_names_of_tools_want_it_but_not_without_end(qtbot):
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    legend, job = Legend(parent), Job(Part())
+    usual = legend.width()
+    rests = tuple(RestOperation(CutParameters(number)) for number in (121, 123, 11))
+    legend.show_job(replace(job, operations=rests))
+    assert legend.rows[PathLineKind.REST].label.text() == "Rest T121 T123 T11" and legend.width() >= usual
+    legend.show_job(replace(job, operations=tuple(RestOperation(CutParameters(200 + k)) for k in range(30))))
+    assert legend.rows[PathLineKind.REST].label.text().endswith("…") and legend.width() < 1.4 * usual
+    legend.show_job(replace(job, operations=rests[:1]))
+    assert legend.width() == usual
 
 
 def test_a_line_is_named_after_the_one_kind_that_is_drawn_with_it(wiring):

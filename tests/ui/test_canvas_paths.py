@@ -14,6 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from app.drafting.document import Document
 from app.formats.dxf.dxf import read_dxf
+from app.model.contour_operation import ContourOperation
 from app.model.curves import Circle
 from app.model.finding import Finding, FindingKind
 from app.model.hole_operations import BoreOperation
@@ -23,7 +24,7 @@ from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Contour, Entity, Part, Region
 from app.operations.compute import compute
 from app.toolpath.coverage.coverage import UncutPlace
-from app.ui.framework.samples import sample_of, sample_pen
+from app.ui.framework.samples import PathLineKind, sample_of, sample_pen
 from app.ui.framework.theme import DARK, LIGHT, Theme
 from app.ui.views.canvas.canvas import Canvas, CanvasMode, CanvasTool, PathColourBy, PathLayers
 from app.ui.views.canvas.painting.move_shapes import shape_moves
@@ -126,6 +127,18 @@ def test_paths_have_the_line_of_their_operation_in_the_list_and_the_legend(canva
     canvas.set_visible_layers(PathLayers.ALL & ~PathLayers.POCKET)
     assert share(along_circle(canvas, (20, 20), 10), LIGHT.plunge) > 0.9, "a hole's ring is none of the pocket's"
     assert share(along_circle(canvas, (60, 20), 10), LIGHT.pocket) < 0.1
+
+
+def test_tabs_have_a_line_of_their_own_that_is_switched_off_alone(canvas: Canvas) -> None:
+    moves = moves_of([*ring((20, 20), 10, Purpose.TAB, 1), *ring((60, 20), 10, Purpose.CONTOUR, 1)])
+    layer = ProgramLayer(Program(moves), operations=(ContourOperation(CutParameters(tool=1)),))
+    assert layer.remainders[PathLineKind.TAB]
+    canvas.set_program(layer)
+    assert share(along_circle(canvas, (20, 20), 10), sample_pen(PathLineKind.TAB, LIGHT).color()) > 0.9
+    canvas.set_visible_layers(PathLayers.ALL & ~PathLayers.TAB)
+    assert share(along_circle(canvas, (20, 20), 10), LIGHT.contour) < 0.1
+    assert share(along_circle(canvas, (60, 20), 10), LIGHT.contour) > 0.4
+    assert not ProgramLayer(Program(moves_of(ring((60, 20), 10, Purpose.CONTOUR, 1)))).remainders[PathLineKind.TAB]
 
 
 def test_colours_follow_the_region_when_asked(canvas: Canvas) -> None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel
 
 from app.core.resources import resource
 from app.model.contour_operation import ContourOperation
@@ -95,6 +96,30 @@ def test_what_was_proven_goes_with_its_buttons_when_the_job_changes(qtbot, compu
     assert notice.isVisible(), "looking at something is no change"
     computed.document.run("circle 150,50 10")
     assert not notice.isVisible()
+
+
+def test_nobody_is_told_to_compute_where_nothing_is_drawn_any_more(qtbot, computed):
+    window, showing = computed.window_, computed.display_controller
+    showing.show_view(View.CUT)
+    qtbot.waitUntil(lambda: computed.cut_controller.cut is not None, timeout=WAIT_MS)
+    everything = tuple(entity.id for entity in computed.document.part.entities)
+    computed.document.select(everything)
+    computed.document.run("delete")
+    assert not window.actions_["compute"].isEnabled()
+    assert window.cut_panel.title.text() == "Out of date: nothing is drawn any more"
+    showing.show_view(View.NC)
+    banner = window.views.nc.pane.banner
+    qtbot.waitUntil(lambda: banner.sentence.text() == "Nothing is drawn any more.", timeout=WAIT_MS)
+    assert banner.button.isHidden()
+
+
+def test_the_list_of_findings_wants_a_drawing_before_it_wants_f5(wiring):
+    listed = wiring.window_.findings_list
+    for said in ("Nothing is drawn; draw a part or open a drawing.", "Press F5."):
+        wiring.display_controller.open_findings()
+        assert any(label.text().endswith(said) for label in listed.findChildren(QLabel))
+        listed.hide()
+        wiring.document.run("line 0,0 9,0")
 
 
 def test_a_question_stays_until_it_is_answered(wiring):

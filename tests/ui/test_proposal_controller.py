@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QRect, QRectF, QSize, Qt
 
+from app.drafting.document import Document
 from app.model.chamfer_operation import ChamferOperation
 from app.model.contour_operation import ContourOperation
 from app.model.hole_operations import BoreOperation, CountersinkOperation, DrillOperation
@@ -13,11 +16,15 @@ from app.model.operation import PocketOperation, Side
 from app.model.slot_operation import SlotOperation
 from app.model.vcarve_operation import VcarveOperation
 from app.ui.framework.computation import ComputationState
+from app.ui.framework.samples import PathLineKind, sample_pen
+from app.ui.framework.theme import DARK, LIGHT
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.drawing.proposal_controller import NOTHING_DRAWN, NOTHING_SELECTED
+from app.ui.shell.drawing.purpose_words import PurposeWord
 from app.ui.shell.drawing.selection_ribbon import place_beside
 from app.ui.shell.drawing.word_places import WordPlaces, place_at
+from app.ui.views.canvas.canvas import Canvas
 from app.ui.views.canvas.view_transform import ViewTransform
 
 WAIT_MS = 20_000
@@ -295,7 +302,7 @@ def words_of(wiring) -> list[str]:
 def test_what_curves_are_to_become_is_a_word_at_each_area_and_changed_by_a_press(qtbot, plate):
     job, told = proposed(qtbot, plate), plate.purpose_words
     qtbot.waitUntil(lambda: len(told.words) == 4, timeout=WAIT_MS)
-    assert words_of(plate) == ["Drill · through"] * 2 + ["Pocket", "Contour outside · through"]
+    assert words_of(plate) == ["Drill · through"] * 2 + ["Pocket · 2 mm", "Contour outside · through · 4 tabs"]
     assert all(not each.isHidden() for each in told.words)
     qtbot.mouseClick(told.words[2], Qt.MouseButton.LeftButton)
     actions = {each.text(): each for each in told.menu.actions()}
@@ -364,7 +371,30 @@ def test_words_are_as_large_as_they_are_in_japanese(qtbot, plate):
     qtbot.waitUntil(lambda: len(told.words) == 4, timeout=WAIT_MS)
     plate.window_.grab()
     qtbot.waitUntil(lambda: all(word.size() == word.sizeHint() for word in told.words), timeout=WAIT_MS)
-    assert words_of(plate)[2] == "ポケット加工"
+    assert words_of(plate)[2:] == ["ポケット加工 · 2 mm", "輪郭加工 外 · 貫通 · タブ 4 個"]
+    plate.window_.actions_["units_inch"].trigger()
+    assert words_of(plate)[2] == "Pocket · 0.07874 in", "in the unit that is shown, and looked up when it is seen"
+    plate.window_.actions_["units_mm"].trigger()
+
+
+def test_a_word_does_not_lie_over_the_size_of_the_stock(qtbot, plate):
+    proposed(qtbot, plate)
+    told, canvas = plate.purpose_words, plate.window_.canvas
+    qtbot.waitUntil(lambda: len(told.words) == 4, timeout=WAIT_MS)
+    for scale in (5.0, 4.0, 3.0, 2.5):
+        canvas.set_view(replace(canvas.view, scale=scale).centred((40.0, 25.0), canvas.area))
+        size = canvas.around.size_place(canvas.view).toAlignedRect()
+        assert not size.isEmpty()
+        assert not any(word.geometry().intersects(size) for word in told.words if not word.isHidden())
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=lambda theme: theme.name)
+def test_a_word_has_a_dot_in_the_colour_of_its_paths(qtbot, theme) -> None:
+    canvas = Canvas(Document(), theme)
+    qtbot.addWidget(canvas)
+    word = PurposeWord(canvas, PathLineKind.CONTOUR)
+    word.resize(120, 24)
+    assert word.grab().toImage().pixelColor(10, 12) == sample_pen(PathLineKind.CONTOUR, theme).color()
 
 
 def test_words_are_gone_while_a_tool_is_in_hand_and_over_paths(qtbot, plate):

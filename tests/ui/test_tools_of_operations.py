@@ -134,3 +134,20 @@ def test_all_operations_off_is_said_whichever_way(qtbot, pixels):
     assert ALL_OFF in computation.error
     with pytest.raises(ParameterError, match=ALL_OFF):
         film_set_of(FilmRequest(job, BitmapSize(100)))
+
+
+def test_a_tool_that_does_not_fit_into_its_row_is_said_in_fewer_words_and_not_cut_off(qtbot):
+    label = Elided("T121 Long flat 2 mm", shorter=("T121 2 mm", "T121"))
+    qtbot.addWidget(label)
+    width = label.fontMetrics().horizontalAdvance
+    for room, shown in (
+        ("T121 Long flat 2 mm", "T121 Long flat 2 mm"),
+        ("T121 Long fl", "T121 2 mm"),
+        ("T121 ", "T121"),
+    ):
+        label.resize(width(room), 20)
+        assert label.shown == shown
+    label.resize(width("T121") - 1, 20)
+    assert label.shown.endswith("…")
+    label.resize(width("…"), 20)
+    assert label.shown == "", "nothing rather than dots alone"

@@ -6,6 +6,7 @@ import ast
 import re
 import tomllib
 import unicodedata
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QMessageBox,
+    QPlainTextEdit,
     QStyleOptionViewItem,
     QWidget,
 )
@@ -27,6 +29,8 @@ import app
 from app.core.catalogue import Catalogue, catalogue, catalogue_files
 from app.core.settings import Language, load_settings
 from app.drafting.document import Document
+from app.formats.drawing import LeftOutReason, LeftOutSort
+from app.formats.drawing_account import all_left_out
 from app.ui.framework.catalogue import set_language, tr
 from app.ui.framework.fields import LABEL_WIDTH, NumberField, NumberSpec
 from app.ui.framework.figures import counted
@@ -198,6 +202,13 @@ def test_what_an_empty_field_stands_for_is_shown_and_understood_in_the_language(
         assert field.value is None and field.reason.text() == "", word
 
 
+def test_what_an_empty_text_stands_for_is_looked_up_when_it_is_seen(qtbot, japanese) -> None:
+    panel = japanese.window_.stages_panel.chains
+    panel.text.setPlaceholderText("This step traces no line.")
+    panel.text.viewport().grab()
+    assert panel.text.placeholderText() == "この段階では線をたどりません。"
+
+
 def test_english_comes_back_without_a_trace(wiring) -> None:
     before = texts(wiring.window_)
     wiring.window_.actions_["language_ja"].trigger()
@@ -299,7 +310,7 @@ def seen_texts(window: QWidget) -> set[str]:
             found.add(widget.text())
         elif isinstance(widget, QComboBox):
             found |= {widget.itemText(at) for at in range(widget.count())}
-        elif isinstance(widget, QLineEdit):
+        elif isinstance(widget, QLineEdit | QPlainTextEdit):
             found.add(widget.placeholderText())
     return found
 
@@ -477,6 +488,32 @@ def test_sentences_are_looked_up_before_an_entry_swallows_them_and_lists_name_by
     assert words.look_up("Found: front and back.dxf.") == "発見: front and back.dxf。", "the name of a file is none"
     assert words.look_up("Found: drill or saw.") == "発見: drill or saw。"
     assert words.look_up("Found: .dxf, .svg or .draw.") == "発見: .dxf, .svg または .draw。"
+
+
+@pytest.mark.parametrize(
+    ("sorts", "japanese"),
+    [
+        ([LeftOutSort("TEXT", LeftOutReason.INVISIBLE)], "除いたもの: 2 TEXT (非表示)。"),
+        (
+            [LeftOutSort("circle", LeftOutReason.CLIPPED), LeftOutSort("path", LeftOutReason.INVISIBLE)],
+            "除いたもの: 円 2 個 (切抜きの外), 2 path (非表示)。",
+        ),
+        (
+            [LeftOutSort("POINT"), LeftOutSort("TEXT", LeftOutReason.AS_ASKED)],
+            "除いたもの: 2 POINT, 2 TEXT (指定による)。",
+        ),
+    ],
+)
+def test_what_is_left_out_of_a_drawing_and_why_is_japanese_as_a_whole(sorts, japanese) -> None:
+    (finding,) = all_left_out(Counter(dict.fromkeys(sorts, 2)))
+    assert catalogue("ja").look_up(finding.text) == japanese
+
+
+def test_every_reason_for_leaving_something_out_is_japanese() -> None:
+    for reason in LeftOutReason:
+        (finding,) = all_left_out(Counter({LeftOutSort("TEXT", reason): 1}))
+        found = catalogue("ja").look_up(finding.text)
+        assert found is not None and reason.value not in found, found
 
 
 def test_the_badge_speaks_the_language_while_it_turns(qtbot, japanese):

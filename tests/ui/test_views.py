@@ -63,10 +63,10 @@ def test_what_is_missing_hides_nothing_of_the_drawing(qtbot, views):
 def test_legend_closes_up_when_an_entry_goes(views):
     legend = views.legend
     views.show_view(View.PATHS)
-    legend.show_left(True, True)
+    legend.show_remainders({PathLineKind.LEFT: True, PathLineKind.UNREACHABLE: True})
     views.show_missing("", "", shows_paths=True)
     tall = legend.height()
-    legend.show_left(False, False)
+    legend.show_remainders({PathLineKind.LEFT: False, PathLineKind.UNREACHABLE: False})
     assert legend.height() == tall - 2 * legend.rows[PathLineKind.LEFT].height()
 
 

@@ -10,6 +10,7 @@ from ...usecases.cutting.setup_tools import ToolSource
 from ...usecases.examine import ExaminedProgram, ExamineOptions, examine
 from ...verify.course import course_of
 from .dexels import CutFilmInput
+from .kind_of_file import ensure_program
 from .making import FilmSource
 
 AS_THE_HEAD_TELLS = SetupRequest()
@@ -22,6 +23,7 @@ def input_of(source: FilmSource, progress: Progress = NO_PROGRESS) -> CutFilmInp
         HitofudeError: it cannot be read, or nobody tells what its tools are.
         Cancelled: the job was asked to stop.
     """
+    ensure_program(source.name)
     tools = (ToolSource("the Cut view", source.tools),) if source.tools else ()
     stock = box_stock(source.stock) if source.stock is not None else None
     examined = examine(source.name, source.data, source.reading, progress.part(0.0, 0.8))
@@ -45,6 +47,7 @@ def program_input(
         HitofudeError: it cannot be read, or nobody tells what its tools are.
         Cancelled: the job was asked to stop.
     """
+    ensure_program(name)
     examined = examine(name, data, ExamineOptions(None), progress.part(0.0, 0.8))
     return _cut_input(examined, facet, told, progress.part(0.8, 1.0))
 

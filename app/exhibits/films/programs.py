@@ -9,6 +9,7 @@ from ...gcode.interpreter.text import ProgramBuffer
 from ...gcode.rework.stretches import find_stretches
 from ...model.motion import Floats
 from ...usecases.smoothing.source import read_source
+from .kind_of_file import ensure_program
 
 MOST_POINTS = 400
 """A film shows so many points at most: those from the longest stretch's first one on."""
@@ -20,6 +21,7 @@ def points_of(name: str, data: bytes, progress: Progress = NO_PROGRESS) -> Float
     Raises:
         InputError: it cannot be read, or has no four points in a row.
     """
+    ensure_program(name)
     ready = read_source(name, data, None, None, progress.part(0.0, 0.7))
     found = find_stretches(ready.program, ProgramBuffer(ready.data), progress.part(0.7, 1.0)).stretches
     longest = max((without_repeats(each.points) for each in found), key=len, default=None)

@@ -124,6 +124,11 @@ class Computation(QObject):
         return self.made is not None and not self._holds_for(self._made_for)
 
     @property
+    def possible(self) -> bool:
+        """Whether anything is drawn that paths could be computed of."""
+        return bool(self._document.part.entities)
+
+    @property
     def program(self) -> Program | None:
         """Moves of the last result."""
         return self.made.program if self.made is not None else None

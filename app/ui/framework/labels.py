@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QHelpEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QAbstractButton, QLabel, QToolTip, QWidget
 
-_LEAST_PX = 24
+from .catalogue import tr
+
+_LEAST_PX, _FEW_LETTERS = 24, 2
 
 
 def muted(text: str = "") -> QLabel:
@@ -35,13 +39,18 @@ def show_words(label: QLabel | QAbstractButton, words: str) -> None:
 
 
 class Elided(QLabel):
-    """One line that gives way where room is short, and then tells itself whole under the mouse; `role` is its colour:
-    "muted", "error", or "" for ink.
+    """One line that gives way where room is short, and then tells itself whole under the mouse.
+
+    Attributes:
+        shorter: what is said in the text's place where that does not fit, the longest first; "" = nothing rather
+            than a part of a word.
     """
 
-    def __init__(self, text: str = "", role: str = "") -> None:
+    def __init__(self, text: str = "", role: str = "", shorter: Sequence[str] = ()) -> None:
+        """Make one; `role` is its colour: "muted", "error", or "" for ink."""
         super().__init__(text)
         self.setProperty("role", role)
+        self.shorter = tuple(shorter)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """A few letters."""
@@ -63,5 +72,15 @@ class Elided(QLabel):
         """Draw as much as fits."""
         painter = QPainter(self)
         painter.setPen(self.palette().color(self.foregroundRole()))
-        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
-        painter.drawText(self.rect(), self.alignment(), text)
+        painter.drawText(self.rect(), self.alignment(), self.shown)
+
+    @property
+    def shown(self) -> str:
+        """As much as fits: all of it, what is said in its place, or its beginning."""
+        metrics, wordings = self.fontMetrics(), (self.text(), *map(tr, self.shorter))
+        fitting = (each for each in wordings if metrics.horizontalAdvance(each) <= self.width())
+        found = next(fitting, None)
+        if found is not None:
+            return found
+        begun = metrics.elidedText(wordings[-1], Qt.TextElideMode.ElideRight, self.width())
+        return begun if len(begun) > _FEW_LETTERS else ""  # "…" alone says nothing

@@ -44,6 +44,10 @@ class LegendRow(QToolButton):
             child.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.toggled.connect(self._show_state)
 
+    def width_for(self, kind: str, names: Sequence[str]) -> int:
+        """Return how wide a sheet is in which its name and all that it is of can be read, px."""
+        return self.label.fontMetrics().horizontalAdvance(tr(" ".join((kind, *names)))) + _BESIDE_PX
+
     def show_names(self, kind: str, names: Sequence[str], width: int) -> None:
         """Name it, and what it is of: as many as there is room for in a sheet so many px wide; the tool tip has all."""
         room, measure = width - _BESIDE_PX, self.label.fontMetrics().horizontalAdvance

@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 from ...drafting.document import LogLine
 from .catalogue import tr
 from .theme import LIGHT, Theme, mono_font, text_font
+from .typed_text import is_typed
 
 SHOWN_LINES = 3
 LINE_PX = 20
@@ -77,11 +78,13 @@ class LogView(QListView):
         self.scrollToBottom()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Ctrl+C copies the chosen commands, a line each; Enter puts the current one back."""
+        """Ctrl+C copies the chosen commands, a line each; Enter puts the current one back; text is not for the log."""
         if event.matches(QKeySequence.StandardKey.Copy):
             self.copy()
         elif event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             self._recall(self.currentIndex())
+        elif is_typed(event):
+            event.ignore()  # a list would look for a line that begins so; it is the command line's
         else:
             super().keyPressEvent(event)
 

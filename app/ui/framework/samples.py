@@ -20,6 +20,7 @@ class PathLineKind(Enum):
     POCKET = "Pocket"
     REST = "Rest"
     CONTOUR = "Contour"
+    TAB = "Tab"
     LINK = "Link"
     RAPID = "Rapid"
     PLUNGE = "Plunge"
@@ -36,6 +37,7 @@ def sample_pen(sample: PathLineKind, theme: Theme) -> QPen:
         PathLineKind.POCKET: theme.pocket,
         PathLineKind.REST: theme.rest,
         PathLineKind.CONTOUR: theme.contour,
+        PathLineKind.TAB: theme.contour,
         PathLineKind.LINK: theme.pocket,
         PathLineKind.RAPID: theme.rapid,
         PathLineKind.PLUNGE: theme.plunge,
@@ -86,6 +88,7 @@ class LineSample(Themed, QWidget):
             PathLineKind.POCKET,
             PathLineKind.REST,
             PathLineKind.CONTOUR,
+            PathLineKind.TAB,
             PathLineKind.LINK,
         ):
             pen.setColor(self._theme.muted)
@@ -100,8 +103,17 @@ class LineSample(Themed, QWidget):
             self._hatch(painter, painter.pen().color())
         elif self._sample is PathLineKind.WEDGES:
             self._facets(painter)
+        elif self._sample is PathLineKind.TAB:
+            self._tab(painter, middle)
         else:
             painter.drawLine(QPointF(1, middle.y()), QPointF(self.width() - 1, middle.y()))
+
+    def _tab(self, painter: QPainter, middle: QPointF) -> None:
+        """Draw a short thick piece of a path, as one over a tab is painted."""
+        pen = painter.pen()
+        pen.setWidthF(5.0)
+        painter.setPen(pen)
+        painter.drawLine(middle - QPointF(7, 0), middle + QPointF(7, 0))
 
     def _facets(self, painter: QPainter) -> None:
         """Draw two facets of a cylinder and two of a wedge."""

@@ -67,7 +67,7 @@ QToolButton[role="toggle"]::menu-button { border: none; width: 14px; }
 QToolButton[role="toggle"]::menu-arrow { image: url($arrow); width: 10px; height: 10px; }
 QWidget#selectionRibbon { background: $raised; border: 1px solid $edge; border-radius: 6px; }
 QToolButton[role="ribbon"] { padding: 4px 8px; }
-QToolButton[role="word"] { background: $raised; border: 1px solid $edge; border-radius: 9px; padding: 1px 8px; }
+QToolButton[role="word"] { background: $raised; border: 1px solid $edge; border-radius: 9px; padding: 1px 8px 1px 18px; }
 QToolButton[role="word"]:hover { background: $hover; }
 QToolButton[role="chip"] { border: 1px solid $edge; padding: 1px 8px; }
 QPushButton { background: $raised; color: $ink; border: 1px solid $edge; border-radius: 4px; padding: 5px 12px; }

@@ -293,11 +293,12 @@ class OperationSection(ListSection):
         sample.setEnabled(cut.enabled)
         tool = next((t for t in job.tools if t.number == cut.tool), None)
         text = f"T{cut.tool} {tool.label}" if tool is not None else f"T{cut.tool} is missing"
+        shorter = (f"T{cut.tool} {tool.diameter:g} mm", f"T{cut.tool}") if tool is not None else ()
         return ListRow(
             switch,
             sample,
             QLabel(name),
-            Elided(text, "error" if refusal(job, operation) else "muted"),
+            Elided(text, "error" if refusal(job, operation) else "muted", shorter),
             time,
             stretch_after=3,
         )

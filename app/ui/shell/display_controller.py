@@ -38,6 +38,7 @@ _LAYERS = {
     PathLineKind.POCKET: PathLayers.POCKET,
     PathLineKind.REST: PathLayers.REST,
     PathLineKind.CONTOUR: PathLayers.CONTOUR,
+    PathLineKind.TAB: PathLayers.TAB,
     PathLineKind.LINK: PathLayers.LINK,
     PathLineKind.RAPID: PathLayers.RAPID,
     PathLineKind.PLUNGE: PathLayers.PLUNGE,
@@ -300,7 +301,7 @@ class DisplayController(QObject):
             assert picture is None or isinstance(picture, ProgramLayer)
             self._window.canvas.set_program(picture)
             if picture is not None:
-                self._window.views.legend.show_left(bool(picture.left), bool(picture.unreachable))
+                self._window.views.legend.show_remainders(picture.remainders)
             self._window.canvas.set_findings(self._marked())
         self._show_stock()
         self._window.canvas.set_stale(self._computation.outdated)
@@ -340,15 +341,7 @@ class DisplayController(QObject):
 
     def open_findings(self) -> None:
         """List every finding above the badge."""
-        sentences = {
-            ComputationState.NONE: "Nothing was computed yet. Press F5.",
-            ComputationState.STALE: "The paths are out of date. Press F5.",
-            ComputationState.FAILED: self._computation.error,
-            ComputationState.RUNNING: "The paths are being computed.",
-        }
-        empty = sentences.get(
-            self._computation.state, "No gouge, nothing left that a tool could reach, no rapid in material."
-        )
+        empty = self._without_findings()
         other = self.shown_document
         if other is not None:
             said = "It is being computed." if other.verdict is None else other.verdict.tip or other.verdict.text
@@ -357,6 +350,19 @@ class DisplayController(QObject):
         shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
         mends = self._mends if self._computation.state is ComputationState.CURRENT else None
         self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown, mends)
+
+    def _without_findings(self) -> str:
+        """Return what stands in the list of findings when there is none."""
+        computing = self._computation
+        if not computing.possible and computing.state in (ComputationState.NONE, ComputationState.STALE):
+            return "Nothing is drawn; draw a part or open a drawing."
+        sentences = {
+            ComputationState.NONE: "Nothing was computed yet. Press F5.",
+            ComputationState.STALE: "The paths are out of date. Press F5.",
+            ComputationState.FAILED: computing.error,
+            ComputationState.RUNNING: "The paths are being computed.",
+        }
+        return sentences.get(computing.state, "No gouge, nothing left that a tool could reach, no rapid in material.")
 
     def _mends(self, finding: Finding) -> tuple[OfferedMend, ...]:
         """Return what mends a finding on the job's program."""

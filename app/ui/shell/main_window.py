@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QResizeEvent
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QWidget
 
 from ...core.settings import Settings, ThemeChoice
@@ -25,6 +25,7 @@ from ..framework.notice import Notice
 from ..framework.preferences import Preferences
 from ..framework.section import upright_hairline
 from ..framework.theme import DARK, LIGHT, Theme
+from ..framework.typed_text import is_typed
 from ..framework.view import View, ViewPage
 from ..framework.worker import Worker
 from ..framework.workspace import Workspace
@@ -76,10 +77,12 @@ class MainWindow(QMainWindow):
 
     Signals:
         dropped(path): a file was dropped on the window.
+        key_typed(text): a character that nothing which has the keyboard wants.
         closing(): about to close; `may_close` tells whether it may.
     """
 
     dropped = Signal(str)
+    key_typed = Signal(str)
     closing = Signal()
 
     def __init__(self, document: Document, settings: Settings) -> None:
@@ -217,6 +220,13 @@ class MainWindow(QMainWindow):
         """Let what is beside the view have its share of a wide window."""
         super().resizeEvent(event)
         self.cut_panel.fit_beside(event.size().width())
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
+        """Pass on what was typed where nobody wants it, so that it is not lost."""
+        if is_typed(event):
+            self.key_typed.emit(event.text())
+        else:
+            super().keyPressEvent(event)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
         """Welcome one file; of a kind that cannot be opened it is said which can."""

@@ -12,7 +12,16 @@ from functools import partial
 
 from PySide6.QtCore import QEvent, QLibraryInfo, QLocale, QObject, QSignalBlocker, Qt, QTranslator
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QMenu, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QComboBox,
+    QLabel,
+    QLineEdit,
+    QMenu,
+    QPlainTextEdit,
+    QWidget,
+)
 
 from ...core.catalogue import catalogue
 from ...core.settings import Language
@@ -45,6 +54,7 @@ _TEXT = {
     QLabel: (_TextSlot("text", QLabel.text, QLabel.setText),),
     QAbstractButton: (_TextSlot("text", QAbstractButton.text, QAbstractButton.setText),),
     QLineEdit: (_TextSlot("placeholder", QLineEdit.placeholderText, QLineEdit.setPlaceholderText),),
+    QPlainTextEdit: (_TextSlot("placeholder", QPlainTextEdit.placeholderText, QPlainTextEdit.setPlaceholderText),),
 }
 _ACCESS = _TextSlot("access", QWidget.accessibleName, QWidget.setAccessibleName)
 _WIDGET = (_TextSlot("tip", QWidget.toolTip, QWidget.setToolTip), _ACCESS)
@@ -108,7 +118,9 @@ class _DeferredTranslation(QObject):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Before a label or a button is painted, a menu opens or a tip shows."""
         kind = event.type()
-        if isinstance(watched, _PAINTED if kind == QEvent.Type.Paint else QWidget) and kind in _SEEN:
+        if kind == QEvent.Type.Paint and isinstance(text := watched.parent(), QPlainTextEdit):  # this is its viewport
+            translate(text)
+        elif isinstance(watched, _PAINTED if kind == QEvent.Type.Paint else QWidget) and kind in _SEEN:
             translate(watched)
         elif kind == QEvent.Type.Show and isinstance(watched, QMenu):
             translate_all(watched)

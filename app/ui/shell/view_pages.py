@@ -20,6 +20,7 @@ NO_DRAWING = MissingHint(
 NO_PART = MissingHint("Nothing is drawn yet. Draw a part, type  rect 0,0 60,40  or open a drawing.", "Open a drawing")
 NO_PATHS = MissingHint("There are no tool paths yet.", "Compute  F5", "compute")
 NO_CUT = MissingHint("There is no cut yet.", "Compute  F5", "compute")
+CUTTING = MissingHint("The program is being cut.", "Cancel  Shift+F5", "cancel")
 CUT_PREPARED = MissingHint("The cut is being made ready to be looked at.")
 NO_NC = MissingHint("There is no NC program yet.", "Compute  F5", "compute")
 NO_PROGRAM = MissingHint(
@@ -99,6 +100,8 @@ def _drawing_pages(window: MainWindow, told: WindowState) -> dict[View, ViewPage
     def cut_missing() -> MissingHint:
         asked = window.cut_form.asked
         shows = window.views.cut.model.picture is not None or bool(window.views.cut.sentence.text())
+        if window.views.cut_page.cutting and not shows:
+            return CUTTING
         if asked is not None and not shows:
             return MissingHint(f"{asked.foreign.source.name} is not cut yet: say at the right what cuts, and of what.")
         otherwise = CUT_PREPARED if window.views.cut_page.preparing else NO_CUT

@@ -85,6 +85,7 @@ from .start_page.controller import StartController
 from .text_page_coordinator import TextPageCoordinator
 from .translation import TranslationController
 from .view_stack import ViewStack
+from .zoom_coordinator import ZoomCoordinator
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
 JOB_PAGE = "Job"
@@ -211,6 +212,7 @@ class WindowController(QObject):
         self._scene = SceneCoordinator(window, display, self.scenes, self.nc, self.cut_controller)
         self._programs = ProgramCoordinator(window, display, self.nc, self.cut_controller)
         TextPageCoordinator(window, display, self.language)
+        self._zoom = ZoomCoordinator(window, display, self.nc, self.smoothing_controller)
         window.side.chosen.connect(self._on_side_page)
 
     def _on_side_page(self, name: str) -> None:
@@ -449,7 +451,8 @@ class WindowController(QObject):
         canvas.prompt_changed.connect(lambda _: self.display_controller.show_prompt())
         canvas.hovered.connect(self.display_controller.show_hovered)
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
-        canvas.key_typed.connect(window.command_line.begin)
+        for typed in (canvas.key_typed, window.key_typed):
+            typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(self._on_tool)
         self.selection_ways = SelectionWays(window.workspace, self._contours, window)
         self.ribbon = SelectionRibbon(canvas, self.document, window.actions_, self.selection_ways)

@@ -78,6 +78,7 @@ def test_what_is_wrong_is_read_whole_and_where_gives_way(qtbot):
         named, where = row.findChildren(Elided)
         assert named.text() == title and named.width() >= named.fontMetrics().horizontalAdvance(title)
         assert where.width() < where.sizeHint().width() and where.text() in row.toolTip()
+        assert where.shown in ("(112.3, 4.5)", "line 1234", ""), "either of them whole, or none"
 
 
 def test_a_long_verdict_is_read_whole_at_its_head(qtbot):

@@ -72,6 +72,7 @@ def test_anywhere_at_once(qtbot, page):
         line = player.timeline.line[motion - 1]
         assert page.transport.place.text().startswith(f"line {line} · T{player.timeline.tool[motion - 1]} ")
         assert page.transport.place.text().endswith(player.shown.texts[0].line(int(line) - 1))
+        assert page.transport.place.text().startswith(page.transport.place.shown), "no word is cut off"
     player.go(10**6)
     settle(qtbot, page)
     assert np.array_equal(page.view.model.picture.heights, end)

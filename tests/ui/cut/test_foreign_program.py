@@ -151,3 +151,16 @@ def test_heights_are_exact_or_by_the_facets_of_1999(qtbot, opened):
     if report.engine is Engine.PATENT:
         lowest = float(cut.picture.heights[:-1].min())  # the last row's centres lie beside the stock
         assert -2.0 <= lowest < -1.98, "facets lie inside the ball's sweep"
+
+
+def test_a_program_that_is_being_cut_is_not_called_one_that_is_not_shown(qtbot, wiring, tmp_path):
+    path = tmp_path / "told.ngc"
+    path.write_text(TOLD + PROGRAM)
+    wiring.files.open_file(path)
+    qtbot.waitUntil(lambda: wiring.nc.foreign and wiring.nc.shown is not None, timeout=WAIT_MS)
+    qtbot.mouseClick(wiring.window_.views.nc.path_head.cut, Qt.MouseButton.LeftButton)
+    empty = wiring.window_.views.empty
+    qtbot.waitUntil(lambda: wiring.cut_controller.foreign_worker.busy, timeout=WAIT_MS)
+    assert empty.sentence.text() == "The program is being cut." and "Cancel" in empty.button.text()
+    qtbot.waitUntil(lambda: wiring.cut_controller.cut is not None, timeout=WAIT_MS)
+    assert not empty.isVisible()

@@ -44,6 +44,15 @@ def test_a_banner_keeps_its_button_whole(qtbot):
     assert banner.sentence.isVisible()
 
 
+def test_a_banner_without_a_button_is_its_sentence(qtbot):
+    banner = Banner()
+    banner.say("Nothing is drawn any more.", "")
+    sized(qtbot, banner, 60)
+    assert banner.sentence.isVisible() and banner.button.isHidden()
+    banner.say("The job has changed since.", "Compute  F5")
+    assert not banner.button.isHidden()
+
+
 @pytest.mark.parametrize(("width", "colours"), [(440, True), (300, False)])
 def test_the_way_to_the_cut_stays_where_there_is_little_room(qtbot, width, colours):
     head = sized(qtbot, PathHead(), width)

@@ -24,7 +24,7 @@ KEPT = re.compile(r"`[^`]*`|sin\(pi\*z\)")
 
 def words_of(step: FilmStep) -> Iterator[str]:
     """Everything of a step that is a word and not a number, a symbol, a unit or a name of the scene's surfaces."""
-    yield from (step.name, step.says, step.settled)
+    yield from (step.name, f"{step.number}  {step.name}", step.says, step.settled)
     for figure in step.figures:
         yield figure.name
         yield from (value for value in (figure.value, figure.published) if isinstance(value, str))
@@ -104,4 +104,5 @@ def test_every_note_of_text_a_is_told_in_japanese(shape: tuple[int, int]) -> Non
 def test_a_number_and_its_name_a_value_and_what_was_published_are_put_together() -> None:
     assert JAPANESE.look_up("figure 4, round 2  The region") == "図4、2回目  領域"
     assert JAPANESE.look_up("S115  All within epsilon?") == "S115  すべてε以内か"
+    assert JAPANESE.look_up("S116  A range is found") == "S116  区分の確定", "no number of things found"
     assert JAPANESE.look_up("12\npublished: mean") == "12\n公開例: mean"

@@ -6,9 +6,15 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
+from app.core.catalogue import catalogue
+from app.core.errors import InputError
+from app.core.progress import NO_PROGRESS
 from app.core.resources import resource
+from app.exhibits.films.making import FilmSource
+from app.model.tool import Tool
 from app.model.tool_kind import ToolKind
 from app.ui.framework.view import View
+from app.ui.views.stages.own_cut import own_cut, own_cut_of_ball
 from tests.ui.conftest import WAIT_MS
 from tests.ui.nc.opened import open_file
 
@@ -109,3 +115,14 @@ def test_a_program_that_does_not_tell_its_tool_is_said_where_and_then_shown(qtbo
     wiring.display_controller.show_view(View.STAGES)
     qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
     assert stages.films.film is not None and stages.films.film.source == "bare.ngc"
+
+
+def test_a_program_without_a_ball_is_said_where_one_is_chosen():
+    text = b"(T1 flat 6 mm)\nG21 G90 G17\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F200\nX20\nG0 Z5\nM2\n"
+    source = FilmSource("flat.ngc", text, lambda name: b"", tools={1: Tool(1, diameter=6.0)})
+    with pytest.raises(
+        InputError, match=r"flat.ngc has no ball cutter.*Tools and stock… at the right of its cut"
+    ) as said:
+        own_cut_of_ball(source, NO_PROGRESS)
+    assert catalogue("ja").look_up(str(said.value)) is not None
+    assert own_cut(source, NO_PROGRESS).cutters, "figure 11 takes any cutter"

@@ -9,18 +9,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QObject, QPoint, QRectF, Qt
-from PySide6.QtGui import QPainterPath
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, Qt
+from PySide6.QtGui import QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import QMenu, QToolButton
 
 from ....core.progress import Progress
 from ....drafting.document import DocumentChange
 from ....geometry.sample import bounds_of_all
 from ....model.curves import Curve
+from ....model.fields import parameters_of
 from ....model.job import Copies, Job
+from ....model.operation import Operation
 from ....model.part import Contour
-from ...framework.figures import TIMES
-from ...framework.samples import sample_of
+from ...framework.display_unit import display_unit_name, display_unit_size
+from ...framework.figures import TIMES, counted
+from ...framework.samples import PathLineKind, sample_of, sample_pen
+from ...framework.themed import Themed
 from ...framework.worker import Worker
 from ...framework.workspace import Workspace
 from ...panels.changes import Subject, SubjectKind, operation_name
@@ -52,6 +56,8 @@ _MOST_CURVES = 5000
 """A drawing of more is not looked through for words."""
 
 _MOST_WORDS = 24
+_DOT_PX, _DOT_RADIUS_PX = 10.0, 3.5
+"""Where the dot's middle is, from the left; the style sheet leaves room for it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +66,25 @@ class PlacedArea:
 
     area: PurposeArea
     shape: PurposeShape
-    word: str
+    operation: Operation
+    through: bool
     box: QRectF
+
+    @property
+    def word(self) -> str:
+        """What it is to become: how many of it, how deep in the unit that is shown, held by what."""
+        name, cut = operation_name(self.operation), self.operation.cut
+        many = f"{self.area.places} {TIMES} {name}" if self.area.places > 1 else name
+        deep = "through" if self.through else f"{cut.depth / display_unit_size():.4g} {display_unit_name('mm')}"
+        return " · ".join([many, deep, *_tabs_of(self.operation)])
+
+
+def _tabs_of(operation: Operation) -> list[str]:
+    """Return in a few words how what an operation cuts out is held, if it is."""
+    known, values = parameters_of(type(operation)), list[int]()
+    if "tabs" in known:
+        values = [known["tabs"].of(operation) or len(known["tab_places"].of(operation))]
+    return [counted(count, "tab") for count in values if count]
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,14 +137,31 @@ def _placed(job: Job, curves: dict[int, Curve], area: PurposeArea) -> PlacedArea
             chain_path(contour.primitives, path)
     else:
         path = curve_path(*(curves[number] for number in sorted(area.numbers) if number in curves))
-    name = operation_name(operation)
-    many = f"{area.places} {TIMES} {name}" if area.places > 1 else name
     through = operation.cut.depth >= job.stock.thickness
     first = area.contours[0].primitives if area.places > 1 else ()
     box = (curve_path(*first) if first else path).boundingRect()
-    return PlacedArea(
-        area, PurposeShape(path, sample_of(operation), filled), f"{many} · through" if through else many, box
-    )
+    return PlacedArea(area, PurposeShape(path, sample_of(operation), filled), operation, through, box)
+
+
+class PurposeWord(Themed, QToolButton):
+    """A word at an area, behind a dot in the colour of its operation's paths."""
+
+    def __init__(self, canvas: Canvas, kind: PathLineKind) -> None:
+        super().__init__(canvas)
+        self._kind, self._theme = kind, canvas.theme
+        self.setProperty("role", "word")
+        self.setCursor(Qt.CursorShape.ArrowCursor)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.setToolTip("What this becomes; press to change it, or to leave it standing")
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint the dot where the style leaves room for it."""
+        super().paintEvent(event)
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(sample_pen(self._kind, self._theme).color())
+        painter.drawEllipse(QPointF(_DOT_PX, self.height() / 2), _DOT_RADIUS_PX, _DOT_RADIUS_PX)
 
 
 class PurposeWords(QObject):
@@ -144,6 +184,7 @@ class PurposeWords(QObject):
         self._panel, self._canvas, self._document, self._proposals = panel, canvas, workspace.document, proposals
         self._found: FoundAreas | None = None
         self._asked: Job | None = None
+        self._unit = display_unit_size()
         self.words: list[QToolButton] = []
         self.menu: QMenu | None = None
         self.worker = Worker(self)
@@ -187,12 +228,8 @@ class PurposeWords(QObject):
         self.place()
 
     def _word(self, at: int, placed: PlacedArea) -> QToolButton:
-        word = QToolButton(self._canvas)
+        word = PurposeWord(self._canvas, placed.shape.kind)
         word.setText(placed.word)
-        word.setProperty("role", "word")
-        word.setCursor(Qt.CursorShape.ArrowCursor)
-        word.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        word.setToolTip("What this becomes; press to change it, or to leave it standing")
         word.clicked.connect(partial(self._open, at))
         word.lower()
         return word
@@ -204,13 +241,17 @@ class PurposeWords(QObject):
         canvas.show_purposes(shown)
         if found is None:
             return
-        places = WordPlaces(canvas.view, canvas.area.toRect(), found.boxes)
+        size = canvas.around.size_place(canvas.view).toAlignedRect()
+        places = WordPlaces(canvas.view, canvas.area.toRect(), found.boxes, [] if size.isEmpty() else [size])
         for word, placed in zip(self.words, found.areas, strict=False):
+            if self._unit != display_unit_size():
+                word.setText(placed.word)
             word.adjustSize()
             place = places.take(placed.box, word.size(), placed.shape.filled) if shown else None
             word.setVisible(place is not None)
             if place is not None:
                 word.move(place.topLeft())
+        self._unit = display_unit_size()
 
     def _open(self, at: int) -> None:
         """Choose the operation, and offer what else its area may be."""

@@ -22,7 +22,7 @@ class WordPlaces:
         view: from mm to px. seen: what is seen of the view, px.
         curves: (4, n) x0, y0, x1, y1 in mm of what is better not covered, a row each: it is asked at every step of a
             zoom, and four rows take a thirtieth of the time of n boxes.
-        taken: the places that were given out.
+        taken: the places that were given out, and those of other words, px.
     """
 
     view: ViewTransform

@@ -15,7 +15,7 @@ from ....model.curves import Point
 from ....model.finding import Finding
 from ....model.moves import Program
 from ....model.notes import Note
-from ....model.part import Entity
+from ....model.part import Entity, Part
 from ....model.stock_box import StockBox
 from ....raster.frame import BitmapFrame
 from ...framework.theme import Theme
@@ -103,6 +103,7 @@ class Canvas(InteractiveViewport):
         self._lit_path, self.owned = QPainterPath(), QPainterPath()
         self._purposes: tuple[PurposeShape, ...] = ()
         self._purposes_shown = False
+        self._stock_of: Part | None = None
         self._fresh = True
         self.setMinimumSize(200, 150)
         self.setAccessibleName("Drawing")
@@ -117,6 +118,11 @@ class Canvas(InteractiveViewport):
     def set_theme(self, theme: Theme) -> None:
         """Paint with another theme."""
         self._set_look(replace(self._look, theme=theme))
+
+    @property
+    def theme(self) -> Theme:
+        """What it is painted with."""
+        return self._look.theme
 
     @property
     def mode(self) -> CanvasMode:
@@ -163,10 +169,16 @@ class Canvas(InteractiveViewport):
             self.update()
 
     def set_stock(self, stock: StockBox | None) -> None:
-        """Show where the stock is; None = there is none yet."""
-        if stock != self.around.stock:
-            self.around.stock = stock
-            self.repaint_scene()
+        """Show where the stock is; None = there is none yet. What was fitted is fitted anew where the job, and not the
+        drawing, makes the stock reach beyond it.
+        """
+        if stock == self.around.stock:
+            return
+        self.around.stock = stock
+        self.repaint_scene()
+        drawn, self._stock_of = self._stock_of, self.document.part
+        if stock is not None and drawn is self._stock_of:
+            self.widen_fit((stock.x0, stock.y0, stock.x1, stock.y1))
 
     def set_findings(self, findings: tuple[Finding, ...]) -> None:
         """Mark the places of these findings."""

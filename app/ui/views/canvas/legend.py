@@ -18,7 +18,8 @@ from ...panels.changes import kind_name
 from .modes import PathColourBy
 from .painting.engagement_colours import STEPS, colours
 
-WIDTH = 180
+WIDTH, _MOST_WIDTH = 180, 228
+"""As usual, and where names of several tools want more, px."""
 
 
 class EngagementScale(Themed, QWidget):
@@ -84,22 +85,27 @@ class Legend(LegendSheet):
         self.fit_contents()
         self.colour_chosen.emit(by)
 
-    def show_left(self, left: bool, unreachable: bool) -> None:
-        """Have entries for what is left on the floor only when there is some."""
-        self.rows[PathLineKind.LEFT].setVisible(left)
-        self.rows[PathLineKind.UNREACHABLE].setVisible(unreachable)
+    def show_remainders(self, present: dict[PathLineKind, bool]) -> None:
+        """Have entries for what a program leaves standing, tabs among it, only when there is some."""
+        for sample, there in present.items():
+            self.rows[sample].setVisible(there)
         self.fit_contents()
 
     def show_job(self, job: Job) -> None:
         """Name the tools of the paths, and have entries for pockets, rest machining, contours and keep-out areas only
         when there are any.
         """
-        for sample in (PathLineKind.POCKET, PathLineKind.REST, PathLineKind.CONTOUR):
-            numbers = _tools(job.operations, sample)
-            self.rows[sample].show_names(_kind(job.operations, sample), numbers, WIDTH)
-            self.rows[sample].setVisible(bool(numbers))
-        holes = _tools(job.operations, PathLineKind.PLUNGE)
-        self.rows[PathLineKind.PLUNGE].show_names("Hole" if holes else PathLineKind.PLUNGE.value, holes, WIDTH)
+        paths = (PathLineKind.POCKET, PathLineKind.REST, PathLineKind.CONTOUR)
+        tools = {sample: _tools(job.operations, sample) for sample in (*paths, PathLineKind.PLUNGE)}
+        kinds = {sample: _kind(job.operations, sample) for sample in paths}
+        kinds[PathLineKind.PLUNGE] = "Hole" if tools[PathLineKind.PLUNGE] else PathLineKind.PLUNGE.value
+        wanted = max(self.rows[sample].width_for(kinds[sample], numbers) for sample, numbers in tools.items())
+        width = min(max(wanted, WIDTH), _MOST_WIDTH)
+        self.setFixedWidth(width)
+        for sample, numbers in tools.items():
+            self.rows[sample].show_names(kinds[sample], numbers, width)
+        for sample in paths:
+            self.rows[sample].setVisible(bool(tools[sample]))
         self.rows[PathLineKind.CLAMP].setVisible(bool(job.keep_out_layers))
         self.fit_contents()
 

@@ -70,6 +70,7 @@ class PathLayers(Flag):
     POCKET = auto()
     REST = auto()
     CONTOUR = auto()
+    TAB = auto()
     LINK = auto()
     LEAD = auto()
     RAPID = auto()
@@ -77,4 +78,4 @@ class PathLayers(Flag):
     LEFT = auto()
     UNREACHABLE = auto()
     CLAMP = auto()
-    ALL = PART | REGION | POCKET | REST | CONTOUR | LINK | LEAD | RAPID | PLUNGE | LEFT | UNREACHABLE | CLAMP
+    ALL = PART | REGION | POCKET | REST | CONTOUR | TAB | LINK | LEAD | RAPID | PLUNGE | LEFT | UNREACHABLE | CLAMP

@@ -25,7 +25,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
-from ....geometry.sample import Box
+from ....geometry.sample import Box, union
 from .painting.grid import RULER
 from .painting.incremental_picture import IncrementalPicture
 from .painting.overview_picture import OverviewPicture
@@ -150,10 +150,20 @@ class Viewport(QWidget):
         self.repaint_scene()
         self.view_changed.emit()
 
+    @property
+    def moved(self) -> bool:
+        """Whether something else is looked at than what was fitted."""
+        return self._fitted is None
+
     def fit_to(self, box: Box) -> None:
         """Show a box in mm at once, and again when the size of the widget changes, until the view is moved."""
         self.set_view(fitted(box, self.free_area(box)))
         self._fitted = box
+
+    def widen_fit(self, box: Box) -> None:
+        """Fit another box in mm, too, where one is fitted and does not hold it; a view that was moved stays."""
+        if self._fitted is not None and (whole := union([self._fitted, box])) != self._fitted:
+            self.glide_to_box(whole or box)
 
     def cover_right(self, width: float) -> None:
         """Tell how wide what is laid over the right is now, px; what was fitted is fitted anew beside it."""

@@ -108,7 +108,7 @@ class CutController(Controller):
 
     def _connect(self) -> None:
         activity = self._activity
-        self.foreign_worker.busy_changed.connect(lambda _: self.changed.emit())
+        self.foreign_worker.busy_changed.connect(self._on_cutting)
         self.worker.busy_changed.connect(self._on_preparing)
         for worker in (self.worker, self.foreign_worker):
             worker.failed.connect(self._on_failed)
@@ -229,6 +229,10 @@ class CutController(Controller):
         self._page.preparing = busy
         self.changed.emit()
 
+    def _on_cutting(self, busy: bool) -> None:
+        self._page.cutting = busy
+        self.changed.emit()
+
     def _cut_foreign(self) -> None:
         foreign, colour = self._foreign, self._view.colour
         if foreign is not None:
@@ -281,7 +285,8 @@ class CutController(Controller):
         if not own or made is None:
             self._panel.show_told(None)
         elif self._computation.outdated:
-            self._panel.show_told(VerdictSummary(VerdictLevel.NONE, "Out of date: compute again"))
+            why = "compute again" if self._computation.possible else "nothing is drawn any more"
+            self._panel.show_told(VerdictSummary(VerdictLevel.NONE, f"Out of date: {why}"))
         else:
             self._panel.show_told(verdict_summary(made.findings, made.report.data))
         self._offer_mends()

@@ -84,8 +84,13 @@ class CutFinding:
     @property
     def words(self) -> str:
         """Place in the plane, and line."""
+        return " · ".join(self.where)
+
+    @property
+    def where(self) -> tuple[str, ...]:
+        """Place in the plane, and line, as far as they are known."""
         parts = [] if self.place is None else [f"({self.place[0]:.1f}, {self.place[1]:.1f})".replace("-", "\u2212")]
-        return " · ".join([*parts, *([f"line {self.line}"] if self.line else [])])
+        return (*parts, *([f"line {self.line}"] if self.line else []))
 
 
 def findings_of(shown: ShownCut) -> tuple[CutFinding, ...]:

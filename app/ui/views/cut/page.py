@@ -19,14 +19,15 @@ class CutPage(QWidget):
 
     Attributes:
         view: the cut. player: plays it. transport: the bar; hidden while there is no cut. sheet: asks how it shall be
-            recorded. preparing: whether the job's cut is made ready to be looked at.
+            recorded. preparing: whether the job's cut is made ready to be looked at. cutting: whether
+            another program is being cut.
     """
 
     def __init__(self, view: CutView) -> None:
         super().__init__()
         self.view, self.player = view, CutPlayer(view, view)
         self.transport = Transport(self.player)
-        self.sheet, self.preparing = RecordSheet(self), False
+        self.sheet, self.preparing, self.cutting = RecordSheet(self), False, False
         self.sheet.closed.connect(self.close_sheet)
         self._keys = self.transport.keys()
         column = v_box(self, spacing=0)

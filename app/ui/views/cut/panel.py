@@ -317,7 +317,7 @@ class CutPanel(Themed, QWidget):
         title = _Title(entry.title)
         title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         title.setMinimumWidth(min(title.sizeHint().width(), _TITLE_PX))
-        where = Elided(entry.words, role="muted")
+        where = Elided(entry.words, role="muted", shorter=(*entry.where, ""))
         row = ListRow(dot, title, where, stretch_after=-1, wide=1)
         row.setToolTip(f"{entry.sentence}\n{entry.words}".strip())
         row.call(f"{entry.title}, {entry.words}")

@@ -166,25 +166,29 @@ class Transport(QWidget):
             self._give_way()
         if timeline is None or player.at is None:
             self.clock.setText("")
-            self.place.setText(player.failure or ("Preparing playback…" if player.preparing else ""))
+            self._say(player.failure or ("Preparing playback…" if player.preparing else ""))
             return
         seconds = player.time
         self.plot.show_time(seconds)
         self.clock.setText(f"{exact_clock(seconds)} / {exact_clock(timeline.total)}")
         shown = player.shown
         if not len(timeline) or shown is None:
-            self.place.setText("")
+            self._say("")
             return
         row = timeline.current(player.at)
         line, tool = int(timeline.line[row]), shown.cut.setup.tools.get(int(timeline.tool[row]))
-        parts = [
+        self._say(
             f"line {line}",
             f"T{timeline.tool[row]}{f' {tool.label}' if tool is not None else ''}",
             f"{grouped(timeline.removed_at(player.at), 0)} mm³",
             shown.texts[shown.file_of(row)].line(line - 1).strip(),
-        ]
+        )
+
+    def _say(self, *parts: str) -> None:
+        """Say where the cut is, or fewer of the parts of it where there is no room for all; the tool tip has them."""
         self.place.setText(" · ".join(parts))
-        self.place.setToolTip(self.place.text())  # which a narrow window cuts off
+        self.place.shorter = tuple(" · ".join(parts[:count]) for count in range(len(parts) - 1, 0, -1))
+        self.place.setToolTip(self.place.text())
 
     def _choose(self, speed: float) -> None:
         self._player.set_pace(self.pace.currentData(), speed)

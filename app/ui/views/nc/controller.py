@@ -349,7 +349,10 @@ class NcController(Controller):
             where = "Not the job's program." if self._foreign.path else "In no file yet; Ctrl+Alt+S saves it."
             banner.say(where, "Back to the job's program" if self._own else "Close it")
         elif self._computation.outdated and self._computation.state is not ComputationState.RUNNING:
-            banner.say("The job has changed since.", "Compute  F5")
+            if self._computation.possible:
+                banner.say("The job has changed since.", "Compute  F5")
+            else:
+                banner.say("Nothing is drawn any more.", "")
         else:
             banner.hide()
 

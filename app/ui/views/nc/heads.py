@@ -138,9 +138,10 @@ class Banner(QWidget):
         self.hide()
 
     def say(self, sentence: str, button: str) -> None:
-        """Show a sentence and the button behind it."""
+        """Show a sentence and the button behind it, "" = none."""
         self.sentence.setText(sentence)
         self.button.setText(button)
+        self.button.setVisible(bool(button))
         self.show()
         self._make_room()
 
@@ -151,7 +152,7 @@ class Banner(QWidget):
 
     def _make_room(self) -> None:
         needed = self.sentence.sizeHint().width() + self.button.sizeHint().width() + 3 * _GAP_PX
-        self.sentence.setVisible(needed <= self.width())
+        self.sentence.setVisible(self.button.isHidden() or needed <= self.width())
         self.button.setToolTip(self.sentence.text())
 
 

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import QListWidget, QPlainTextEdit, QWidget
 
 from ....raster.trace import PixelChain
 from ...framework.boxes import h_box, v_box
-from ...framework.catalogue import tr
 from ...framework.figures import counted
 from ...framework.icons import IconButton
 from ...framework.section import heading
@@ -98,9 +97,9 @@ class ChainsPanel(QWidget):
         if index < 0:
             self.text.setPlainText("")
             self.text.setPlaceholderText(
-                tr("Click a line to see its code: row, column of S, then a digit for each step.")
+                "Click a line to see its code: row, column of S, then a digit for each step."
                 if self.chains
-                else tr("This step traces no line.")
+                else "This step traces no line."
             )
             return
         code = self.chains[index].text()

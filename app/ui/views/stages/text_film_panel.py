@@ -37,7 +37,7 @@ class TextFilmPanel(SideScroll):
     def __init__(self) -> None:
         super().__init__((EDGE + 1, 12, EDGE, 12), 6)
         self.text, self.publication = heading(""), muted()
-        self.source = ChoiceField("On", [(False, "Sample"), (True, "Your own")])
+        self.source = ChoiceField("Shown on", [(False, "Sample"), (True, "Your own")])
         self.source.setToolTip("Your own: the program that NC shows; for text C the scene that Surfaces shows")
         self.source.show_value(False)
         self.title, self.says, self.settled, self.table = heading(""), QLabel(), muted(), muted()

@@ -39,7 +39,7 @@ _LAYER_OF = {
     Purpose.LINK: PathLayers.LINK,
     Purpose.LEAD: PathLayers.LEAD,
     Purpose.DRILL: PathLayers.PLUNGE,
-    Purpose.TAB: PathLayers.CONTOUR,
+    Purpose.TAB: PathLayers.TAB,
     Purpose.DOG_BONE: PathLayers.CONTOUR,
 }
 _LAYER_OF_KIND = {
@@ -48,7 +48,7 @@ _LAYER_OF_KIND = {
     PathLineKind.CONTOUR: PathLayers.CONTOUR,
     PathLineKind.PLUNGE: PathLayers.PLUNGE,
 }
-_CUTTING = (Purpose.POCKET, Purpose.CONTOUR, Purpose.TAB, Purpose.DOG_BONE)
+_CUTTING = (Purpose.POCKET, Purpose.CONTOUR, Purpose.DOG_BONE)
 _THIN = (Purpose.LINK, Purpose.LEAD, Purpose.PLUNGE)
 _MANY_PLUNGES, _RING_PX = 300, 10.0
 _ORDER = (Purpose.LINK, Purpose.PLUNGE, Purpose.POCKET, Purpose.LEAD, Purpose.CONTOUR, Purpose.DOG_BONE, Purpose.TAB)
@@ -118,6 +118,15 @@ class ProgramLayer:
             self._regions[region.number] = path
 
     @property
+    def remainders(self) -> dict[PathLineKind, bool]:
+        """Which of what a program may leave there is: tabs, metal within reach, metal out of it."""
+        return {
+            PathLineKind.TAB: bool(np.any(self._layers & PathLayers.TAB.value)),
+            PathLineKind.LEFT: bool(self.left),
+            PathLineKind.UNREACHABLE: bool(self.unreachable),
+        }
+
+    @property
     def box(self) -> Box | None:
         """x0, y0, x1, y1 of all cutting paths, mm, or None."""
         return union([chunk.box for chunk in self._chunks])
@@ -179,6 +188,7 @@ class ProgramLayer:
     def _pen(self, painter: QPainter, style: MoveStyle, look: PathDisplay, fine: bool) -> QPen:
         width = LINK_WIDTH if style.purpose in _THIN else TAB_WIDTH if style.purpose is Purpose.TAB else CUT_WIDTH
         dashes = CONTOUR_DASHES if style.purpose is Purpose.CONTOUR else ()
+        fine = fine and style.purpose is not Purpose.TAB  # tabs are few, and told from the path by their width
         return screen_pen(painter, self._colour(style, look), FINE if fine else width, dashes)
 
     def _colour(self, style: MoveStyle, look: PathDisplay) -> QColor:

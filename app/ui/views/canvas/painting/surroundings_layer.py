@@ -75,16 +75,23 @@ class SurroundingsLayer:
         """Paint the stock's outline and above it its size within a screen rectangle."""
         if self.stock is None:
             return
-        stock = self.stock
-        outline = QRectF(view.to_screen((stock.x0, stock.y1)), view.to_screen((stock.x1, stock.y0)))
         painter.save()
-        paint_outline(painter, outline, area, theme)
+        paint_outline(painter, _outline(self.stock, view), area, theme)
         painter.setFont(text_font(_FONT_PX))
-        name = tr(f"stock {f' {TIMES} '.join(grouped(each, 3) for each in stock.size)}")
-        width = QFontMetricsF(painter.font()).horizontalAdvance(name)
-        if width < outline.width():
-            painter.drawText(QPointF(outline.right() - width, outline.top() - _GAP_PX), name)
+        place = self.size_place(view)
+        if not place.isEmpty():
+            painter.drawText(QPointF(place.left(), place.bottom()), _size_of(self.stock))
         painter.restore()
+
+    def size_place(self, view: ViewTransform) -> QRectF:
+        """Return where the stock's size is written, px, from the letters' tops to their line; empty = nowhere."""
+        if self.stock is None:
+            return QRectF()
+        outline, metrics = _outline(self.stock, view), QFontMetricsF(text_font(_FONT_PX))
+        width, high = metrics.horizontalAdvance(_size_of(self.stock)), metrics.ascent()
+        if width >= outline.width():
+            return QRectF()
+        return QRectF(outline.right() - width, outline.top() - _GAP_PX - high, width, high)
 
     def paint_clamps(self, painter: QPainter, view: ViewTransform, box: Box, theme: Theme) -> None:
         """Paint the keep-out areas when they come into a box in mm; the painter works in screen px."""
@@ -131,3 +138,13 @@ class SurroundingsLayer:
                     QRectF(moved.to_screen((around[0], around[3])), moved.to_screen((around[2], around[1])))
                 )
         painter.restore()
+
+
+def _outline(stock: StockBox, view: ViewTransform) -> QRectF:
+    """Return the stock's outline, px."""
+    return QRectF(view.to_screen((stock.x0, stock.y1)), view.to_screen((stock.x1, stock.y0)))
+
+
+def _size_of(stock: StockBox) -> str:
+    """Return what is written above a stock."""
+    return tr(f"stock {f' {TIMES} '.join(grouped(each, 3) for each in stock.size)}")
