@@ -15,6 +15,7 @@ from ..command import CliCommand
 from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome
 from ..output import finding_lines
+from ..program_file import ensure_program
 from ..setup_options import setup_request
 from ..signals import StopFlag
 
@@ -22,6 +23,7 @@ from ..signals import StopFlag
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 better and within the tolerance, 1 with findings."""
     outputs = named_files(arguments, "output", "scene", "image", "report")
+    ensure_program(arguments.program)
     check_outputs(outputs, [arguments.program])
     progress = shown_progress(arguments.quiet, stopped)
     asked, setup = better_options(arguments), setup_request(arguments)

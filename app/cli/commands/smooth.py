@@ -12,6 +12,7 @@ from ..command import CliCommand
 from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome
 from ..output import REMARKS, finding_lines
+from ..program_file import ensure_program
 from ..signals import StopFlag
 from ..smooth_options import EPILOG, add_smooth_options, smooth_options
 
@@ -21,6 +22,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     from ...usecases.smoothing.smooth import smooth  # not for its options alone, as a batch reads them
 
     outputs = named_files(arguments, "output", "report")
+    ensure_program(arguments.program)
     check_outputs(outputs, [arguments.program])
     progress = shown_progress(arguments.quiet, stopped)
     done = smooth(arguments.program.name, read_input(arguments.program), smooth_options(arguments), progress)

@@ -16,6 +16,7 @@ from ...model.motion import Floats
 from ...usecases.scene_program.smooth import chord_parameters
 from ...usecases.smoothing.result import REACH, SmoothedProgram, SmoothOptions
 from ...usecases.smoothing.smooth import smooth
+from ...usecases.smoothing.source import AS_IT_LOOKS, SourceReading
 from .measures import distances_to_polyline, feet_on_polyline
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
 from .step_drawing import AMBER, BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, GREEN, LINE, PURPLE, RED, StepDrawing, broadest
@@ -41,10 +42,12 @@ class EffectiveFilmOptions:
     Attributes:
         epsilon: how far points of one facet may be off its segment, mm, > 0.
         tolerance: how far the written program may leave the facets, mm, > 0.
+        reading: how the program is read.
     """
 
     epsilon: float = 0.01
     tolerance: float = 0.2
+    reading: SourceReading = AS_IT_LOOKS
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +119,8 @@ def effective_film(
 
 def _smoothed(name: str, data: bytes, options: EffectiveFilmOptions, effective: bool) -> SmoothedProgram:
     method = EffectiveMethod(EffectiveOptions(options.epsilon)) if effective else None
-    return smooth(name, data, SmoothOptions(options.tolerance, effective=method))
+    dialect, units = options.reading.dialect, options.reading.units
+    return smooth(name, data, SmoothOptions(options.tolerance, dialect=dialect, effective=method, units=units))
 
 
 def _trial_row(trial: RangeTrial) -> tuple[str, str, str, str]:
