@@ -352,9 +352,9 @@ class _DexelSteps:
             "Cutting is trimming the dexels' tops by what the ball sweeps: a cylinder for each "
             "straight move and a sphere at each corner between.",
             "Seen from above: a few moves about a bend."
-            + (
-                "" if self.ball else " The tool is no ball: what its silhouette sweeps is here in the cylinder's place."
-            ),
+            if self.ball
+            else "Seen from above: a few moves about a bend. The tool is no ball, and what its silhouette sweeps is in the "
+            "cylinder's place.",
             sketch.page(),
             (
                 FilmFigure("cylinders", len(self.chains)),
