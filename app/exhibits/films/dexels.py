@@ -353,8 +353,8 @@ class _DexelSteps:
             "straight move and a sphere at each corner between.",
             "Seen from above: a few moves about a bend."
             if self.ball
-            else "Seen from above: a few moves about a bend. The tool is no ball, and what its silhouette sweeps is in the "
-            "cylinder's place.",
+            else "Seen from above: a few moves about a bend. The tool is no ball, and what its silhouette sweeps is in "
+            "the cylinder's place.",
             sketch.page(),
             (
                 FilmFigure("cylinders", len(self.chains)),
