@@ -47,6 +47,11 @@ _ZOOM = 6.0
 _MOVES = 3
 """Moves whose sweep is shown by itself."""
 
+_COARSE = 0.05
+"""Of the tool's radius, how far chords of an arc may be from it where a few of them are shown: finer ones, as heights
+want them, would be specks.
+"""
+
 _CELL = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
 """Corners of a cell, in widths of a cell from its middle."""
 _MOST_FACETS = 400_000
@@ -148,11 +153,12 @@ class _DexelSteps:
         self.whole = given.stock.over(Grid.over(given.stock.box, CELLS))
         pitch = self.whole.grid.pitch / _ZOOM
         self.chord = chord_of(given.course, given.cutters, min(FACET_PITCHES[0] * pitch, given.facet or pitch))
-        chains = [pair for pair in chains_of(given.course, given.cutters, self.chord) if len(pair.chains)]
-        if not chains:
+        chains = chains_of(given.course, given.cutters, self.chord)
+        if not any(len(pair.chains) for pair in chains):
             raise InputError(f"{given.name}: nothing is cut; a film of this text needs a program that cuts.")
-        led, self.chains = max(chains, key=lambda pair: (is_ball(pair.cutter), len(pair.chains)))
-        self.cutter = replace(led, lift=0.0)
+        most = max(range(len(chains)), key=lambda k: (is_ball(chains[k].cutter), len(chains[k].chains)))
+        self.cutter, self.chains = replace(chains[most].cutter, lift=0.0), chains[most].chains
+        self.few = chains_of(given.course, given.cutters, _COARSE * self.cutter.radius)[most].chains
         self.at = self._bent()
         self.grid = zoomed(self.whole.grid, _ZOOM, (float(self.tips[-1, 0]), float(self.tips[-1, 1])))
         self.part = given.stock.over(self.grid)
@@ -170,10 +176,10 @@ class _DexelSteps:
 
     def _bent(self) -> int:
         """Return the number of the move in the middle of the sharpest bend inside a chain."""
-        way, joins = self.chains.way, self.chains.joins.astype(bool)
+        way, joins = self.few.way, self.few.joins.astype(bool)
         turn = np.where(joins[1:], 1.0 - np.einsum("ij,ij->i", way[:-1], way[1:]), -1.0)
         x0, y0, x1, y1 = self.given.stock.box
-        place = self.chains.end[:-1]
+        place = self.few.end[:-1]
         room = 1.2 * self.cutter.radius
         inside = (place[:, 0] > x0 + room) & (place[:, 0] < x1 - room) & (place[:, 1] > y0 + room)
         turn = np.where(inside & (place[:, 1] < y1 - room), turn, turn - 2.0)
@@ -189,9 +195,9 @@ class _DexelSteps:
         """Places of the tip along the few moves that are shown."""
         first = max(self.at - (_MOVES - 2), 0)
         stop = first + 1
-        while stop < min(first + _MOVES, len(self.chains)) and self.chains.joins[stop]:
+        while stop < min(first + _MOVES, len(self.few)) and self.few.joins[stop]:
             stop += 1
-        return np.vstack([self.chains.start[first : first + 1], self.chains.end[first:stop]])
+        return np.vstack([self.few.start[first : first + 1], self.few.end[first:stop]])
 
     @property
     def all(self) -> tuple[Callable[[], FilmStep], ...]:
