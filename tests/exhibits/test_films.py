@@ -413,6 +413,23 @@ def test_passes_over_a_surface_are_seen_from_the_side_and_not_carried_round_thei
     assert "stayed as it was" not in steps["S12"].settled
 
 
+def test_the_correction_curve_that_is_shown_goes_round_no_corner() -> None:
+    """What is computed looks beyond none; the picture's curve bulged round one, and points looked off it."""
+    turn = np.linspace(0.0, 0.3, 4)
+    bend = 20 * np.column_stack([np.sin(turn), 1 - np.cos(turn)])
+    facets = np.concatenate([a + np.arange(4)[:, None] / 4 * (b - a) for a, b in pairwise(bend)] + [bend[-1:]])
+    leg = facets[-1] + np.array([[-0.8, 1.0], [-1.4, 2.1]])
+    rows = "".join(f"G1 X{x:.4f} Y{y:.4f}\n" for x, y in [*facets[1:], *leg])
+    made = make_film(
+        PublishedText.D, FilmSource("bend.ngc", f"G21 G90 G94\nG0 X0 Y0 Z0\nF600\n{rows}M2\n".encode(), no_file)
+    )
+    steps = {step.number: step for step in made.steps}
+    assert value(steps["S21"], "chosen") == 4
+    path, curve, *_ = (np.asarray(trace.points) for trace in steps["S22"].page.frame.traces)
+    assert len(curve) > 100 and np.all(np.ptp(curve, axis=0) < 1.05 * np.ptp(path, axis=0))
+    assert value(steps["S23"], "moved points off the curve") < 1e-5
+
+
 def test_a_stretch_that_stays_as_it_was_is_no_curve_that_was_proven() -> None:
     """Where every point is effective, curves as near as the digits take no fewer blocks."""
     random = np.random.default_rng(4)

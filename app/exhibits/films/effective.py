@@ -302,17 +302,28 @@ class _EffectiveSteps:
         return sketch
 
     def _gap(self) -> int:
-        """Return the number of the range that corrections are shown on: one in the middle, with points inside."""
-        size = np.diff(self.found.ranges, axis=1)[:, 0]
-        full = np.flatnonzero(size > 1)
-        return int(full[len(full) // 2]) if len(full) else len(size) // 2
+        """Return the number of the range that corrections are shown on: with points inside, and as many effective ones
+        about it as there are anywhere; of several such ranges one in the middle.
+        """
+        inside = np.diff(self.found.ranges, axis=1)[:, 0] > 1
+        worth = np.where(inside, [len(self._about_gap(gap)) for gap in range(len(inside))], 0)
+        best = np.flatnonzero(worth == worth.max())
+        return int(best[len(best) // 2])
+
+    def _about_gap(self, gap: int) -> NDArray[np.int64]:
+        """Return the effective points about a range that its correction curve goes by: none beyond a corner."""
+        first, last = self.found.ranges[gap].tolist()
+        low = self.kept[np.searchsorted(self.kept, first, side="right") - 1]
+        high = self.kept[np.searchsorted(self.kept, last, side="left")]
+        near = self.effective[max(gap - _BEFORE, 0) : gap + 1 + _AFTER]
+        return near[(near >= low) & (near <= high)]
 
     def correction(self) -> list[FilmStep]:
         """Return steps S21 to S23 on one range, and what they come to on all."""
         gap = self._gap()
         shown = _CorrectedRange.of(
             self.points,
-            self.effective[max(gap - _BEFORE, 0) : gap + 1 + _AFTER],
+            self._about_gap(gap),
             self.found.ranges[gap],
             self._corrected(CorrectionCurve.THROUGH),
         )
