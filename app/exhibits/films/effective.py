@@ -316,7 +316,8 @@ class _EffectiveSteps:
         low = self.kept[np.searchsorted(self.kept, first, side="right") - 1]
         high = self.kept[np.searchsorted(self.kept, last, side="left")]
         near = self.effective[max(gap - _BEFORE, 0) : gap + 1 + _AFTER]
-        return near[(near >= low) & (near <= high)]
+        found: NDArray[np.int64] = near[(near >= low) & (near <= high)]
+        return found
 
     def correction(self) -> list[FilmStep]:
         """Return steps S21 to S23 on one range, and what they come to on all."""
