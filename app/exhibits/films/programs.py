@@ -24,5 +24,8 @@ def points_of(name: str, data: bytes, reading: SourceReading = AS_IT_LOOKS, prog
     found = find_stretches(ready.program, ProgramBuffer(ready.data), progress.part(0.7, 1.0)).stretches
     longest = max((without_repeats(each.points) for each in found), key=len, default=None)
     if longest is None or len(longest) < 4:
-        raise InputError(f"{name} has no three straight feed moves one after the other; a film needs some.")
+        raise InputError(
+            f"{name} has no three straight feed moves one after the other, of which this film is made; take a program "
+            "of short moves, such as the sample that the text is shown on."
+        )
     return longest[:MOST_POINTS]

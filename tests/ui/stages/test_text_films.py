@@ -7,6 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from app.core.resources import resource
+from app.model.part import Units
 from app.model.tool_kind import ToolKind
 from app.ui.framework.view import View
 from tests.ui.conftest import WAIT_MS
@@ -76,6 +77,22 @@ def test_a_film_is_made_of_ones_own_program_or_says_what_is_missing(qtbot, wirin
     wiring.display_controller.show_view(View.STAGES)
     qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
     assert stages.films.film is not None and stages.films.film.source == "points.ngc"
+
+
+def test_a_program_that_was_said_to_be_in_inches_is_shown_as_large_as_it_is(qtbot, wiring, tmp_path):
+    """Films of curves read its bytes as mm, 25.4 times too small, while NC and Cut showed it in inches."""
+    program = tmp_path / "nobody_said.ngc"
+    program.write_text("G90 G17 G94\nG0 X0 Y0 Z.2\nG1 Z-.1 F10\nX1 Y.1\nX2 Y.4\nX3 Y.9\nX4 Y1.6\nG0 Z.2\nM2\n")
+    nc = open_file(qtbot, wiring, program)
+    QTest.mouseClick(wiring.window_.notice.buttons[1], LEFT)
+    qtbot.waitUntil(lambda: nc.shown.source.units is Units.INCH, timeout=WAIT_MS)
+    stages = show_text(qtbot, wiring, "D")
+    QTest.mouseClick(wiring.window_.film_panel.source.buttons[True], LEFT)
+    qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
+    film = stages.films.film
+    assert film is not None, wiring.window_.views.empty.sentence.text()
+    tried = next(step for step in film.steps if step.number == "S115")
+    assert next(each.value for each in tried.figures if each.name == "off here") > 1.0, "of inches, not of mm"
 
 
 @pytest.mark.exhaustive
