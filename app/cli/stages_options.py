@@ -24,6 +24,7 @@ from ..usecases.job.options import MakeOptions
 from .bitmap_options import add_bitmap_options, bitmap_options
 from .command import OptionParser, join_tolerance, number, typed
 from .files import check_outputs
+from .film_program import program_source
 from .make_options import stepover
 from .reading_options import add_reading_options, reading
 from .setup_options import add_setup_options
@@ -34,7 +35,7 @@ _OWN = re.compile(rf"(?:{TURNS}/)?\d\d_\d{{3}}(?:_r\d+_t\d+)?\.(?:png|npy|txt)",
 _FILM_OPTIONS = {"facet": "B", "tool": "B", "stock": "B", "epsilon": "D", "tolerance": "D", "region": "E"}
 """Options of films, and the text that each belongs to."""
 
-_OF_BITMAP = ("job", "contour_tool", "pocket_tool", "stepover", "overlap", "stock_to_leave", "units", "join_tolerance")
+_OF_BITMAP = ("job", "contour_tool", "pocket_tool", "stepover", "overlap", "stock_to_leave", "join_tolerance")
 """Options of the text of 1986 alone."""
 
 EPILOG = """\
@@ -111,7 +112,10 @@ def _job_options(group: argparse._ArgumentGroup) -> None:
         help="metal left on walls (default 0)",
     )
     group.add_argument(
-        "--units", metavar="mm|in", type=typed(read_units), help="units of a drawing that names none (default mm)"
+        "--units",
+        metavar="mm|in",
+        type=typed(read_units),
+        help="units of a drawing or program that names none (default mm)",
     )
     group.add_argument("--layer", metavar="NAME", action="append", default=[], help="only this layer; may be repeated")
     add_reading_options(group)
@@ -189,6 +193,8 @@ def ensure_of_text(arguments: argparse.Namespace, text: PublishedText) -> None:
     for name, letters in _FILM_OPTIONS.items():
         if getattr(arguments, name) is not None and text.value not in letters:
             raise InputError(f"--{name} belongs to --text {letters}; leave it out")
+    if text is PublishedText.C and arguments.units is not None:
+        raise InputError("--units belongs to --text A, B, D or E; a scene is in mm, so leave it out")
     if arguments.drawing is None and (arguments.tool or arguments.stock is not None):
         raise InputError("--tool and --stock are those of a program of your own; name it, or leave them out")
 
@@ -209,4 +215,6 @@ def film_source(arguments: argparse.Namespace, text: PublishedText) -> FilmSourc
         raise InputError(
             f"{path.name} is no scene; text C is shown on one, a .toml that names surfaces, tools and passes"
         )
-    return FilmSource(path.name, read_input(path), lambda name: read_input(path.parent / name))
+    if text is PublishedText.C:
+        return FilmSource(path.name, read_input(path), lambda name: read_input(path.parent / name))
+    return program_source(path, arguments.units)

@@ -42,7 +42,7 @@ def film_outcome(arguments: argparse.Namespace, folder: Path, progress: Progress
     source = film_source(arguments, text)
     if text is PublishedText.B and source is not None:
         part = progress.part(0.0, 0.1)
-        cutting = program_input(source.name, source.data, arguments.facet, part, setup_request(arguments))
+        cutting = program_input(source, arguments.facet, part, setup_request(arguments))
     film = make_film(text, source, film_options(arguments), progress.part(0.1, 0.8), cutting)
     files = {folder / name: data for name, data in film_files(film, progress.part(0.8, 1.0)).items()}
     if arguments.report is not None:

@@ -30,6 +30,7 @@ from ..model.machine import Machine
 from ..model.motion import MotionKind
 from ..model.motion_path import anchored, lengths
 from ..model.part import Part, Units
+from .kind_of_file import ensure_program
 
 Json = dict[str, Any]
 COORDINATES = "from the zero of the table of work offsets, tool length compensated"
@@ -178,8 +179,10 @@ def examine(name: str, data: bytes, options: ExamineOptions, progress: Progress 
         progress: told of how much is read.
 
     Raises:
+        InputError: its name is that of a drawing, a picture, a solid or a scene.
         Cancelled: the job was asked to stop.
     """
+    ensure_program(name)
     read = ReadOptions(
         dialect=options.dialect or guess_dialect(data),
         tool_table=options.tools,

@@ -18,7 +18,7 @@ from app.cli.main import main
 from app.core.resources import resource
 from app.exhibits.films.compound import evaluated
 from app.exhibits.films.depth_raster import drawn
-from app.exhibits.films.dexels import SAMPLE, CutFilmInput, dexel_film, sample_input
+from app.exhibits.films.dexels import SAMPLE, dexel_film, sample_input
 from app.exhibits.films.effective import EffectiveFilmOptions, effective_film, range_trials, ranges_of
 from app.exhibits.films.making import FilmSource, film_files, make_film
 from app.exhibits.films.measures import distances_to_polyline
@@ -35,6 +35,7 @@ from app.model.part import Units
 from app.model.tool import Tool
 from app.model.tool_kind import ToolKind
 from app.simulation.field.workpiece import Grid
+from app.simulation.gpu.wedges import polygon_counts
 from app.surfaces.patches.patch import BsplineSurface
 from app.usecases.examine import ExamineOptions
 from tests import raster_program
@@ -342,13 +343,52 @@ def test_the_heights_of_record_are_the_closed_form_of_a_ball_along_lines() -> No
         assert abs(heights[i, j] - min(low.min(), 0.0)) < 1e-5 + 2e-6
 
 
-def test_a_program_without_a_ball_has_no_wedges_to_show() -> None:
-    from app.core.errors import InputError
-    from app.simulation.cutter import Cutter
+GROOVE = (
+    b"G21 G90 G17 G94\nT1 M6\nS9000 M3\nG0 X10 Y10 Z5\nG1 Z-2 F100\nG1 X20 F400\nG3 X20 Y16 I0 J3\n"
+    b"G1 X10.5\nG0 Z5\nM30\n"
+)
 
-    given = CutFilmInput("flat", SAMPLE.course(), {1: Cutter(5.0, 5.0, 0.0)}, sample_input().stock)
-    with pytest.raises(InputError, match="ball"):
-        dexel_film(given)
+
+@pytest.mark.parametrize(
+    "kind", [ToolKind.V, *(pytest.param(kind, marks=pytest.mark.exhaustive) for kind in (ToolKind.BALL, ToolKind.FLAT))]
+)
+def test_any_tool_is_shown_and_every_cell_lies_within_its_bounds(kind: ToolKind) -> None:
+    """Only a ball was shown; arcs were chords 1 mm off, and heights beside them 1.1 mm, which nothing told of."""
+    tool = Tool(1, 3.0, kind, tip_angle=math.radians(60.0) if kind is ToolKind.V else 0.0)
+    source = FilmSource("groove.ngc", GROOVE, no_file, tools={1: tool})
+    made = make_film(PublishedText.B, source, cutting=input_of(source))
+    steps = {step.number: step for step in made.steps}
+    assert list(steps) == STEPS["B"]
+    trimmed = steps["S108"]
+    assert value(trimmed, "cells outside of their bounds") == 0
+    off, most = (value(trimmed, name) for name in ("facets off the closed form, straight up", _BOUND))
+    assert 0 <= off <= most + 1e-5 < 0.05
+    assert all(row[-1] == "0" for row in steps["S105"].table[1:])
+    assert ("no ball" in steps["S104"].settled) == (kind is not ToolKind.BALL)
+
+
+_BOUND = "by the bound of each cell, at most"
+
+
+def test_passes_apart_are_not_joined_where_polygons_are_counted() -> None:
+    """Moves of two passes were counted with a cylinder from the end of one to the beginning of the other."""
+    text = b"G21 G90 G94\nT1 M6\nG0 X10 Y10 Z5\nG1 Z-2 F100\nX11\nG0 Z5\nG0 X10 Y11\nG1 Z-2\nX11\nG0 Z5\nM30\n"
+    tools = {1: Tool(1, 6.0, ToolKind.BALL)}
+    source = FilmSource("two.ngc", text, no_file, tools=tools)
+    given = input_of(source)
+    steps = {step.number: step for step in dexel_film(given).steps}
+    counts = polygon_counts(given.course, given.cutters, value(steps["S105"], "d"))
+    assert value(steps["S104"], "polygons with whole spheres") == counts.spheres
+
+
+@pytest.mark.parametrize("letter", ["D", "E"])
+def test_films_of_curves_read_a_program_in_the_units_that_were_said(letter: str) -> None:
+    """One that names none was shown 25.4 times too small, whatever had been said of it in the window."""
+    text = b"G90 G17 G94\nG0 X.5 Y0 Z.2\nG1 Z-.1 F10\nX.6 Y.05\nX.7 Y.11\nX.8 Y.18\nX.9 Y.26\nG0 Z.2\nM2\n"
+    said = FilmSource("a.ngc", text, no_file, ExamineOptions(units=Units.INCH))
+    named = FilmSource("a.ngc", b"G20\n" + text, no_file)
+    films = [make_film(TEXTS[letter], source) for source in (said, named)]
+    assert [step.figures for step in films[0].steps] == [step.figures for step in films[1].steps]
 
 
 @pytest.mark.parametrize(
@@ -384,6 +424,23 @@ def test_passes_over_a_surface_are_seen_from_the_side_and_not_carried_round_thei
         assert np.ptp(path, axis=0).min() > 0.03 * np.ptp(path, axis=0).max(), f"{number} is one straight line"
     assert value(steps["S23"], "largest move of all") < 0.05
     assert "stayed as it was" not in steps["S12"].settled
+
+
+def test_the_correction_curve_that_is_shown_goes_round_no_corner() -> None:
+    """What is computed looks beyond none; the picture's curve bulged round one, and points looked off it."""
+    turn = np.linspace(0.0, 0.3, 4)
+    bend = 20 * np.column_stack([np.sin(turn), 1 - np.cos(turn)])
+    facets = np.concatenate([a + np.arange(4)[:, None] / 4 * (b - a) for a, b in pairwise(bend)] + [bend[-1:]])
+    leg = facets[-1] + np.array([[-0.8, 1.0], [-1.4, 2.1]])
+    rows = "".join(f"G1 X{x:.4f} Y{y:.4f}\n" for x, y in [*facets[1:], *leg])
+    made = make_film(
+        PublishedText.D, FilmSource("bend.ngc", f"G21 G90 G94\nG0 X0 Y0 Z0\nF600\n{rows}M2\n".encode(), no_file)
+    )
+    steps = {step.number: step for step in made.steps}
+    assert value(steps["S21"], "chosen") == 4
+    path, curve, *_ = (np.asarray(trace.points) for trace in steps["S22"].page.frame.traces)
+    assert len(curve) > 100 and np.all(np.ptp(curve, axis=0) < 1.05 * np.ptp(path, axis=0))
+    assert value(steps["S23"], "moved points off the curve") < 1e-5
 
 
 def test_a_stretch_that_stays_as_it_was_is_no_curve_that_was_proven() -> None:

@@ -106,6 +106,40 @@ def test_without_standing_off_curves_gouge_and_that_is_seen() -> None:
     assert clearance(fed(wrong.done[0].data)).min() < -1e-3
 
 
+def valley_scene(random: np.random.Generator, box: tuple[float, float, float, float]) -> tuple[bytes, Floats]:
+    """A scene of two spheres that cross under a box x, y, width, height, and these as rows centre, radius, mm."""
+    radius, pitch = random.uniform(15, 30), random.uniform(0.7, 2)
+    spheres = np.array([[0, 0, 0, radius], [1.3 * radius, 3, -2, radius]])
+    shapes = "".join(
+        f'[[surface]]\nname = "{k}"\nshape = {{ kind = "sphere", centre = {row[:3].tolist()}, radius = {row[3]} }}\n'
+        for k, row in enumerate(spheres)
+    )
+    x, y, wide, high = box[0] + 0.65 * radius, *box[1:]
+    text = (
+        f'name = "valley"\n[stock]\nbox = [-60, -60, -30, 60, 60, 80]\n[[tool]]\nnumber = 1\ndiameter = {2 * BALL}\n'
+        f'kind = "ball"\n{shapes}[[passes]]\nname = "f"\ntool = 1\npitch = {pitch}\nchord_tolerance = {0.2 * T}\n'
+        f"angle_deg = {random.choice([0, 90, 30.0, -72.5])}\n"
+        f"boundary = [{{ rectangle = [{x}, {y}, {x + wide}, {y + high}] }}]\n"
+    )
+    return text.encode(), spheres
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seed", range(9))
+def test_no_curve_goes_into_one_of_two_surfaces_that_cross(seed: int) -> None:
+    """By nothing but the distances of the ball's centre from both spheres' centres, along what was written."""
+    random, form = np.random.default_rng(seed), list(OutputForm)[seed % 3]
+    text, spheres = valley_scene(random, (-4.0, 3.0, 8.0, 3.0))
+    how = CurvesOverSurfaces(T, form)
+    made = scene_files("valley.toml", text, no_file, SceneOutputs(OUT, curves=how))
+    centre = fed(made.files[OUT]) + [0, 0, BALL]
+    off = np.min([np.linalg.norm(centre - row[:3], axis=1) - row[3] - BALL for row in spheres], axis=0)
+    assert off.min() >= -1e-4
+    assert made.curves is not None and not len(made.curves.gouging)
+    spent = max(budget.spent_mm for budget in made.curves.budgets.values())
+    assert off[off < 3 * T].max() <= spent <= T
+
+
 def test_a_tolerance_that_chords_use_up_is_refused_with_what_helps() -> None:
     with pytest.raises(InputError, match="use more than"):
         scene_files("ring.toml", SCENE, no_file, SceneOutputs(OUT, curves=CurvesOverSurfaces(0.004)))

@@ -6,13 +6,13 @@ import argparse
 import json
 
 from ...core.errors import InputError
-from ...core.input_file import read_input
 from ...exhibits.die_programs import PROGRAMS
 from ...exhibits.figure_eleven import FigureOptions, figure_eleven
 from ...exhibits.films.program_input import program_input
 from ..command import CliCommand
 from ..figure_options import EPILOG, add_figure_options
 from ..files import check_outputs, named_files, shown_progress
+from ..film_program import program_source
 from ..outcome import CommandOutcome
 from ..setup_options import setup_request
 from ..signals import StopFlag
@@ -26,7 +26,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     if not arguments.own and (arguments.tool or arguments.stock is not None):
         raise InputError("--tool and --stock are those of programs of your own; name one, or leave them out")
     told = setup_request(arguments)
-    own = tuple(program_input(path.name, read_input(path), told=told) for path in arguments.own)
+    own = tuple(program_input(program_source(path), told=told) for path in arguments.own)
     names = arguments.programs if arguments.programs is not None else () if own else tuple(PROGRAMS)
     done = figure_eleven(FigureOptions(names, arguments.grid, arguments.repeat, own, arguments.facet), progress)
     report = (json.dumps(done.report(), indent=2, allow_nan=False) + "\n").encode()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -13,16 +13,18 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats
 from ...simulation.cutter import Cutter
 from ...simulation.field.workpiece import Grid, StockShape
-from ...simulation.gpu.polyhedron import facet_error, is_ball
+from ...simulation.gpu.polyhedron import facet_error, held_cutter, is_ball
 from ...simulation.gpu.wedges import (
+    EVERYWHERE,
     FacetKind,
     PolygonCounts,
     SweepFacets,
     Tessellation,
+    chain_counts,
+    chord_of,
     facets_in,
-    polygon_counts,
 )
-from ...simulation.sweeps.chains import Chains, chains_of
+from ...simulation.sweeps.chains import Chains, chains_of, cutting
 from ...simulation.sweeps.course import Course
 from ...simulation.sweeps.trim import trim
 from ..die_programs import STOCK, DieProgram
@@ -44,6 +46,11 @@ _ZOOM = 6.0
 
 _MOVES = 3
 """Moves whose sweep is shown by itself."""
+
+_COARSE = 0.05
+"""Of the tool's radius, how far chords of an arc may be from it where a few of them are shown: finer ones, as heights
+want them, would be specks.
+"""
 
 _CELL = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
 """Corners of a cell, in widths of a cell from its middle."""
@@ -77,7 +84,7 @@ def dexel_film(given: CutFilmInput, progress: Progress = NO_PROGRESS) -> TextFil
     """Return text B's steps on a program.
 
     Raises:
-        InputError: no ball cutter cuts in it, or far too many facets would have to be drawn.
+        InputError: nothing is cut in it, or far too many facets would have to be drawn.
         Cancelled: the job was asked to stop.
     """
     work = _DexelSteps(given, progress)
@@ -95,23 +102,65 @@ def zoomed(grid: Grid, by: float, place: tuple[float, float]) -> Grid:
     return Grid.over((x - half[0], y - half[1], x + half[0], y + half[1]), max(grid.rows, grid.cols))
 
 
+_SURE = 1e-5
+"""mm, times 1 + the slope; what heights of facets and of closed forms are rounded by is less."""
+
+_COMPARED = (
+    "d / w",
+    "facets",
+    "off the closed form, straight up, mm",
+    "stated, square to it, mm",
+    "by the bound of each cell, mm",
+    "cells outside",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class FacetsApart:
+    """Where heights by facets lie between two closed forms: of the cutter, and of a slimmer one that the facets hold.
+
+    Attributes:
+        largest: how far they are above the first at most, mm, where no wall is. allowed: how far the second is there.
+        outside: cells that lie below the first or above the second. walls: cells in which both are farther apart than
+            cells are.
+    """
+
+    largest: float
+    allowed: float
+    outside: int
+    walls: int
+
+    @staticmethod
+    def of(heights: Floats, exact: Floats, most: Floats, pitch: float) -> FacetsApart:
+        """Return it for heights (rows, cols) mm; pitch: of the cells, mm."""
+        down, across = np.gradient(exact, pitch)
+        sure = _SURE * (1.0 + np.hypot(down, across))
+        outside = (heights < exact - sure) | (heights > most + sure)
+        plain = most - exact <= pitch
+        return FacetsApart(
+            float((heights - exact)[plain].max(initial=0.0)),
+            float((most - exact)[plain].max(initial=0.0)),
+            int(np.count_nonzero(outside)),
+            int(np.count_nonzero(~plain)),
+        )
+
+
 class _DexelSteps:
     """One program on two grids: over all of its stock, and over a part."""
 
     def __init__(self, given: CutFilmInput, progress: Progress) -> None:
         self.given = given
-        balls = {number: cutter for number, cutter in given.cutters.items() if is_ball(cutter)}
-        if not balls:
-            raise InputError(
-                f"{given.name} has no ball cutter; cylinders and wedges are the sweep of a ball: take a program of one."
-            )
         self.whole = given.stock.over(Grid.over(given.stock.box, CELLS))
-        chains = [pair for pair in chains_of(given.course, given.cutters, 1.0) if is_ball(pair[0]) and len(pair[1])]
-        if not chains:
-            raise InputError(f"No ball cutter cuts in {given.name}; a film of this text needs one that does.")
-        self.cutter, self.chains = max(chains, key=lambda pair: len(pair[1]))
+        pitch = self.whole.grid.pitch / _ZOOM
+        self.chord = chord_of(given.course, given.cutters, min(FACET_PITCHES[0] * pitch, given.facet or pitch))
+        chains = chains_of(given.course, given.cutters, self.chord)
+        if not any(len(pair.chains) for pair in chains):
+            raise InputError(f"{given.name}: nothing is cut; a film of this text needs a program that cuts.")
+        most = max(range(len(chains)), key=lambda k: (is_ball(chains[k].cutter), len(chains[k].chains)))
+        self.cutter, self.chains = replace(chains[most].cutter, lift=0.0), chains[most].chains
+        self.few = chains_of(given.course, given.cutters, _COARSE * self.cutter.radius)[most].chains
         self.at = self._bent()
-        self.grid = zoomed(self.whole.grid, _ZOOM, (float(self.tips[1, 0]), float(self.tips[1, 1])))
+        self.grid = zoomed(self.whole.grid, _ZOOM, (float(self.tips[-1, 0]), float(self.tips[-1, 1])))
         self.part = given.stock.over(self.grid)
         self.facet = given.facet or 2 * self.grid.pitch
         progress.step(0.1, "Counting facets")
@@ -120,29 +169,35 @@ class _DexelSteps:
         self.facets = self._facets(self.facet)
         self.depth = drawn(self.facets.quads.astype(np.float64), self.grid, progress.part(0.3, 0.7))
         progress.step(0.7, "Cutting in closed form")
-        self.exact = trim(self.part, given.course, given.cutters).heights.astype(np.float64)
+        self.exact = self._closed_form(self.cutter)
         self.cut = np.minimum(self.part.heights, np.maximum(self.depth, self.part.floor))
+        self.apart = self._apart(self.cut, self.facet)
         self.by_facet = self._compared(progress.part(0.75, 1.0))
 
     def _bent(self) -> int:
         """Return the number of the move in the middle of the sharpest bend inside a chain."""
-        way, joins = self.chains.way, self.chains.joins.astype(bool)
+        way, joins = self.few.way, self.few.joins.astype(bool)
         turn = np.where(joins[1:], 1.0 - np.einsum("ij,ij->i", way[:-1], way[1:]), -1.0)
         x0, y0, x1, y1 = self.given.stock.box
-        place = self.chains.end[:-1]
+        place = self.few.end[:-1]
         room = 1.2 * self.cutter.radius
         inside = (place[:, 0] > x0 + room) & (place[:, 0] < x1 - room) & (place[:, 1] > y0 + room)
         turn = np.where(inside & (place[:, 1] < y1 - room), turn, turn - 2.0)
         return int(np.argmax(turn)) if len(turn) else 0
 
     @property
+    def ball(self) -> bool:
+        """Whether the tool is the text's own."""
+        return is_ball(self.cutter)
+
+    @property
     def tips(self) -> Floats:
         """Places of the tip along the few moves that are shown."""
         first = max(self.at - (_MOVES - 2), 0)
         stop = first + 1
-        while stop < min(first + _MOVES, len(self.chains)) and self.chains.joins[stop]:
+        while stop < min(first + _MOVES, len(self.few)) and self.few.joins[stop]:
             stop += 1
-        return np.vstack([self.chains.start[first : first + 1], self.chains.end[first:stop]])
+        return np.vstack([self.few.start[first : first + 1], self.few.end[first:stop]])
 
     @property
     def all(self) -> tuple[Callable[[], FilmStep], ...]:
@@ -174,26 +229,30 @@ class _DexelSteps:
 
     def _facets(self, size: float) -> SweepFacets:
         """Return the facets of one size over the part that is looked at."""
-        parts = [
-            (part.quads.copy(), part.kind.copy())
-            for part, _ in facets_in(self.cutter, self._near(), Tessellation(size), self.grid.box)
-        ]
-        count = sum(len(kind) for _, kind in parts)
-        if count > _MOST_FACETS:
+        found = _collected(self.cutter, self._near(), size, self.grid.box)
+        if len(found.kind) > _MOST_FACETS:
             raise InputError(
-                f"{count:,} facets of {size:g} mm lie over the part that is looked at; use larger ones, or fewer moves."
+                f"{len(found.kind):,} facets of {size:g} mm lie over the part that is looked at; use larger ones, or "
+                "fewer moves."
             )
-        none = np.zeros((0, 4, 3), np.float32)
-        return SweepFacets(
-            np.concatenate([none, *(quads for quads, _ in parts)]),
-            np.concatenate([np.zeros(0, np.uint8), *(kind for _, kind in parts)]),
-        )
+        return found
 
     def _counted(self, size: float) -> PolygonCounts:
-        return _counts(self.cutter, self._near(), size)
+        return chain_counts(self.cutter, self._near(), size)
 
-    def _compared(self, progress: Progress) -> tuple[tuple[float, int, float, float], ...]:
-        """Return of each size d / w how many facets, how far heights are from exact at most, and the stated error."""
+    def _closed_form(self, cutter: Cutter) -> Floats:
+        """Return what a cutter leaves of the part along the moves that the facets are made along, in closed form."""
+        heights = trim(self.part, _course_of(self._near()), {1: cutter}).heights
+        return np.asarray(heights, np.float64)
+
+    def _apart(self, heights: Floats, size: float) -> FacetsApart:
+        """Return how heights by facets of a size lie between the closed forms that hold them."""
+        held = held_cutter(self.cutter, size)
+        most = self._closed_form(held) if held is not None else np.asarray(self.part.heights, np.float64)
+        return FacetsApart.of(heights, self.exact, most, self.grid.pitch)
+
+    def _compared(self, progress: Progress) -> tuple[tuple[float, int, FacetsApart, float], ...]:
+        """Return of each size d / w how many facets, how heights lie beside exact ones, and the stated error."""
         rows = []
         for number, times in enumerate(FACET_PITCHES):
             progress.step(number / len(FACET_PITCHES), "Comparing sizes of facets")
@@ -204,7 +263,7 @@ class _DexelSteps:
             heights = np.minimum(
                 self.part.heights, np.maximum(drawn(facets.quads.astype(np.float64), self.grid), self.part.floor)
             )
-            rows.append((times, len(facets.kind), _apart(heights, self.exact), facet_error(self.cutter, size)))
+            rows.append((times, len(facets.kind), self._apart(heights, size), facet_error(self.cutter, size)))
         return tuple(rows)
 
     def entered(self) -> FilmStep:
@@ -218,10 +277,11 @@ class _DexelSteps:
             "S100",
             "Enter metal, cutter, path",
             "The solid before machining, the ball end mill and its path are entered, the Z axis along the tool's.",
-            "Stock may be a box, a solid, or heights that were left.",
+            "Stock may be a box, a solid, or heights that were left; the tool of any kind. Of several tools a ball is "
+            "shown, that with the most moves.",
             sketch.page(),
             (
-                FilmFigure("moves", len(self.chains)),
+                FilmFigure("moves", int(np.count_nonzero(cutting(self.given.course, self.given.cutters)))),
                 FilmFigure("radius", float(self.cutter.radius), "mm"),
                 FilmFigure("stock along X", x1 - x0, "mm"),
                 FilmFigure("along Y", y1 - y0, "mm"),
@@ -297,7 +357,10 @@ class _DexelSteps:
             "What the ball sweeps",
             "Cutting is trimming the dexels' tops by what the ball sweeps: a cylinder for each "
             "straight move and a sphere at each corner between.",
-            "Seen from above: a few moves about a bend.",
+            "Seen from above: a few moves about a bend."
+            if self.ball
+            else "Seen from above: a few moves about a bend. The tool is no ball, and what its silhouette sweeps is in "
+            "the cylinder's place.",
             sketch.page(),
             (
                 FilmFigure("cylinders", len(self.chains)),
@@ -306,9 +369,8 @@ class _DexelSteps:
         )
 
     def _shown_facets(self, size: float) -> SweepFacets:
-        from ...simulation.gpu.wedges import sweep_facets
-
-        return sweep_facets(self.tips + [0, 0, self.cutter.radius], float(self.cutter.radius), Tessellation(size))
+        start, end = self.tips[:-1], self.tips[1:]
+        return _collected(self.cutter, Chains.of(start, end, np.arange(len(start)) > 0), size, EVERYWHERE)
 
     def _net(self, facets: SweepFacets, only: FacetKind | None = None) -> StepDrawing:
         sketch = StepDrawing()
@@ -327,7 +389,10 @@ class _DexelSteps:
             "Most of a sphere lies inside the cylinders beside it; two planes through its centre, at the "
             "ends of these, leave a wedge, very slim where the path bends little.",
             f"Over the part that is looked at whole spheres would be {counts.spheres:,} polygons, wedges are "
-            f"{counts.wedges:,}. Wedges are red, half spheres at the ends of the path yellow.",
+            f"{counts.wedges:,}. Wedges are red, half spheres at the ends of the path yellow."
+            if self.ball
+            else "The tool is no ball: of its facets at a corner only those are drawn that bound at one of both moves "
+            f"and not at the other. Whole tools would be {counts.spheres:,} polygons, these are {counts.wedges:,}.",
             self._net(self._shown_facets(self.cutter.radius / 8)).page(),
             (
                 FilmFigure("polygons with whole spheres", counts.spheres),
@@ -339,9 +404,10 @@ class _DexelSteps:
 
     def tessellated(self) -> FilmStep:
         """Return S105."""
-        rows = [("d / w", "facets", "off the closed form, straight up, mm", "stated, square to it, mm")]
+        rows = [_COMPARED]
         rows += [
-            (f"{times:g}", f"{count:,}", f"{off:.6f}", f"{stated:.6f}") for times, count, off, stated in self.by_facet
+            (f"{times:g}", f"{count:,}", f"{off.largest:.6f}", f"{stated:.6f}", f"{off.allowed:.6f}", f"{off.outside}")
+            for times, count, off, stated in self.by_facet
         ]
         counts = self.counts[2.0]
         return FilmStep(
@@ -350,7 +416,9 @@ class _DexelSteps:
             "Cylinders become strips of rectangles, wedges strips of quads, of size d; those that look up cannot be "
             "the lower side and are left out. d may be larger than w: at d = 2 w no difference is seen, and several d "
             "> w can be tried.",
-            "The table tries them: heights are held against the closed form, cell by cell, beside walls excepted.",
+            "The table tries them: each cell is held against the closed form of the tool, and of one that the facets "
+            "hold; between both it must lie, and how far these are apart there is what it may be off. Beside walls, "
+            "where that is more than w, only whether it lies between.",
             self._net(self._shown_facets(max(self.facet, self.cutter.radius / 12))).page(),
             (
                 FilmFigure("d", self.facet, "mm", f"2 w = {2 * self.grid.pitch:.4g}"),
@@ -404,18 +472,22 @@ class _DexelSteps:
         exact = np.column_stack([self.grid.xs(), self.exact[self._row()]])
         sketch.line(exact, GREEN, LINE)
         taken = float((self.part.heights - self.cut).sum()) * self.grid.pitch**2
-        error = facet_error(self.cutter, self.facet)
+        error, apart = facet_error(self.cutter, self.facet), self.apart
         return FilmStep(
             "S108",
             "Trim the dexels",
             "Every dexel that is higher than its depth is trimmed to it.",
             "The heights of record are a closed form in each cell (green); facets of size d lie inside what is swept, "
-            f"so metal is left by up to {error:.2g} mm square to the surface, more straight up where it is steep.",
+            f"so metal is left by up to {error:.2g} mm square to the surface, more straight up where it is steep. In "
+            f"every cell that is bounded by the closed form of a tool that the facets hold: {apart.outside} cells lie "
+            f"outside, {apart.walls} beside walls may fall to either side.",
             sketch.page(),
             (
                 FilmFigure("volume taken off here", taken, "mm³"),
-                FilmFigure("facets off the closed form, straight up", _apart(self.cut, self.exact), "mm"),
+                FilmFigure("facets off the closed form, straight up", apart.largest, "mm"),
+                FilmFigure("by the bound of each cell, at most", apart.allowed, "mm"),
                 FilmFigure("stated, square to the surface", error, "mm"),
+                FilmFigure("cells outside of their bounds", apart.outside),
             ),
         )
 
@@ -473,25 +545,22 @@ class _DexelSteps:
         )
 
 
-def _counts(cutter: Cutter, chains: Chains, facet: float) -> PolygonCounts:
+def _collected(cutter: Cutter, chains: Chains, size: float, box: tuple[float, float, float, float]) -> SweepFacets:
+    """Return all facets of one size of what a cutter sweeps, over a box."""
+    parts = [(part.quads.copy(), part.kind.copy()) for part, _ in facets_in(cutter, chains, Tessellation(size), box)]
+    none = np.zeros((0, 4, 3), np.float32)
+    return SweepFacets(
+        np.concatenate([none, *(quads for quads, _ in parts)]),
+        np.concatenate([np.zeros(0, np.uint8), *(kind for _, kind in parts)]),
+    )
+
+
+def _course_of(chains: Chains) -> Course:
+    """Return moves as a course of tool 1, each from its own start to its own end."""
     from ...fitting.fitted import lines_between
 
-    kept = lines_between(np.vstack([chains.start[:1], chains.end])) if len(chains) else None
-    if kept is None:
-        return PolygonCounts(0, 0, 0, 0)
-    course = Course(kept, np.ones(len(kept), np.int32))
-    return polygon_counts(course, {1: cutter}, facet)
-
-
-def _apart(heights: Floats, exact: Floats) -> float:
-    """Return how far heights are at most from exact ones, mm; cells beside steep walls, where either may be right,
-    excepted.
-    """
-    wide = np.pad(exact, 1, mode="edge")
-    around = [wide[i : i + exact.shape[0], j : j + exact.shape[1]] for i in range(3) for j in range(3)]
-    steep = np.max(around, axis=0) - np.min(around, axis=0)
-    flat = steep < np.percentile(steep, 95) + 1e-9
-    return float(np.abs(heights - exact)[flat].max(initial=0.0))
+    lines = replace(lines_between(np.zeros((len(chains) + 1, 3))), start=chains.start, end=chains.end)
+    return Course(lines, np.ones(len(chains), np.int32))
 
 
 def _runs(chains: Chains) -> list[Floats]:

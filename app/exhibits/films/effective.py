@@ -16,6 +16,7 @@ from ...model.motion import Floats
 from ...usecases.scene_program.smooth import chord_parameters
 from ...usecases.smoothing.result import REACH, SmoothedProgram, SmoothOptions
 from ...usecases.smoothing.smooth import smooth
+from ...usecases.smoothing.source import AS_IT_LOOKS, SourceReading
 from .measures import distances_to_polyline, feet_on_polyline
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
 from .step_drawing import AMBER, BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, GREEN, LINE, PURPLE, RED, StepDrawing, broadest
@@ -41,10 +42,12 @@ class EffectiveFilmOptions:
     Attributes:
         epsilon: how far points of one facet may be off its segment, mm, > 0.
         tolerance: how far the written program may leave the facets, mm, > 0.
+        reading: how the program is read.
     """
 
     epsilon: float = 0.01
     tolerance: float = 0.2
+    reading: SourceReading = AS_IT_LOOKS
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +119,8 @@ def effective_film(
 
 def _smoothed(name: str, data: bytes, options: EffectiveFilmOptions, effective: bool) -> SmoothedProgram:
     method = EffectiveMethod(EffectiveOptions(options.epsilon)) if effective else None
-    return smooth(name, data, SmoothOptions(options.tolerance, effective=method))
+    dialect, units = options.reading.dialect, options.reading.units
+    return smooth(name, data, SmoothOptions(options.tolerance, dialect=dialect, effective=method, units=units))
 
 
 def _trial_row(trial: RangeTrial) -> tuple[str, str, str, str]:
@@ -298,17 +302,29 @@ class _EffectiveSteps:
         return sketch
 
     def _gap(self) -> int:
-        """Return the number of the range that corrections are shown on: one in the middle, with points inside."""
-        size = np.diff(self.found.ranges, axis=1)[:, 0]
-        full = np.flatnonzero(size > 1)
-        return int(full[len(full) // 2]) if len(full) else len(size) // 2
+        """Return the number of the range that corrections are shown on: with points inside, and as many effective ones
+        about it as there are anywhere; of several such ranges one in the middle.
+        """
+        inside = np.diff(self.found.ranges, axis=1)[:, 0] > 1
+        worth = np.where(inside, [len(self._about_gap(gap)) for gap in range(len(inside))], 0)
+        best = np.flatnonzero(worth == worth.max())
+        return int(best[len(best) // 2])
+
+    def _about_gap(self, gap: int) -> NDArray[np.int64]:
+        """Return the effective points about a range that its correction curve goes by: none beyond a corner."""
+        first, last = self.found.ranges[gap].tolist()
+        low = self.kept[np.searchsorted(self.kept, first, side="right") - 1]
+        high = self.kept[np.searchsorted(self.kept, last, side="left")]
+        near = self.effective[max(gap - _BEFORE, 0) : gap + 1 + _AFTER]
+        found: NDArray[np.int64] = near[(near >= low) & (near <= high)]
+        return found
 
     def correction(self) -> list[FilmStep]:
         """Return steps S21 to S23 on one range, and what they come to on all."""
         gap = self._gap()
         shown = _CorrectedRange.of(
             self.points,
-            self.effective[max(gap - _BEFORE, 0) : gap + 1 + _AFTER],
+            self._about_gap(gap),
             self.found.ranges[gap],
             self._corrected(CorrectionCurve.THROUGH),
         )

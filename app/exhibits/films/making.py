@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ...core.errors import InputError
 from ...core.progress import NO_PROGRESS, Progress
@@ -16,6 +16,7 @@ from ...formats.plot.page_svg import page_svg
 from ...formats.scene.toml import sources_of
 from ...model.tool import Tool
 from ...usecases.examine import ExamineOptions
+from ...usecases.smoothing.source import SourceReading
 from .compound import compound_film
 from .dexels import CutFilmInput, dexel_film, sample_input
 from .effective import EffectiveFilmOptions, effective_film
@@ -40,8 +41,8 @@ class FilmSource:
 
     Attributes:
         name, data: of the file. beside: the bytes of a file that it names.
-        reading: B: how a program is to be read. tools, stock: B: what else is known of it, by T number, and the corners
-            of its box, mm.
+        reading: B, D, E: how a program is to be read.
+        tools, stock: B: what else is known of it, by T number, and the corners of its box, mm.
     """
 
     name: str
@@ -101,9 +102,11 @@ def make_film(
         raise InputError("the steps of text A are stages on the bitmap; use `hitofude stages DRAWING`.")
     if text is PublishedText.C:
         return compound_film(file.name, file.data, sources_of(file.beside), progress)
-    points = points_of(file.name, file.data, progress.part(0.0, 0.1))
+    reading = SourceReading(file.reading.dialect, file.reading.units)
+    points = points_of(file.name, file.data, reading, progress.part(0.0, 0.1))
     if text is PublishedText.D:
-        return effective_film(file.name, file.data, points, options.effective, progress.part(0.1, 1.0))
+        effective = replace(options.effective, reading=reading)
+        return effective_film(file.name, file.data, points, effective, progress.part(0.1, 1.0))
     return proven_film(file.name, points, options.profile, progress.part(0.1, 1.0))
 
 

@@ -7,10 +7,9 @@ from ...simulation.cutter import cutter_of
 from ...usecases.cutting.ready_setup import SetupRequest, setup_of
 from ...usecases.cutting.setup_stock import box_stock
 from ...usecases.cutting.setup_tools import ToolSource
-from ...usecases.examine import ExaminedProgram, ExamineOptions, examine
+from ...usecases.examine import ExaminedProgram, examine
 from ...verify.course import course_of
 from .dexels import CutFilmInput
-from .kind_of_file import ensure_program
 from .making import FilmSource
 
 AS_THE_HEAD_TELLS = SetupRequest()
@@ -23,7 +22,6 @@ def input_of(source: FilmSource, progress: Progress = NO_PROGRESS) -> CutFilmInp
         HitofudeError: it cannot be read, or nobody tells what its tools are.
         Cancelled: the job was asked to stop.
     """
-    ensure_program(source.name)
     tools = (ToolSource("the Cut view", source.tools),) if source.tools else ()
     stock = box_stock(source.stock) if source.stock is not None else None
     examined = examine(source.name, source.data, source.reading, progress.part(0.0, 0.8))
@@ -31,8 +29,7 @@ def input_of(source: FilmSource, progress: Progress = NO_PROGRESS) -> CutFilmInp
 
 
 def program_input(
-    name: str,
-    data: bytes,
+    source: FilmSource,
     facet: float | None = None,
     progress: Progress = NO_PROGRESS,
     told: SetupRequest = AS_THE_HEAD_TELLS,
@@ -40,15 +37,15 @@ def program_input(
     """Return what a film of a program cuts.
 
     Args:
-        name, data: of the program. facet: size of the facets, mm; None: twice the distance of the dexels.
+        source: the program, and how it is read; its own tools and stock are not asked.
+        facet: size of the facets, mm; None: twice the distance of the dexels.
         told: stock and tools that its head does not tell of.
 
     Raises:
         HitofudeError: it cannot be read, or nobody tells what its tools are.
         Cancelled: the job was asked to stop.
     """
-    ensure_program(name)
-    examined = examine(name, data, ExamineOptions(None), progress.part(0.0, 0.8))
+    examined = examine(source.name, source.data, source.reading, progress.part(0.0, 0.8))
     return _cut_input(examined, facet, told, progress.part(0.8, 1.0))
 
 

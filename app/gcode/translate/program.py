@@ -100,7 +100,7 @@ def translated(
     if program.error is not None:
         raise InputError(f"{program.error.message(name)} Mend it there; check tells more.")
     made = _written(source, program, steps, optional, progress.part(0.3, 0.5))
-    own = ReadOptions(post.dialect, block_delete=written.block_delete, limits=read.limits)
+    own = ReadOptions(post.dialect, block_delete=written.block_delete, limits=read.limits, units=read.units)
     back = _ReadBack(made, own, read_program(made, own, progress.part(0.5, 0.6)))
     done = _proven(source, left_at_r(program, steps), back, progress.part(0.6, 0.8 if optional else 1.0))
     if not optional:

@@ -6,7 +6,7 @@ Every corner is on the true surface and every cutter is convex, so facets lie in
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -71,6 +71,35 @@ def facet_error(cutter: Cutter, facet: float) -> float:
         return 2.0 * cutter.radius * lean
     bands, angle = _fillet_bands(cutter, facet)
     return cutter.radius * lean + (cutter.fillet * (1.0 - math.cos(angle / bands / 2.0)) if bands else 0.0)
+
+
+def held_cutter(cutter: Cutter, facet: float) -> Cutter | None:
+    """Return a cutter in closed form that lies in the facets of another one, so that what these leave of a work piece
+    is in every cell at least what the other leaves, and at most what this one does.
+
+    A convex body whose facets are nowhere farther inside than e holds all that is e or more within its surface: a
+    rounded cutter is slimmer by e all round, its fillet about the same circle, its tip e higher. Without a fillet only
+    circles are divided: all radii are smaller by the same share, heights as they are.
+
+    Args:
+        cutter: led by its tip. facet: size of the facets, mm.
+
+    Returns:
+        The slimmer cutter, led by the other's tip; None where nothing of that form is left.
+    """
+    if cutter.fillet == 0.0:
+        share = math.cos(math.pi / circle_corners(cutter.radius, facet))
+        return replace(cutter, radius=share * cutter.radius, flat=share * cutter.flat, slope=cutter.slope / share)
+    error = facet_error(cutter, facet)
+    radius, fillet = cutter.radius - error, cutter.fillet - error
+    if fillet <= 0.0:
+        return None
+    if math.isinf(cutter.slope):
+        return replace(cutter, radius=cutter.flat + fillet, fillet=fillet, lift=cutter.lift + error)
+    span = cutter.fillet_span * fillet / cutter.fillet
+    if cutter.flat + span > radius:
+        return None
+    return replace(cutter, radius=radius, fillet=fillet, lift=cutter.lift + error)
 
 
 def _fillet_bands(cutter: Cutter, facet: float) -> tuple[int, float]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from enum import Enum, IntEnum
 
 import numpy as np
@@ -176,21 +176,26 @@ def polygon_counts(course: Course, cutters: Mapping[int, Cutter], facet: float) 
         ParameterError: a tool that cuts is not among the cutters, or the facets are of no size, or far too small.
     """
     total = np.zeros(4, np.int64)
-    for cutter, chains in chains_of(course, cutters, chord_of(course, cutters, facet)):
-        whole, lower = _whole_counts(cutter, facet)
-        kept = {side: np.zeros(len(FacetKind), np.int64) for side in (FacetSide.BOTH, FacetSide.DOWN)}
-        for side, found in kept.items():
-            for part, _ in facets_in(cutter, chains, Tessellation(facet, side=side)):
-                found += np.bincount(part.kind, minlength=len(FacetKind))
-        both, down = kept[FacetSide.BOTH], kept[FacetSide.DOWN]
-        cylinders = FacetKind.CYLINDER
-        total += (
-            both[cylinders] + chains.corners * whole,
-            down[cylinders] + chains.corners * lower,
-            both.sum(),
-            down.sum(),
-        )
+    for part in chains_of(course, cutters, chord_of(course, cutters, facet)):
+        total += astuple(chain_counts(*part, facet))
     return PolygonCounts(*total.tolist())
+
+
+def chain_counts(cutter: Cutter, chains: Chains, facet: float) -> PolygonCounts:
+    """Return how many polygons stand for chains of moves of one cutter; see `polygon_counts`."""
+    whole, lower = _whole_counts(cutter, facet)
+    kept = {side: np.zeros(len(FacetKind), np.int64) for side in (FacetSide.BOTH, FacetSide.DOWN)}
+    for side, found in kept.items():
+        for part, _ in facets_in(cutter, chains, Tessellation(facet, side=side)):
+            found += np.bincount(part.kind, minlength=len(FacetKind))
+    both, down = kept[FacetSide.BOTH], kept[FacetSide.DOWN]
+    cylinders = FacetKind.CYLINDER
+    return PolygonCounts(
+        int(both[cylinders]) + chains.corners * whole,
+        int(down[cylinders]) + chains.corners * lower,
+        int(both.sum()),
+        int(down.sum()),
+    )
 
 
 def _whole_counts(cutter: Cutter, facet: float) -> tuple[int, int]:

@@ -20,7 +20,7 @@ from ...gcode.posts import NurbsForm, Post
 from ...gcode.rework.stretches import FoundStretches, find_stretches
 from ...model.motion import Floats
 from .result import REACH, SmoothOptions
-from .source import SourceProgram, read_source
+from .source import SourceProgram, SourceReading, read_source
 
 _ROUNDING = 1e-6
 """Of a decimal: what places that are told with it may be off by in a float."""
@@ -110,7 +110,8 @@ def resolved(name: str, data: bytes, options: SmoothOptions, progress: Progress)
     Raises:
         InputError: it cannot be read to its end, or its control knows no splines and they are insisted on.
     """
-    source = read_source(name, data, options.dialect, options.post, progress.part(0.0, 0.75))
+    reading = SourceReading(options.dialect, options.units)
+    source = read_source(name, data, reading, options.post, progress.part(0.0, 0.75))
     if options.insist and source.post.nurbs.form is NurbsForm.NONE:
         raise InputError(
             f"{source.post.title} knows no splines, so none can be insisted on; leave {option('insist')} out, or name "

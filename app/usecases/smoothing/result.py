@@ -25,6 +25,7 @@ from ...gcode.interpreter.program import NcProgram
 from ...gcode.posts import Post
 from ...gcode.rework.stretches import FeedStretch, FoundStretches
 from ...model.motion import Floats
+from ...model.part import Units
 
 TOLERANCES = (1e-4, 10.0)
 """mm; what a tolerance may be."""
@@ -59,6 +60,7 @@ class SmoothOptions:
             moves do there.
         profile: the region's outline, r = f(z), where it is neither a cylinder nor a barrel; it then tells the
             tolerance, its radius at the points, and there is no middle.
+        units: of a program that names none; None = mm.
         insist: splines all along, however many blocks they take, smooth of the second order from corner to corner.
     """
 
@@ -73,6 +75,7 @@ class SmoothOptions:
     bend: float = BEND
     insist: bool = False
     profile: RegionProfile | None = None
+    units: Units | None = None
 
     @property
     def widest(self) -> float:

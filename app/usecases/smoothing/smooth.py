@@ -74,9 +74,10 @@ def _written_until_proven(
 ) -> _WrittenStretches:
     """Write, read back and judge; what does not pass is fitted in a narrower region, or stays, until all does."""
     post = context.post
+    reading = ReadOptions(post.dialect, limits=PATIENT, units=context.options.units)
     while True:
         text = rewrite(context.source.data, context.found.stretches, _blocks(fits), ())
-        program = read_program(text.data, ReadOptions(post.dialect, limits=PATIENT), progress.part(0.7, 0.8))
+        program = read_program(text.data, reading, progress.part(0.7, 0.8))
         if program.error is not None:
             raise InputError(f"{post.title} does not read what is written for it: {program.error.message(name)}")
         answers = judged(context, fits, program, text, progress.part(0.8, 1.0))

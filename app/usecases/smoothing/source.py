@@ -22,6 +22,8 @@ from ...gcode.posts import Post, load_post
 from ...gcode.rework.stretches import FeedStretch
 from ...gcode.translate.program import translated
 from ...model.motion import Floats
+from ...model.part import Units
+from ..kind_of_file import ensure_program
 
 _POSTS = {
     Dialect.LINUXCNC: "linuxcnc",
@@ -30,6 +32,23 @@ _POSTS = {
     Dialect.GRBL: "grbl",
     Dialect.MACH3: "mach3",
 }
+
+
+@dataclass(frozen=True, slots=True)
+class SourceReading:
+    """How a program is read.
+
+    Attributes:
+        dialect: of which control it is; None = as it looks.
+        units: of a program that names none; None = mm.
+    """
+
+    dialect: Dialect | None = None
+    units: Units | None = None
+
+
+AS_IT_LOOKS = SourceReading()
+"""By the looks of its text, in mm unless it says inch."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,23 +95,24 @@ def usual_post(dialect: Dialect) -> str:
 def read_source(
     name: str,
     data: bytes,
-    dialect: Dialect | None,
-    target: Post | None,
+    reading: SourceReading = AS_IT_LOOKS,
+    target: Post | None = None,
     progress: Progress = NO_PROGRESS,
 ) -> SourceProgram:
     """Return a program in the words that it is to be written in.
 
     Args:
         name: of the file, for messages. data: its bytes.
-        dialect: of which control it is; None = as it looks.
+        reading: how.
         target: in whose words it is to be written; None = that control's.
 
     Raises:
-        InputError: it cannot be read to its end, or holds what the other control cannot be told.
+        InputError: it is no program, cannot be read to its end, or holds what the other control cannot be told.
     """
-    dialect = dialect or guess_dialect(data)
+    ensure_program(name)
+    dialect = reading.dialect or guess_dialect(data)
     post = target or load_post(usual_post(dialect))
-    read = ReadOptions(dialect, limits=PATIENT)
+    read = ReadOptions(dialect, limits=PATIENT, units=reading.units)
     source = read_program(data, read, progress.part(0.0, 0.3))
     if source.error is not None:
         raise InputError(f"{source.error.message(name)} Mend it there; check tells more.")

@@ -6,15 +6,10 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
-from app.core.catalogue import catalogue
-from app.core.errors import InputError
-from app.core.progress import NO_PROGRESS
 from app.core.resources import resource
-from app.exhibits.films.making import FilmSource
-from app.model.tool import Tool
+from app.model.part import Units
 from app.model.tool_kind import ToolKind
 from app.ui.framework.view import View
-from app.ui.views.stages.own_cut import own_cut, own_cut_of_ball
 from tests.ui.conftest import WAIT_MS
 from tests.ui.nc.opened import open_file
 
@@ -84,6 +79,22 @@ def test_a_film_is_made_of_ones_own_program_or_says_what_is_missing(qtbot, wirin
     assert stages.films.film is not None and stages.films.film.source == "points.ngc"
 
 
+def test_a_program_that_was_said_to_be_in_inches_is_shown_as_large_as_it_is(qtbot, wiring, tmp_path):
+    """Films of curves read its bytes as mm, 25.4 times too small, while NC and Cut showed it in inches."""
+    program = tmp_path / "nobody_said.ngc"
+    program.write_text("G90 G17 G94\nG0 X0 Y0 Z.2\nG1 Z-.1 F10\nX1 Y.1\nX2 Y.4\nX3 Y.9\nX4 Y1.6\nG0 Z.2\nM2\n")
+    nc = open_file(qtbot, wiring, program)
+    QTest.mouseClick(wiring.window_.notice.buttons[1], LEFT)
+    qtbot.waitUntil(lambda: nc.shown.source.units is Units.INCH, timeout=WAIT_MS)
+    stages = show_text(qtbot, wiring, "D")
+    QTest.mouseClick(wiring.window_.film_panel.source.buttons[True], LEFT)
+    qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
+    film = stages.films.film
+    assert film is not None, wiring.window_.views.empty.sentence.text()
+    tried = next(step for step in film.steps if step.number == "S115")
+    assert next(each.value for each in tried.figures if each.name == "off here") > 1.0, "of inches, not of mm"
+
+
 @pytest.mark.exhaustive
 def test_text_b_shows_wedges_and_tries_several_sizes_of_facets(qtbot, wiring):
     stages = show_text(qtbot, wiring, "B")
@@ -94,7 +105,6 @@ def test_text_b_shows_wedges_and_tries_several_sizes_of_facets(qtbot, wiring):
     assert "16.83 s" in panel.table.text()
 
 
-@pytest.mark.exhaustive
 def test_a_program_that_does_not_tell_its_tool_is_said_where_and_then_shown(qtbot, wiring, tmp_path):
     """The window has no command line: text B takes the tools that Cut was told."""
     program = tmp_path / "bare.ngc"
@@ -115,14 +125,3 @@ def test_a_program_that_does_not_tell_its_tool_is_said_where_and_then_shown(qtbo
     wiring.display_controller.show_view(View.STAGES)
     qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
     assert stages.films.film is not None and stages.films.film.source == "bare.ngc"
-
-
-def test_a_program_without_a_ball_is_said_where_one_is_chosen():
-    text = b"(T1 flat 6 mm)\nG21 G90 G17\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F200\nX20\nG0 Z5\nM2\n"
-    source = FilmSource("flat.ngc", text, lambda name: b"", tools={1: Tool(1, diameter=6.0)})
-    with pytest.raises(
-        InputError, match=r"flat.ngc has no ball cutter.*Tools and stock… at the right of its cut"
-    ) as said:
-        own_cut_of_ball(source, NO_PROGRESS)
-    assert catalogue("ja").look_up(str(said.value)) is not None
-    assert own_cut(source, NO_PROGRESS).cutters, "figure 11 takes any cutter"

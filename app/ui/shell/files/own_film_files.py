@@ -36,9 +36,9 @@ class OwnFilmFiles:
         if shown is None:
             return None
         source = shown.source
-        if letter != "B":
-            return FilmSource(source.name, source.bytes(), lambda name: _read(Path(name)))
         reading = ExamineOptions(source.dialect, source.tools, units=source.units)
+        if letter != "B":
+            return FilmSource(source.name, source.bytes(), lambda name: _read(Path(name)), reading)
         known = self._cut.known_of(source)
         return FilmSource(
             source.name, source.bytes(), lambda name: _read(Path(name)), reading, known.tools, known.stock

@@ -31,21 +31,3 @@ def own_cut(source: FilmSource, progress: Progress) -> CutFilmInput:
             raise InputError(without_options(str(error))) from error
         where = "Show its cut in NC (Ctrl+K), say there what it is, and come back."
         raise InputError(f"{without_options(str(error))} {where}") from error
-
-
-def own_cut_of_ball(source: FilmSource, progress: Progress) -> CutFilmInput:
-    """Return what a program cuts with a ball among its tools; on the worker's thread.
-
-    Raises:
-        HitofudeError: as `own_cut`; or no tool is a ball, then with where to choose one.
-        Cancelled: the job was asked to stop.
-    """
-    from ....simulation.gpu.polyhedron import is_ball
-
-    found = own_cut(source, progress)
-    if not any(map(is_ball, found.cutters.values())):
-        raise InputError(
-            f"{source.name} has no ball cutter, and cylinders and wedges are the sweep of a ball. Choose one: Tools at "
-            "the right of Draw; of a program that you opened, Tools and stock… at the right of its cut."
-        )
-    return found

@@ -18,7 +18,7 @@ from ...framework.figures import counted
 from ...framework.missing import NOTHING, MissingHint
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
-from .own_cut import own_cut_of_ball
+from .own_cut import own_cut
 from .text_film_panel import TextFilmPanel
 from .view import StagesView
 
@@ -200,5 +200,5 @@ def _made(letter: str, source: FilmSource | None, progress: Progress) -> TextFil
 
     text, cutting = TEXTS[letter], None
     if letter == "B" and source is not None:
-        cutting = own_cut_of_ball(source, progress.part(0.0, 0.1))
+        cutting = own_cut(source, progress.part(0.0, 0.1))
     return make_film(text, source, progress=progress.part(0.1, 1.0), cutting=cutting)
