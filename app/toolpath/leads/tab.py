@@ -176,10 +176,9 @@ class TabShape:
         most = np.clip(path.length / 2 - 2 * halves, 0.0, 2 * halves)
         on = most[:, None] * np.linspace(0.0, 1.0, _LOOKS)
         low, high = (places - halves)[:, None] - on, (places + halves)[:, None] + on
-        shape = (len(places), _LOOKS, 2)
-        return TabEnds(
-            path.points(places), path.points(low.ravel()).reshape(shape), path.points(high.ravel()).reshape(shape)
-        )
+        points = path.points(np.concatenate([places, low.ravel(), high.ravel()]))
+        before, after = points[len(places) :].reshape(2, len(places), _LOOKS, 2)
+        return TabEnds(points[: len(places)], before, after)
 
     def _longer(self, path: ContourPath, places: Floats) -> Floats:
         """Return the shortest ways (m,) that leave metal as wide as asked for, half of each, mm; else those that leave
