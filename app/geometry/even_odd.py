@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, compress
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +73,8 @@ def even_odd(
 
 def _middle(curves: Sequence[Primitive], chords: Floats) -> Floats:
     """Return a point amid the curves: what is far from zero loses digits."""
-    starts = np.concatenate([np.array([curve.start for curve in curves]).reshape(-1, 2), chords[:, :2]])
+    drawn = np.fromiter(chain.from_iterable(map(attrgetter("start"), curves)), np.float64, 2 * len(curves))
+    starts = np.concatenate([drawn.reshape(-1, 2), chords[:, :2]])
     middle: Floats = (starts.min(axis=0) + starts.max(axis=0)) / 2
     return middle
 
@@ -81,7 +83,8 @@ def _rising(curves: Sequence[Primitive], chords: Floats, centre: Floats) -> tupl
     """Return (curves that rise all along (m, 7), see the kernels, from which curve (m,) each is, length of all, mm)."""
     straight = np.array([isinstance(curve, Line) for curve in curves], np.bool_)
     lines, arcs = np.flatnonzero(straight), np.flatnonzero(~straight)
-    drawn = np.array([(*curves[k].start, *curves[k].end) for k in lines.tolist()]).reshape(-1, 4)
+    points = chain.from_iterable(map(attrgetter("start", "end"), compress(curves, straight)))
+    drawn = np.fromiter(chain.from_iterable(points), np.float64, 4 * len(lines)).reshape(-1, 4)
     ends, lines = (
         np.concatenate([drawn, chords]) - np.tile(centre, 2),
         np.append(lines, len(curves) + np.arange(len(chords))),
@@ -100,7 +103,7 @@ def _rising_arcs(arcs: Sequence[Arc | Circle], centre: Floats) -> tuple[Floats, 
     """Return the same for arcs and circles, which are cut at their highest and lowest places."""
     if not arcs:
         return np.zeros((0, 7)), np.zeros(0, np.int64), 0.0
-    points = chain.from_iterable((arc.start, arc.end, arc.centre) for arc in arcs)
+    points = chain.from_iterable(map(attrgetter("start", "end", "centre"), arcs))
     table = np.fromiter(chain.from_iterable(points), np.float64, 6 * len(arcs))
     start, end, middle = np.hsplit(table.reshape(-1, 6), 3)
     sweep, radius, first = _turning(start - middle, end - middle, arcs)
@@ -134,7 +137,8 @@ def _turning(out: Floats, back: Floats, arcs: Sequence[Arc | Circle]) -> tuple[F
     """Return (signed sweep, radius, angle of the start), each (n,), of arcs that begin and end at these vectors from
     their centres.
     """
-    ccw, whole = np.array([(arc.ccw, isinstance(arc, Circle)) for arc in arcs]).T
+    ccw = np.fromiter(map(attrgetter("ccw"), arcs), np.bool_, len(arcs))
+    whole = np.array([isinstance(arc, Circle) for arc in arcs], np.bool_)
     first, last = np.arctan2(out[:, 1], out[:, 0]), np.arctan2(back[:, 1], back[:, 0])
     turn = (last - first) % (2 * np.pi)
     sweep = np.where(ccw, np.where(whole, 2 * np.pi, turn), np.where(whole, 0.0, turn) - 2 * np.pi)

@@ -11,6 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain, pairwise
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,6 +52,9 @@ class Primitives:
     region: Indices
 
 
+_ENDS = attrgetter("start", "end")
+
+
 def curve_rows(curve: Primitive) -> list[tuple[float, ...]]:
     """Return the rows of one line, arc or circle; arcs are split so that each sweeps less than pi.
 
@@ -72,15 +76,15 @@ def rows_of(primitives: Sequence[Primitive]) -> tuple[Rows, Indices]:
     Raises:
         GeometryError: an arc begins where it ends.
     """
-    round_ones = [k for k, each in enumerate(primitives) if type(each) is Circle]
-    if round_ones:
-        return _one_by_one(primitives, np.array(round_ones))
-    ends = chain.from_iterable(chain.from_iterable((each.start, each.end) for each in primitives))
+    kinds = set(map(type, primitives))
+    if Circle in kinds:
+        return _one_by_one(primitives, np.array([k for k, each in enumerate(primitives) if type(each) is Circle]))
+    ends = chain.from_iterable(chain.from_iterable(map(_ENDS, primitives)))
     rows = np.zeros((len(primitives), 8))
     rows[:, :4] = np.fromiter(ends, np.float64, 4 * len(rows)).reshape(-1, 4)
-    bent = [(k, each.centre, each.ccw) for k, each in enumerate(primitives) if type(each) is Arc]
-    if not bent:
+    if Arc not in kinds:
         return rows, np.arange(len(rows))
+    bent = [(k, each.centre, each.ccw) for k, each in enumerate(primitives) if type(each) is Arc]
     at, centres, left = zip(*bent, strict=True)
     arcs, turn = np.array(at), np.where(np.array(left), 1.0, -1.0)
     a, b, centre = rows[arcs, :2], rows[arcs, 2:4], np.array(centres)

@@ -7,12 +7,16 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..core.errors import ParameterError
-from .curves import Arc, Circle, Line, Point, Primitive
+from .curves import Arc, Circle, Line, Point
 from .job import Job, OriginXY, OriginZ
 from .part import Contour, Region
 
 QUADRANTS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 """Directions in which a circle reaches farthest along an axis."""
+
+
+_Box = tuple[float, float, float, float]
+"""x0, y0, x1, y1, mm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +36,7 @@ class StockBox:
         return (self.x1 - self.x0, self.y1 - self.y0, self.z1 - self.z0)
 
 
-def extent(contours: Iterable[Contour]) -> tuple[float, float, float, float] | None:
+def extent(contours: Iterable[Contour]) -> _Box | None:
     """Return (x0, y0, x1, y1) of the contours, mm, arcs by what they really reach; None when there are none."""
     boxes = [_box(contour) for contour in contours if contour.primitives]
     if not boxes:
@@ -41,13 +45,19 @@ def extent(contours: Iterable[Contour]) -> tuple[float, float, float, float] | N
     return (min(x0), min(y0), max(x1), max(y1))
 
 
-def _box(contour: Contour) -> tuple[float, float, float, float]:
+def _box(contour: Contour) -> _Box:
     if "box" not in contour.kept:
-        points = [point for each in contour.primitives for point in _extreme_points(each)]
-        x, y = zip(*points, strict=True)
-        contour.kept["box"] = min(x), min(y), max(x), max(y)
-    box: tuple[float, float, float, float] = contour.kept["box"]
+        ends = _round_points([point for each in contour.primitives for point in (each.start, each.end)])
+        bent = [each for each in contour.primitives if not isinstance(each, Line)]
+        tops = [point for each in bent for point in _tops_beyond(each, ends)]
+        contour.kept["box"] = _round_points([ends[:2], ends[2:], *tops]) if tops else ends
+    box: _Box = contour.kept["box"]
     return box
+
+
+def _round_points(points: list[Point]) -> _Box:
+    x, y = zip(*points, strict=True)
+    return min(x), min(y), max(x), max(y)
 
 
 def stock_box(job: Job, regions: Iterable[Region], lines: Iterable[Contour] = ()) -> StockBox:
@@ -97,17 +107,19 @@ def work_origin(job: Job, box: StockBox) -> tuple[float, float, float]:
     return (x, y, 0.0 if job.origin_z is OriginZ.TOP else box.z0)
 
 
-def _extreme_points(primitive: Primitive) -> list[Point]:
-    """Return points of a primitive that hold its extent: its ends, and where an arc passes a quadrant."""
-    ends = [primitive.start, primitive.end]
-    if isinstance(primitive, Line) or (isinstance(primitive, Arc) and _within_quadrant(primitive)):
-        return ends
-    (cx, cy), radius = primitive.centre, primitive.radius
-    return ends + [
-        (cx + radius * ux, cy + radius * uy)
-        for ux, uy in QUADRANTS
-        if isinstance(primitive, Circle) or _passes(primitive, math.atan2(uy, ux))
-    ]
+def _tops_beyond(curve: Arc | Circle, box: _Box) -> list[Point]:
+    """Return where an arc or circle passes a quadrant beyond a box: there alone it may reach farther than the box."""
+    if isinstance(curve, Arc) and _within_quadrant(curve):
+        return []
+    (cx, cy), radius, (x0, y0, x1, y1) = curve.centre, curve.radius, box
+    found = []
+    for ux, uy in QUADRANTS:
+        x, y = cx + radius * ux, cy + radius * uy
+        if x0 <= x <= x1 and y0 <= y <= y1:
+            continue
+        if isinstance(curve, Circle) or _passes(curve, math.atan2(uy, ux)):
+            found.append((x, y))
+    return found
 
 
 def _within_quadrant(arc: Arc) -> bool:

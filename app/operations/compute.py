@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -14,7 +14,6 @@ from ..core.beside import BesideWork, beside
 from ..core.effort import Reckoning, announce
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.wording import counted, in_plane
-from ..geometry.outlines import nested
 from ..model.finding import Finding, FindingKind, worst_first
 from ..model.job import Job
 from ..model.moves import Program
@@ -29,7 +28,6 @@ from ..toolpath.drawn_contours import DrawnContours, drawn_contours, selected, s
 from ..toolpath.drill_holes import across_holes
 from ..toolpath.machining_areas import MachiningAreas
 from ..toolpath.operation_context import OperationContext, PreparedStrokes, ProgramDigits
-from ..toolpath.witness import region_findings
 from .effort import CONTOUR_S, ISLAND_S, workload_of
 from .from_outside import emit_prepared
 from .registry import method_of
@@ -49,7 +47,7 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     progress.step(0.0, "Chain contours")
     parts = drawn_contours(job)
     lines = followed_lines(job, parts)
-    made = machined_regions(parts)
+    made = parts.regions
     about = [*drawing_findings(job, parts, lines), *made.findings]
     context = OperationContext(job, made.regions, MachiningAreas(job, parts), findings=about, observer=observer)
     if not context.regions and not lines:
@@ -86,25 +84,10 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     )
 
 
-@dataclass(frozen=True)
-class MachinedRegions:
-    """The regions that all closed contours of a drawing bound, and what there is to say of how they came about."""
-
-    regions: tuple[Region, ...]
-    findings: tuple[Finding, ...] = ()
-
-
-def machined_regions(parts: DrawnContours) -> MachinedRegions:
-    """Return the regions that all closed contours bound; those that meet count even-odd."""
-    made = parts.uncrossed
-    nesting = nested(made.contours)
-    return MachinedRegions(nesting.regions, (*made.findings, *region_findings(parts.closed, (), nesting)))
-
-
 def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
     """Return (regions, findings about the drawing) of the layers that a job machines."""
     parts = drawn_contours(job)
-    made = machined_regions(parts)
+    made = parts.regions
     return made.regions, [*parts.findings, *made.findings]
 
 

@@ -22,8 +22,8 @@ from ..core.wording import in_plane
 from ..geometry.as_circle import as_circle
 from ..geometry.chaining.chain import ChainingResult, chain
 from ..geometry.even_odd import even_odd
-from ..geometry.outlines import holders, reversed_contour
-from ..geometry.overlay.overlay import OverlayResult, without_crossings
+from ..geometry.outlines import holders, nested, reversed_contour
+from ..geometry.overlay.overlay import OverlayResult, without_crossings, without_outlines
 from ..geometry.primitives import contour_rows, sample, signed_area
 from ..model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer, Selector, layer_names
 from ..model.curves import Arc, Circle, Line, Point, Primitive
@@ -34,10 +34,18 @@ from ..model.notes import Mark, Note
 from ..model.operation import Operation, Side
 from ..model.part import Contour, Entity, Region
 from ..model.stock_box import extent
-from .witness import chaining_findings
+from .witness import chaining_findings, region_findings
 
 _CHORD = 1e-3
 """mm; arcs as chords within this, where it is asked what lies in what."""
+
+
+@dataclass(frozen=True)
+class DrawnRegions:
+    """Regions that closed contours bound, and what there is to say of how they came about."""
+
+    regions: tuple[Region, ...]
+    findings: tuple[Finding, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -66,9 +74,32 @@ class DrawnContours:
 
     def without_crossings(self, contours: Sequence[Contour]) -> OverlayResult:
         """Return `uncrossed` of some contours, which are closed ones and others; of all closed ones it is made once."""
-        if len(contours) == len(self.closed) and all(map(is_, contours, self.closed)):
+        if self._all_closed(contours):
             return self.uncrossed
         return without_crossings(contours) if self.crossing else OverlayResult(tuple(contours))
+
+    @cached_property
+    def regions(self) -> DrawnRegions:
+        """What all closed contours bound, without a look at clamps; those that meet count even-odd."""
+        made = self.uncrossed
+        nesting = nested(made.contours)
+        return DrawnRegions(nesting.regions, (*made.findings, *region_findings(self.closed, (), nesting)))
+
+    def regions_of(self, contours: Sequence[Contour]) -> DrawnRegions:
+        """Return `regions` of some contours, which are closed ones and others, without what clamps hold; the witness is
+        asked about them. Of all closed ones, where nothing is clamped, they are made once.
+        """
+        if self._all_closed(contours) and not self.clamps:
+            return self.regions
+        plain = self.without_crossings(contours)
+        outlines = [clamp.boundary for clamp in self.clamps]
+        free = without_outlines(plain.contours, outlines)
+        nesting = nested(free.contours)
+        about = region_findings(contours, outlines, nesting)
+        return DrawnRegions(nesting.regions, (*plain.findings, *free.findings, *about))
+
+    def _all_closed(self, contours: Sequence[Contour]) -> bool:
+        return len(contours) == len(self.closed) and all(map(is_, contours, self.closed))
 
     @cached_property
     def holders(self) -> list[list[int]]:

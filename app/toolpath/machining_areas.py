@@ -292,12 +292,9 @@ class MachiningAreas:
         """Return the regions that contours bound even-odd, without what clamps hold; the witness is asked about
         them.
         """
-        plain = self.drawn.without_crossings(contours)
-        outlines = [clamp.boundary for clamp in self.drawn.clamps]
-        free = without_outlines(plain.contours, outlines)
-        nesting = nested(free.contours)
-        self.findings += [*plain.findings, *free.findings, *region_findings(contours, outlines, nesting)]
-        return nesting.regions
+        made = self.drawn.regions_of(contours)
+        self.findings += made.findings
+        return made.regions
 
     @cached_property
     def _made_by_drills(self) -> frozenset[CircleHole | None]:

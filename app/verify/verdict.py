@@ -168,11 +168,11 @@ def _on_cones(moves: Moves, job: Job, chosen: NDArray[np.int64]) -> NDArray[np.b
 
 def _slanted(bound: OperationBound, moves: Moves, job: Job, chosen: NDArray[np.int64]) -> tuple[Floats, Floats]:
     """Return how far moves of `_on_cones` reach beyond walls, mm, each as wide as it is there, and where, (n, 2)."""
-    cones = {tool.number: tool.profile for tool in job.tools if tool.kind is ToolKind.V}
-    numbers = moves.tool[chosen].tolist()
-    tip = np.array([cones[number].flat for number in numbers]) + bound.leave
-    rate = np.array([1 / cones[number].cone for number in numbers])
-    widest = np.array([job.tool(number).radius for number in numbers]) + bound.leave
+    numbers, which = np.unique(moves.tool[chosen], return_inverse=True)
+    tools = [job.tool(number) for number in numbers.tolist()]
+    tip = np.array([tool.profile.flat for tool in tools])[which] + bound.leave
+    rate = np.array([1 / tool.profile.cone for tool in tools])[which]
+    widest = np.array([tool.radius for tool in tools])[which] + bound.leave
     slanted = SlantedMoves(moves.start[chosen], moves.end[chosen], tip, rate, widest)
     walls = np.concatenate([contour_rows(contour) for region in bound.area.regions for contour in region.contours])
     depth, places = reach_beyond(slanted, within_half_turn(walls))

@@ -12,7 +12,7 @@ from app.model.job import Job
 from app.model.operation import CutParameters, Operation, PocketOperation, Side
 from app.model.part import Entity, Part
 from app.model.tool import Tool
-from app.operations.compute import compute, drawing_findings, followed_lines, machined_regions
+from app.operations.compute import compute, drawing_findings, followed_lines
 from app.toolpath.drawn_contours import drawn_contours, strokes_of
 
 PLATE = Circle((5.0, 7.0), 60.0)
@@ -32,7 +32,7 @@ def test_no_letter_changes_what_is_cleared(letters: str) -> None:
     """
     written, plain = (job(words, PocketOperation(CutParameters(1))) for words in (letters, ""))
     parts = drawn_contours(written)
-    assert machined_regions(parts).regions == machined_regions(drawn_contours(plain)).regions
+    assert parts.regions.regions == drawn_contours(plain).regions.regions
     (found,) = drawing_findings(written, parts, followed_lines(written, parts))
     assert found.kind is FindingKind.OPEN_CONTOUR and not found.counts
     assert found.text.startswith("Layer 0 has ") and "no operation follows; --side on" in found.text

@@ -21,7 +21,6 @@ from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.part import Contour, Entity, Part
-from app.operations import compute
 from app.toolpath import drawn_contours, machining_areas, witness
 from app.toolpath.witness import grown_findings
 from app.usecases.job.machining import MachiningOptions
@@ -121,9 +120,8 @@ def lose_a_region(patch: pytest.MonkeyPatch) -> None:
         found = nested(contours)
         return replace(found, regions=found.regions[:-1])
 
-    nested = machining_areas.nested
-    patch.setattr(machining_areas, "nested", fewer)
-    patch.setattr(compute, "nested", fewer)
+    nested = drawn_contours.nested
+    patch.setattr(drawn_contours, "nested", fewer)
 
 
 def fill_an_island(patch: pytest.MonkeyPatch) -> None:
@@ -131,8 +129,8 @@ def fill_an_island(patch: pytest.MonkeyPatch) -> None:
         found = nested(contours)
         return replace(found, regions=tuple(replace(region, islands=()) for region in found.regions))
 
-    nested = machining_areas.nested
-    patch.setattr(machining_areas, "nested", filled)
+    nested = drawn_contours.nested
+    patch.setattr(drawn_contours, "nested", filled)
 
 
 def lose_a_contour(patch: pytest.MonkeyPatch) -> None:
@@ -164,8 +162,8 @@ def move_a_region(patch: pytest.MonkeyPatch) -> None:
             found, regions=(*found.regions[:-1], replace(last, boundary=replace(last.boundary, primitives=primitives)))
         )
 
-    nested = machining_areas.nested
-    patch.setattr(machining_areas, "nested", moved)
+    nested = drawn_contours.nested
+    patch.setattr(drawn_contours, "nested", moved)
 
 
 def lose_a_floor(patch: pytest.MonkeyPatch) -> None:

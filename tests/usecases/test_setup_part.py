@@ -21,7 +21,7 @@ from app.model.moves import Area, DogBone, Program, Tab
 from app.model.operation import CutParameters, Operation, PocketOperation, Side
 from app.model.tool import Tool
 from app.model.tool_kind import ToolKind
-from app.operations.compute import followed_lines, machined_regions
+from app.operations.compute import followed_lines
 from app.toolpath.coverage.areas import region_shapes
 from app.toolpath.drawn_contours import drawn_contours
 from app.toolpath.machining_areas import MachiningAreas
@@ -92,7 +92,7 @@ def test_comments_lead_to_the_same_areas(name: str, post: str) -> None:
     made = drawn_contours(job)
     program = replace(
         _moves(job),
-        regions=machined_regions(made).regions,
+        regions=made.regions.regions,
         areas=MachiningAreas(job, made).areas(),
         lines=followed_lines(job, made),
         tabs=TABS,

@@ -290,8 +290,8 @@ def repeated(pieces: Sequence[ChainPiece], nodes: Nodes, reach: float) -> list[O
     repeat was a wall of two outlines, and comes back.
     """
     groups: dict[tuple[object, ...], list[int]] = {}
-    for k, piece in enumerate(pieces):
-        groups.setdefault(_key(piece, nodes[k], reach), []).append(k)
+    for k, (piece, (a, b)) in enumerate(zip(pieces, nodes.tolist(), strict=True)):
+        groups.setdefault(_key(piece, (a, b), reach), []).append(k)
     found: list[tuple[int, int]] = []
     for group in groups.values():
         kept: list[int] = []
@@ -317,12 +317,12 @@ def repeated(pieces: Sequence[ChainPiece], nodes: Nodes, reach: float) -> list[O
     return overlaps
 
 
-def _key(piece: ChainPiece, ends: Nodes, reach: float) -> tuple[object, ...]:
+def _key(piece: ChainPiece, ends: tuple[int, int], reach: float) -> tuple[object, ...]:
     """Return what repeats have in common for certain; circles fall into cells far wider than `reach`, see `same`."""
     if isinstance(piece.primitives[0], Circle):
         circle = piece.primitives[0]
         return "circle", *(round(v / (1000 * reach)) for v in (*circle.centre, circle.radius))
-    return int(min(ends)), int(max(ends))
+    return min(ends), max(ends)
 
 
 def same(a: ChainPiece, b: ChainPiece, reach: float) -> bool:

@@ -4,18 +4,20 @@ centre the lines.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+import shapely
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...core.wording import in_plane
 from ...geometry.distance import DistanceField
+from ...geometry.near_points import near
 from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
-from ...geometry.primitives import TURN, R, Rows, lengths, points_at, reversed_rows
+from ...geometry.primitives import TURN, Indices, R, Rows, boxes, lengths, points_at, reversed_rows
 from ...model.contour_operation import ContourOperation
 from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind
@@ -291,10 +293,7 @@ def _rough(
     shape = replace(shape, finished=finished)
     tabs: list[list[float]] = [[] for _ in paths]
     if len(finished.middles) and paths:
-        near = [path.nearest(finished.middles) for path in paths]
-        for k, owner in enumerate(np.argmin(np.array([far for _, far in near]), axis=0).tolist()):
-            if near[owner][1][k] <= _FAR * width:
-                tabs[owner].append(float(near[owner][0][k]))
+        tabs = _places_beside(paths, finished.middles, _FAR * width)
     taken = [spans_of(path, places, shape) for path, places in zip(paths, tabs, strict=True)]
     made = runs(paths, taken, work.around(distance), _beginnings(paths, finish, _FAR * width))
     told = narrow_tab_findings(finish.runs, finish.tabs, replace(shape, finished=None))
@@ -315,10 +314,54 @@ def _beginnings(paths: Sequence[ContourPath], finish: _ContourStrokes, most: flo
     wished: list[list[float]] = [[] for _ in paths]
     if paths and finish.runs:
         points = np.concatenate([run.path.points(np.array([run.start])) for run in finish.runs])
-        for path, own in zip(paths, wished, strict=True):
-            where, far = path.nearest(points)
-            own.extend(where[far <= most].tolist())
+        for each in _points_beside(paths, points, most):
+            wished[each.path].extend(each.where.tolist())
     return wished
+
+
+class _PointsBeside(NamedTuple):
+    """Points that lie beside a path.
+
+    Attributes:
+        path: its number.
+        number: (m,) of the points, rising.
+        where: (m,) how far along the path is what of it is nearest to each, mm.
+        far: (m,) how far off that is, mm.
+    """
+
+    path: int
+    number: Indices
+    where: Floats
+    far: Floats
+
+
+def _points_beside(paths: Sequence[ContourPath], points: Floats, most: float) -> Iterator[_PointsBeside]:
+    """Yield for each path the points (n, 2) that lie within a distance of it, mm, by an index: paths may be many."""
+    reach = most * (1 + 1e-9)
+    around = np.array([(*(box := boxes(path.rows))[:, :2].min(axis=0), *box[:, 2:].max(axis=0)) for path in paths])
+    index = shapely.STRtree(shapely.points(points))
+    pairs = near(index, shapely.box(*(around + np.array([-reach, -reach, reach, reach])).T))
+    path, number = pairs[:, np.lexsort(pairs[::-1])]
+    bounds = np.searchsorted(path, np.arange(len(paths) + 1))
+    for k in np.unique(path).tolist():
+        own = number[bounds[k] : bounds[k + 1]]
+        where, far = paths[k].nearest(points[own])
+        beside = far <= most
+        yield _PointsBeside(k, own[beside], where[beside], far[beside])
+
+
+def _places_beside(paths: Sequence[ContourPath], points: Floats, most: float) -> list[list[float]]:
+    """Return for each path how far along it are the points (n, 2) that lie beside it and nearer to no other one, mm."""
+    owner, place = np.full(len(points), -1), np.zeros(len(points))
+    least = np.full(len(points), np.inf)
+    for each in _points_beside(paths, points, most):
+        better = each.far < least[each.number]
+        number = each.number[better]
+        owner[number], place[number], least[number] = each.path, each.where[better], each.far[better]
+    found: list[list[float]] = [[] for _ in paths]
+    for k in np.flatnonzero(owner >= 0).tolist():
+        found[int(owner[k])].append(float(place[k]))
+    return found
 
 
 def _together(work: _ContourJob, finish: _ContourStrokes, rough: _ContourStrokes | None) -> list[Stroke]:

@@ -6,6 +6,7 @@ keeps off it by more: distance from walls changes by no more than the way gone.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -47,13 +48,8 @@ class AxisBranch:
         """Return it from its end to its beginning."""
         return AxisBranch(np.ascontiguousarray(self.discs[::-1]))
 
-    def between(self, low: float, high: float) -> list[AxisBranch]:
+    def clipped(self, low: float, high: float) -> list[AxisBranch]:
         """Return the parts of it whose radius is within limits, mm; they end at the limit."""
-        radii = self.discs[:, 2]
-        if low <= radii.min() and radii.max() <= high:
-            return [self]
-        if radii.max() < low or radii.min() > high:
-            return []
         found: list[AxisBranch] = []
         points: list[Floats] = []
         for a, b in zip(self.discs[:-1], self.discs[1:], strict=True):
@@ -65,6 +61,24 @@ class AxisBranch:
                 points = []
             points += [part[1]] if points else list(part)
         return [*found, AxisBranch(np.array(points))] if len(points) > 1 else found
+
+
+def between(branches: Sequence[AxisBranch], low: float, high: float) -> list[AxisBranch]:
+    """Return the parts of branches whose radius is within limits, mm; they end at the limit."""
+    if not branches:
+        return []
+    radii = np.concatenate([branch.discs[:, 2] for branch in branches])
+    begins = np.cumsum([0, *(len(branch.discs) for branch in branches[:-1])])
+    least, most = np.minimum.reduceat(radii, begins), np.maximum.reduceat(radii, begins)
+    inside = ((low <= least) & (most <= high)).tolist()
+    outside = ((most < low) | (least > high)).tolist()
+    found: list[AxisBranch] = []
+    for branch, whole, none in zip(branches, inside, outside, strict=True):
+        if whole:
+            found.append(branch)
+        elif not none:
+            found += branch.clipped(low, high)
+    return found
 
 
 def _clipped(a: Floats, b: Floats, low: float, high: float) -> tuple[Floats, Floats] | None:

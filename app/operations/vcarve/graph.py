@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
-from heapq import heapify, heappop
 
 import numpy as np
 
@@ -46,16 +44,16 @@ class BranchGraph:
         a, b = self.ends[number]
         return b if node == a else a
 
-    def from_node(self, number: int, node: int) -> AxisBranch:
-        """Return a branch as it goes on from a node."""
-        branch = self.branches[number]
-        return branch if self.ends[number][0] == node else branch.backwards()
+    def from_node(self, number: int, node: int) -> Floats:
+        """Return the discs (n, 3) of a branch as it goes on from a node."""
+        discs = self.branches[number].discs
+        return discs if self.ends[number][0] == node else discs[::-1]
 
 
 def graph_of(branches: Iterable[AxisBranch]) -> BranchGraph:
     """Return branches as a graph."""
     branches = list(branches)
-    discs = np.array([branch.discs[k] for branch in branches for k in (0, -1)]).reshape(-1, 3)
+    discs = end_discs(branches)
     number = groups_within(discs[:, :2], np.arange(len(discs)), len(discs), _SAME)
     _, first = np.unique(number, return_index=True)
     ends = [(a, b) for a, b in number.reshape(-1, 2).tolist()]
@@ -64,6 +62,14 @@ def graph_of(branches: Iterable[AxisBranch]) -> BranchGraph:
         for node in pair:
             at[node].append(k)
     return BranchGraph(branches, discs[first], ends, at)
+
+
+def end_discs(branches: Sequence[AxisBranch]) -> Floats:
+    """Return the discs (2 n, 3) at which branches begin and end, one branch after the other."""
+    all_discs = np.concatenate([np.zeros((0, 3)), *(branch.discs for branch in branches)])
+    upto = np.cumsum([len(branch.discs) for branch in branches], dtype=np.int64)
+    ends: Floats = all_discs[np.stack([np.append(0, upto[:-1])[: len(upto)], upto - 1], axis=1).ravel()]
+    return ends
 
 
 def prune(graph: BranchGraph) -> list[Floats]:
@@ -105,30 +111,34 @@ def trails(graph: BranchGraph) -> list[AxisBranch]:
     """
     left = [list(own) for own in graph.at]
     deep = graph.discs[:, 2].tolist()
-    odd = [(deep[node], node) for node, own in enumerate(left) if len(own) % 2]
-    some = [(deep[node], node) for node, own in enumerate(left) if own]
-    heapify(odd)
-    heapify(some)
+    # the shallowest last; none is ever added, since ways end where nothing is left, so no node becomes an odd one
+    odd = sorted(((deep[node], node) for node, own in enumerate(left) if len(own) % 2), reverse=True)
+    some = sorted(((deep[node], node) for node, own in enumerate(left) if own), reverse=True)
 
-    def leads_on(node: int, number: int) -> tuple[int, float]:
-        return len(left[graph.other(number, node)]), graph.branches[number].length
+    def next_from(node: int) -> int:
+        """Return the branch that leads on to the most others, of those the longest one."""
+        if len(left[node]) == 1:
+            return left[node][0]
+        onward = [len(left[graph.other(number, node)]) for number in left[node]]
+        most = max(onward)
+        best = [number for number, count in zip(left[node], onward, strict=True) if count == most]
+        return best[0] if len(best) == 1 else max(best, key=lambda number: graph.branches[number].length)
 
     found: list[AxisBranch] = []
     while some:
-        while odd and not len(left[odd[0][1]]) % 2:
-            heappop(odd)
-        if not odd and not left[some[0][1]]:
-            heappop(some)
+        while odd and not len(left[odd[-1][1]]) % 2:
+            odd.pop()
+        if not odd and not left[some[-1][1]]:
+            some.pop()
             continue
-        node = (odd or some)[0][1]  # ways end where nothing is left, so no node becomes an odd one
+        node = (odd or some)[-1][1]
         parts: list[Floats] = []
         while left[node]:
-            # what leads on first, dead ends last
-            number = left[node][0] if len(left[node]) == 1 else max(left[node], key=partial(leads_on, node))
-            branch, end = graph.from_node(number, node), graph.other(number, node)
+            number = next_from(node)  # dead ends last
+            discs, end = graph.from_node(number, node), graph.other(number, node)
             left[node].remove(number)
             left[end].remove(number)
-            parts.append(branch.discs if not parts else branch.discs[1:])
+            parts.append(discs[1:] if parts else discs)
             node = end
         found.append(AxisBranch(np.concatenate(parts)))
     return found

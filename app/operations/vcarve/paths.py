@@ -26,8 +26,8 @@ from ...toolpath.build import MovesBuilder, Stroke, StrokeLabel
 from ...toolpath.depth import DepthLevels
 from ...toolpath.operation_context import OperationContext, check_depth, levels_of
 from ..engrave.open_line import clear_parts, runs_of_parts
-from .branches import AxisBranch, Floats, branches
-from .graph import graph_of, prune, trails
+from .branches import AxisBranch, Floats, between, branches
+from .graph import end_discs, graph_of, prune, trails
 
 _TOLD = 20
 """Places that are told one by one."""
@@ -138,7 +138,7 @@ def carved(primitives: Primitives, cone: VCutter, heights: Sequence[float], prog
     rings = offset_levels(primitives, radii, progress.part(0.6, 1.0))
     low = max(cone.tip, _SAME)
     for z, high, level in zip(heights, radii, rings, strict=True):
-        parts = [part for branch in whole for part in branch.between(low - _SLACK, high)]
+        parts = between(whole, low - _SLACK, high)
         points = [AxisBranch(disc[None]) for disc in lone if low - _SLACK <= disc[2] <= high]
         yield CarvedPass(z, (*trails(graph_of(parts)), *points), level.rings)
         low = high
@@ -195,7 +195,7 @@ def floor_corners(primitives: Primitives, cone: VCutter, depth: float, flat: flo
     edge = flat - step / 2
     rings = tuple(piece for level in made[:-1] for ring in level.rings for piece in _beyond_flat(ring, field, edge))
     whole = [branch for axis in medial_axes(primitives, progress.part(0.4, 1.0)) for branch in branches(axis)]
-    parts = [part for branch in whole for part in branch.between(wall - _SLACK, inner)]
+    parts = between(whole, wall - _SLACK, inner)
     return CarvedPass(-depth, tuple(trails(graph_of(parts))), rings)
 
 
@@ -297,7 +297,7 @@ def nearest_next(trails: Sequence[AxisBranch], at: tuple[float, float]) -> Itera
     from ...geometry.kernels import build_tree  # compiled code: loaded where it is used
     from .order_kernels import nearest_order
 
-    ends = np.array([way.discs[k, :2] for way in trails for k in (0, -1)], np.float64)
+    ends = np.ascontiguousarray(end_discs(trails)[:, :2])
     first = np.empty(len(trails), np.int64)
     nearest_order(ends, *build_tree(np.hstack([ends, ends])), *at, first)
     for end in first.tolist():

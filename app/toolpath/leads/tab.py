@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -112,12 +112,15 @@ class TabShape:
         finished: of a path that leaves metal for one nearer to the wall, the ends of that one's ways over the same
             tabs: at a bend the ends of both lie otherwise, and the metal between one's and the other's is to be as
             wide as asked for, too; None: there is no such path.
+        kept: what `halves` found, by path and places: where tabs fit, what stands of them and the ways over them are
+            all asked of the same.
     """
 
     tabs: Tabs
     tool: Tool
     top: float
     finished: TabEnds | None = None
+    kept: dict[tuple[ContourPath, bytes], Floats] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @staticmethod
     def of(operation: ContourOperation, tool: Tool) -> TabShape:
@@ -139,12 +142,15 @@ class TabShape:
         path comes back to the end before it, so the way over the tab is made longer until the metal is as wide as
         asked for; where no way is, the widest is taken.
         """
-        found = np.full(len(places), self.half)
-        short = self.tabs.width - self._metal(path, places, found)
-        bent = np.flatnonzero(short > _SHORT)
-        if len(bent):
-            found[bent] = self._longer(path, places[bent])
-        return found
+        key = path, places.tobytes()
+        if key not in self.kept:
+            found = np.full(len(places), self.half)
+            short = self.tabs.width - self._metal(path, places, found)
+            bent = np.flatnonzero(short > _SHORT)
+            if len(bent):
+                found[bent] = self._longer(path, places[bent])
+            self.kept[key] = found
+        return self.kept[key].copy()
 
     def metal(self, path: ContourPath, places: Floats) -> Floats:
         """Return how wide the metal of tabs with these middles (m,) is where it is narrowest, mm."""
@@ -170,10 +176,9 @@ class TabShape:
         most = np.clip(path.length / 2 - 2 * halves, 0.0, 2 * halves)
         on = most[:, None] * np.linspace(0.0, 1.0, _LOOKS)
         low, high = (places - halves)[:, None] - on, (places + halves)[:, None] + on
-        shape = (len(places), _LOOKS, 2)
-        return TabEnds(
-            path.points(places), path.points(low.ravel()).reshape(shape), path.points(high.ravel()).reshape(shape)
-        )
+        points = path.points(np.concatenate([places, low.ravel(), high.ravel()]))
+        before, after = points[len(places) :].reshape(2, len(places), _LOOKS, 2)
+        return TabEnds(points[: len(places)], before, after)
 
     def _longer(self, path: ContourPath, places: Floats) -> Floats:
         """Return the shortest ways (m,) that leave metal as wide as asked for, half of each, mm; else those that leave

@@ -281,7 +281,7 @@ def _solid(solid: SolidStock, request: SetupRequest) -> SolidPart:
 
 def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], request: SetupRequest) -> _PartRead:
     """Return the drawing and what of it is milled, and what there is to say about it."""
-    from ...operations.compute import drawing_findings, followed_lines, machined_regions
+    from ...operations.compute import drawing_findings, followed_lines
     from ...operations.unmachined import unmachined_findings
     from ...toolpath.coverage.floor_target import CHORD
     from ...toolpath.drawn_contours import drawn_contours
@@ -293,7 +293,7 @@ def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], re
     drawing, reading_findings = _drawing(requested, header, tools, request)
     job = with_layers_spelled(replace(requested, part=drawing.part)).prepared()
     parts = drawn_contours(job)
-    made, lines = machined_regions(parts), followed_lines(job, parts)
+    made, lines = parts.regions, followed_lines(job, parts)
     regions = made.regions
     if not regions and not lines:
         raise _nothing_to_compare_with(request, parts.findings)
