@@ -195,8 +195,9 @@ def ensure_of_text(arguments: argparse.Namespace, text: PublishedText) -> None:
             raise InputError(f"--{name} belongs to --text {letters}; leave it out")
     if text is PublishedText.C and arguments.units is not None:
         raise InputError("--units belongs to --text A, B, D or E; a scene is in mm, so leave it out")
-    if arguments.drawing is None and (arguments.tool or arguments.stock is not None):
-        raise InputError("--tool and --stock are those of a program of your own; name it, or leave them out")
+    told = (arguments.tool, arguments.stock, arguments.units)
+    if arguments.drawing is None and any(told):
+        raise InputError("--tool, --stock and --units are those of a program of your own; name it, or leave them out")
 
 
 def film_options(arguments: argparse.Namespace) -> FilmOptions:

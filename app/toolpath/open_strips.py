@@ -12,6 +12,7 @@ not whole on a ring has another one's metal where its cutter would be: no drawin
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
@@ -173,16 +174,19 @@ def _together(ways: Sequence[_EdgeLine], alone: Sequence[bool], strip: SideStrip
     Raises:
         GeometryError: no line has one.
     """
-    areas = _air(ways, strip.reach)
+    other = {True: "another open line of the same operation", False: "itself"}
+    try:
+        areas = _air(ways, strip.reach)
+    except shapely.errors.GEOSException as error:  # nearly parallel edges of bands that rounding alone tells apart
+        raise _too_near(ways[0].line, strip, other[alone[0]]) from error
     kept = list(range(len(ways)))
     while True:
-        links = [_links(area, ways, kept) for area in areas]
-        held = {link.after for each in links for link in each} & {link.before for each in links for link in each}
-        whole = held - {number for each in links for link in each for number in link.broken}
+        tree = shapely.STRtree([shapely.LineString(ways[number].points) for number in kept])
+        links = [_links(area, ways, kept, tree) for area in areas]
+        whole = _whole(links)
         if whole >= set(kept):
             break
         kept = [number for number in kept if number in whole]
-    other = {True: "another open line of the same operation", False: "itself"}
     errors = {k: _too_near(ways[k].line, strip, other[alone[k]]) for k in range(len(ways)) if k not in kept}
     if not kept:
         raise errors[0]
@@ -191,6 +195,19 @@ def _together(ways: Sequence[_EdgeLine], alone: Sequence[bool], strip: SideStrip
     contours = [contour for each in found for contour in _bounds(each, ways)]
     bare = [Contour(_chords(link.points), link.after is None) for each in found for link in each]
     return StripsBesideLines(contours, bare, findings)
+
+
+def _whole(links: Sequence[Sequence[_Link]]) -> set[int]:
+    """Return the numbers of the lines that are followed from end to end, once, round one area.
+
+    Args:
+        links: of each area.
+    """
+    begun: Counter[int | None] = Counter(link.before for each in links for link in each)
+    ended: Counter[int | None] = Counter(link.after for each in links for link in each)
+    within = {number for each in links for link in each for number in link.broken}
+    in_one = set[int | None]().union(*({a.after for a in each} & {b.before for b in each} for each in links))
+    return {k for k in in_one if k is not None and begun[k] == ended[k] == 1} - within
 
 
 def _air(ways: Sequence[_EdgeLine], reach: float) -> list[shapely.Polygon]:
@@ -265,11 +282,19 @@ def _fan(corner: Floats, back: Floats, turn: float) -> shapely.Polygon:
     return shapely.Polygon([corner, *(corner + rim)])
 
 
-def _links(area: shapely.Polygon, ways: Sequence[_EdgeLine], kept: Sequence[int]) -> list[_Link]:
-    """Return what of the rings round an area runs through the open; islands of no width are none."""
+def _links(area: shapely.Polygon, ways: Sequence[_EdgeLine], kept: Sequence[int], tree: shapely.STRtree) -> list[_Link]:
+    """Return what of the rings round an area runs through the open; islands of no width are none.
+
+    Args:
+        kept: numbers of the lines that may be followed. tree: of these as they are kept.
+    """
     islands = [ring for ring in area.interiors if shapely.Polygon(ring).area > _SKIN * ring.length]
-    rings = [shapely.get_coordinates(ring) for ring in (area.exterior, *islands)]
-    return [link for ring in rings for link in _links_of(ring, ways, kept)]
+    found: list[_Link] = []
+    for ring in (area.exterior, *islands):
+        touched = np.sort(tree.query(ring, predicate="dwithin", distance=_SKIN)).tolist()
+        points = shapely.get_coordinates(ring)
+        found += _links_of(points, ways, [kept[k] for k in touched]) if touched else [_Link(points)]
+    return found
 
 
 def _links_of(ring: Floats, ways: Sequence[_EdgeLine], kept: Sequence[int]) -> Iterator[_Link]:

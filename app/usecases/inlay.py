@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -75,12 +76,14 @@ class InlayOptions:
 
 @dataclass(frozen=True)
 class InlayJobs:
-    """The jobs of pocket and plug; the plug's drawing is mirrored, x to -x. `face`: pocket's depth at which the plug's
-    face comes to lie, mm; `rate`: mm sideways per mm of depth along the walls.
+    """The jobs of pocket and plug; the plug's drawing is mirrored, x to -x. `contours`: what the pocket is bounded by,
+    which need not be all that is drawn; `face`: pocket's depth at which the plug's face comes to lie, mm; `rate`: mm
+    sideways per mm of depth along the walls.
     """
 
     pocket: Job
     plug: Job
+    contours: tuple[Contour, ...]
     face: float
     rate: float
 
@@ -228,7 +231,7 @@ def inlay_jobs(job: Job, sizes: InlayOptions) -> InlayJobs:
         keep_out_layers=(),
         keep_out_height=0.0,
     )
-    return InlayJobs(pocket, plug, face, rate)
+    return InlayJobs(pocket, plug, tuple(chosen), face, rate)
 
 
 def _check_sizes(sizes: InlayOptions, depth: float, tool: Tool, rate: float) -> None:
@@ -294,8 +297,7 @@ def fit_of(
         ParameterError: one of them was not cut.
         Cancelled: by progress.
     """
-    contours = [contour for region in pocket.program.regions for contour in region.contours]
-    box = extent(contours)
+    box = extent(jobs.contours)
     if box is None or pocket.cut is None or plug.cut is None:
         raise ParameterError("Pocket or plug has no path, so there is nothing to fit.")
     x0, y0, x1, y1 = _in_whole_cells(box)
@@ -306,7 +308,7 @@ def fit_of(
     between = -jobs.face - above.cut.heights[:, ::-1].astype(np.float64) - below.cut.heights.astype(np.float64)
     x, y = grid.x0 + (np.arange(cols) + 0.5) * grid.pitch, grid.y0 + (np.arange(rows) + 0.5) * grid.pitch
     points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    inset = _inset(contours, points).reshape(rows, cols)
+    inset = _inset(jobs.contours, points).reshape(rows, cols)
     walls = (inset > 0) & (inset < jobs.face * jobs.rate)
     floor = inset > (jobs.face + sizes.glue) * jobs.rate + grid.pitch
     off = between[walls] - sizes.gap / jobs.rate if walls.any() else np.zeros(1)
@@ -331,7 +333,7 @@ def _cells(made: CutProgram, window: Box, progress: Progress) -> CutProgram:
     return cut(made.setup, CutOptions(_CELLS, window, trace=False, judge=False), progress)
 
 
-def _inset(contours: list[Contour], points: NDArray[np.float64]) -> NDArray[np.float64]:
+def _inset(contours: Sequence[Contour], points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return how far points (n, 2) lie within contours, mm; negative outside of them."""
     field = DistanceField.of(np.concatenate([contour_rows(each) for each in contours]))
     return np.where(field.inside(points), 1.0, -1.0) * field.nearest(points)[0]

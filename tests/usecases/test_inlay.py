@@ -116,6 +116,14 @@ def test_what_stands_between_walls_round_the_plug_is_found() -> None:
     assert not pair.clean and any("narrow places round the plug" in each.text for each in pair.findings)
 
 
+def test_what_is_drawn_beside_the_curves_that_are_inlaid_says_nothing_of_the_fit() -> None:
+    """Each contour of the drawing counted as a wall of the pocket, and the inlay was called loose."""
+    chosen = JOB.replace("flat_tool = 1", 'flat_tool = 1\ncurves = ["layer:heart"]')
+    drawing = f"rect -20,-20 40,30\nlayer heart\n{SQUARE}"
+    pair = inlay("part.draw", drawing.encode(), options(text=chosen), WISHED)
+    assert pair.clean and abs(pair.fit.walls) < 0.11
+
+
 @pytest.mark.parametrize("off", [0.05, -0.05])
 def test_a_plug_that_is_off_is_found(off: float) -> None:
     """The chamfer on purpose too narrow, so that the plug is too wide, or too wide."""

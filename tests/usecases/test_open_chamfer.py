@@ -174,6 +174,14 @@ def test_a_bent_back_edge_and_two_that_face_each_other_are_cut_and_proven() -> N
         assert moves.lengths()[moves.purpose == Purpose.CONTOUR].sum() == pytest.approx(length, abs=1.0)
 
 
+def test_lines_that_end_on_one_another_have_areas_that_close_or_none() -> None:
+    """The second begins on the first: a ring round the area began with one line and came back to another."""
+    one = np.array([(-4.922, -4.219), (-6.183, -7.563), (-0.88, -6.708), (-5.398, -6.857)])
+    other = np.array([(-5.5525, -5.891), (0.624, -2.969)])
+    with pytest.raises(GeometryError, match="comes within"):
+        strips([polyline(one, 1), polyline(other, 2)], SideStrip(True, 2.6))
+
+
 def test_of_lines_that_contradict_one_another_one_is_cut_and_the_other_told() -> None:
     """Metal is above the first, air below the second, which is 1 mm above the first."""
     made = made_of("line 0,0 60,0\nline 0,1 60,1\n", "right")

@@ -45,6 +45,10 @@ def test_a_program_that_leaves_the_spindle_to_somebody_else_has_a_remark() -> No
     assert not told.counts and "never starts the spindle" in told.text
 
 
+def test_mach3_leaves_it_to_a_macro_whether_a_change_stops_the_spindle() -> None:
+    assert not standing(f"S3000 M3\n{FIRST}T2 M6\n{SECOND}", Dialect.MACH3)
+
+
 @pytest.mark.parametrize(
     "body",
     [

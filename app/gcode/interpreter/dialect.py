@@ -31,7 +31,8 @@ class DialectRules:
         dwell_unit_s: what P of G4 counts in, s, where it has no decimal point. dwell_unit_with_point_s: where it has
             one.
         length_from_tool: G43 without H takes the length of the tool in the spindle.
-        tool_changes: M6 is known. splines: "G5" (LinuxCNC), "G6.2" (Fanuc) or "".
+        tool_changes: M6 is known. stops_at_change: it leaves the spindle at rest; not where that is left to a macro.
+        splines: "G5" (LinuxCNC), "G6.2" (Fanuc) or "".
         calls: how deep subroutines may call one another.
         longest_line: bytes of a line, its end not counted where that is one byte.
         longest_code: characters of a line without its blanks and comments.
@@ -51,6 +52,7 @@ class DialectRules:
     dwell_unit_with_point_s: float = 1.0
     length_from_tool: bool = True
     tool_changes: bool = True
+    stops_at_change: bool = True
     splines: str = "G5"
     calls: int = MANY
     longest_line: int = MANY
@@ -206,6 +208,7 @@ DIALECT_RULES: dict[Dialect, DialectRules] = {
         fanuc_flow=True,
         length_from_tool=False,
         splines="",
+        stops_at_change=False,
         missing=frozenset({"G51.1", "G187"}),
     ),
 }

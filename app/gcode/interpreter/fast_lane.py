@@ -55,7 +55,7 @@ class FastLane:
         ints, reals, options, rules = self._ints, self._reals, self._control.options, self._control.rules
         ints[at.LINUXCNC] = options.dialect is Dialect.LINUXCNC
         ints[at.COMPUTES] = rules.ngc_flow
-        ints[at.TOOL_CHANGES] = rules.tool_changes
+        ints[at.TOOL_CHANGES] = rules.tool_changes and rules.stops_at_change
         ints[at.EXTENDED] = options.dialect is not Dialect.GRBL
         reals[at.DWELL_WHOLE], reals[at.DWELL_POINT] = rules.dwell_unit_s, rules.dwell_unit_with_point_s
 

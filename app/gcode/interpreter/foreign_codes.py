@@ -71,10 +71,12 @@ _OTHERWISE = {
 _STARTS = {"M13": "M3", "M14": "M4"}
 """What builders of Fanuc's and Haas' machines start the spindle by, and the coolant with it."""
 
-_BUILDERS = frozenset({ModalGroup.PINS, ModalGroup.STATE}), frozenset({"M50", "M51", "M52", "M53", "M61"})
-"""Groups of M codes, and single ones, that LinuxCNC has for its own, and other controls leave to who builds the
-machine: pins, saved states, overrides, a tool's number.
+_BUILDERS_GROUPS = frozenset({ModalGroup.PINS, ModalGroup.STATE})
+"""Groups of M codes that LinuxCNC has for its own, and other controls leave to who builds the machine: pins, saved
+states.
 """
+_BUILDERS_CODES = frozenset({"M50", "M51", "M52", "M53", "M61"})
+"""Single ones of the same kind: overrides, a tool's number."""
 
 _POLAR_TOO = frozenset({"G112", "G113"})
 """Work offsets of Haas that are polar interpolation on its newer controls, as on Fanuc's."""
@@ -245,9 +247,8 @@ def adapt(control: Control, block: Block) -> None:
 
 def _leave_to_builder(block: Block) -> None:
     """Take the M codes that LinuxCNC alone gives a meaning for unknown ones, and what is likely of others."""
-    groups, codes = _BUILDERS
     for group, code in list(block.codes.items()):
-        if group in groups or code in codes:
+        if group in _BUILDERS_GROUPS or code in _BUILDERS_CODES:
             del block.codes[group]
             block.unknown.append(code)
     for code in block.unknown:

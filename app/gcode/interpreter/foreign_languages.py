@@ -38,54 +38,60 @@ def _telling(words: str) -> re.Pattern[str]:
 
 _LANGUAGES = (
     _Language(
-        "a program in Heidenhain's plain language", _telling(r"^\s*(?:\d+\s+)?(?:BEGIN\s+PGM|TOOL\s+CALL|BLK\s+FORM)\b")
+        "a program in Heidenhain's plain language",
+        _telling(r"^[ \t]*(?:\d+\s+)?(?:BEGIN\s+PGM|TOOL\s+CALL|BLK\s+FORM)\b"),
     ),
     _Language(
         "a Heidenhain program in DIN/ISO",
-        _telling(r"^\s*%[^\n%]{1,60}\sG7[01]\s*\*?\s*$|^\s*(?:N\d+\s*)?G30\s+G17\s+X|^\s*N\d+\s[^\n*;]*\*\s*$"),
+        _telling(
+            r"^[ \t]*%[^\n%]{1,60}\sG7[01]\s*\*?\s*$|^[ \t]*(?:N\d+\s*)?G30\s+G17\s+X|^[ \t]*N\d+\s[^\n*;]*\*\s*$"
+        ),
     ),
-    _Language("an Eding CNC program with its own subroutines", _telling(r"^\s*(?:GOSUB|ENDSUB)\b")),
+    _Language("an Eding CNC program with its own subroutines", _telling(r"^[ \t]*(?:GOSUB|ENDSUB)\b")),
     _Language(
         "a Siemens Sinumerik program",
         _telling(
-            r"^\s*%_N_|\bG(?:710|700|641|642)\b|\bCYCLE\d+\s*\(|\bPOCKET\d\s*\(|\bWORKPIECE\s*\(|\bCR\s*=|[A-Z]\d?\s*=\s*(?:AC|IC)\s*\(|\bT\d*\s*=\s*\""
+            r"^[ \t]*%_N_|\bG(?:710|700|641|642)\b|\bCYCLE\d+\s*\(|\bPOCKET\d\s*\(|\bWORKPIECE\s*\(|\bCR\s*="
+            r"|[A-Z]\d?\s*=\s*(?:AC|IC)\s*\("
+            r"|\bT\d*\s*=\s*\""
             r"|\b(?:RNDM?|CHF|CHR|GOTO[BF])\b|\bG500\b|^[^;#\n]*\b[XYZ]\s*=\s*[-+\d(]"
-            r"|^\s*R\d+\s*=|^\s*(?:N\d+\s*)?(?:A?TRANS|A?ROT|MSG|SUPA)\b"
+            r"|^[ \t]*R\d+\s*=|^[ \t]*(?:N\d+\s*)?(?:A?TRANS|A?ROT|MSG|SUPA)\b"
         ),
     ),
     _Language(
-        "an Okuma OSP program", _telling(r"^\s*\$[^\n$]{1,40}%|^\s*(?:N\d+\s*)?CALL\s+O\w+|\bVC\d+\s*=|\bG15\s*H\d")
+        "an Okuma OSP program",
+        _telling(r"^[ \t]*\$[^\n$]{1,40}%|^[ \t]*(?:N\d+\s*)?CALL\s+O\w+|\bVC\d+\s*=|\bG15\s*H\d"),
     ),
     _Language(
         "cutter location data (APT)",
-        _telling(r"^\s*(?:GOTO|FEDRAT|LOADTL|TLDATA)\s*/"),
+        _telling(r"^[ \t]*(?:GOTO|FEDRAT|LOADTL|TLDATA)\s*/"),
     ),
     _Language(
         "a plot file (HP-GL)",
-        _telling(r"^\s*(?:IN|SP\d+|PU|PD)\s*;|;\s*P[UD]-?\d"),
+        _telling(r"^[ \t]*(?:IN|SP\d+|PU|PD)\s*;|;\s*P[UD]-?\d"),
         "save it with the ending .plt and open it as a drawing",
     ),
     _Language(
         "a program for a 3D printer",
-        _telling(r"^\s*M(?:8[23]\b|(?:104|109|140|190)\s*[SR]\d)|^\s*(?:N\d+\s*)?G[01]\b[^;(\n]*\bE-?[\d.]"),
+        _telling(r"^[ \t]*M(?:8[23]\b|(?:104|109|140|190)\s*[SR]\d)|^[ \t]*(?:N\d+\s*)?G[01]\b[^;(\n]*\bE-?[\d.]"),
         "a mill has no extruder: open the solid itself, as STL, and make its paths here",
     ),
     _Language(
         "a program for Marlin, Smoothieware or Klipper",
-        _telling(r"^\s*(?:M11[78]\s+[A-Z]{2}|M300\s*S|M(?:400|420|221)\b|[A-Z]{2,}_[A-Z_]+(?:\s+\w+=|\s*$))"),
+        _telling(r"^[ \t]*(?:M11[78]\s+[A-Z]{2}|M300\s*S|[A-Z]{2,}_[A-Z_]+(?:\s+\w+=|\s*$))"),
     ),
     _Language(
         "a ShopBot program",
-        _telling(r"^\s*(?:[MJ][2-5XYZ]|[MJV]S|TR|C6|C7|C9)\s*,\s*[-.\d]"),
+        _telling(r"^[ \t]*(?:[MJ][2-5XYZ]|[MJV]S|TR|C6|C7|C9)\s*,\s*[-.\d]"),
     ),
     _Language(
         "a Gerber drawing of a circuit board",
-        _telling(r"^\s*(?:%(?:FS[LT]|MO(?:MM|IN)\*|ADD\d)|G04[^\n]*\*\s*$)"),
+        _telling(r"^[ \t]*(?:%(?:FS[LT]|MO(?:MM|IN)\*|ADD\d)|G04[^\n]*\*\s*$)"),
         "save its outline as DXF or SVG and open it as a drawing",
     ),
     _Language(
         "a list of a circuit board's holes (Excellon)",
-        _telling(r"^\s*(?:(?:METRIC|INCH)(?:,[TL]Z\b|\s*$)|FMAT,\d|T\d+C[\d.]+\s*$)"),
+        _telling(r"^[ \t]*(?:(?:METRIC|INCH)(?:,[TL]Z\b|\s*$)|FMAT,\d|T\d+C[\d.]+\s*$)"),
         "save the holes as DXF and open it as a drawing",
     ),
 )

@@ -75,7 +75,8 @@ def _tool_change(control: Control, block: Block) -> None:
     number = control.selected
     if code == "M61":
         number = whole(block.need("q", code), "the tool number")
-    control.change(tool=number, spindle=control.modal.spindle if code == "M61" else 0)
+    stops = code != "M61" and control.rules.stops_at_change
+    control.change(tool=number, spindle=0 if stops else control.modal.spindle)
     control.event(EventKind.TOOL_CHANGE, float(number))
 
 

@@ -40,6 +40,10 @@ GOLDEN = sorted((ROOT / "tests" / "gcode" / "golden").iterdir())
         ("O1000 (G91.1)\nG21 G90\n", Dialect.FANUC),
         ("%\n<PLATE> (of 2)\nG21\n", Dialect.FANUC),
         ("(T1 D=6.)\nG90 G54 G64 G50 G17 G40 G80 G94 G91.1 G49\n", Dialect.MACH3),
+        ("%\nO1000 (POST FANUC)\nG17 G40 G49 G64 G50 G80 G90\n", Dialect.FANUC),
+        ("%\nO1000 (POST HAAS)\nG17 G40 G49 G64 G50 G80 G90\n", Dialect.HAAS),
+        ("%\nO1000\n(X)G21 G110\n", Dialect.HAAS),
+        ("; Drawing 120\nG21\nX100 ; plunging 115\n", Dialect.LINUXCNC),
     ],
 )
 def test_what_only_one_control_says_tells(text: str, dialect: Dialect) -> None:
