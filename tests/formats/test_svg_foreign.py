@@ -48,7 +48,16 @@ def test_a_prefix_that_cannot_be_declared_is_refused_in_one_line() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "meant"), [("Layer_x0020_1", "Layer 1"), ("a_x5F_b", "a_b"), ("_x7DDA_", "線"), ("a_x1_b", "a_x1_b")]
+    ("name", "meant"),
+    [
+        ("Layer_x0020_1", "Layer 1"),
+        ("a_x5F_b", "a_b"),
+        ("_x7DDA_", "線"),
+        ("a_x1_b", "a_x1_b"),
+        ("_xD83D__xDE00_", "\U0001f600"),
+        ("_xD83D_", "_xD83D_"),
+        ("a_x07_b", "a_x07_b"),
+    ],
 )
 def test_encoded_names_of_layers_are_as_they_were_typed(name: str, meant: str) -> None:
     (layer,) = read_svg(f'<svg {NS} {PAGE}><g id="{name}">{RECT}</g></svg>'.encode()).part.layers

@@ -44,6 +44,7 @@ _SIGN = re.compile(r"_x([0-9A-Fa-f]{2}|[0-9A-Fa-f]{4})_")
 _SHADE = re.compile(r"\s*url\(\s*[\"']?#([^)\"']+?)[\"']?\s*\)(.*)", re.DOTALL)
 """A paint of this file, and what is taken where there is none of that name."""
 _BREAK = re.compile(r"[\x00-\x1f]+")
+_NO_LETTER = re.compile(r"[\x00-\x1f\x7f-\x9f\ufffd]")
 
 
 @dataclass
@@ -511,8 +512,12 @@ def _of_font(node: Node) -> bool:
 
 
 def _decoded(name: str) -> str:
-    """Return the name of an element as it was typed: some editors write what no name may have as _x0020_."""
-    return _SIGN.sub(lambda sign: chr(int(sign[1], 16)), name)
+    """Return the name of an element as it was typed: some editors write what no name may have as _x0020_, a letter of
+    two such numbers as both; one that gives no letter was typed as it stands.
+    """
+    units = _SIGN.sub(lambda sign: chr(int(sign[1], 16)), name).encode("utf-16", "surrogatepass")
+    typed = units.decode("utf-16", "replace")
+    return name if _NO_LETTER.search(typed) else typed
 
 
 def _is_layer(node: Node) -> bool:
