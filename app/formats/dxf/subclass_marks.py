@@ -141,12 +141,12 @@ def _is_handle(text: str) -> bool:
 
 def _is_merged(tags: Any) -> bool:
     """Tell whether an entity has two places: the line that begins another one is lost, and so are both."""
-    return sum(tag.code == _PLACE for tag in _plain(tags)) > 1
+    return len([tag for tag in _plain(tags) if tag.code == _PLACE]) > 1
 
 
 def _is_marked_twice(tags: Any, kind: str) -> bool:
     """Tell whether an entity has its kind's own mark twice: the line that begins another one is lost."""
-    return sum(tag.code == _MARK and tag.value == _OWN[kind] for tag in _plain(tags)) > 1
+    return len([tag for tag in _plain(tags) if tag.code == _MARK and tag.value == _OWN[kind]]) > 1
 
 
 def _plain(tags: Any) -> Iterator[Any]:
