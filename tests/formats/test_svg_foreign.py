@@ -85,9 +85,16 @@ def test_a_style_sheet_in_the_words_of_xhtml_counts() -> None:
     assert len(drawing.part.entities) == 4 and dict(drawing.left_out) == {"circle (invisible)": 1}
 
 
-@pytest.mark.parametrize(("said", "counts"), [('rel="stylesheet"', True), ('rel="icon"', False)])
+@pytest.mark.parametrize(
+    ("said", "counts"),
+    [
+        ('rel="stylesheet" href="a.css"', True),
+        ('rel="icon" href="a.css"', False),
+        ('rel="stylesheet" href="https://fonts.googleapis.com/css2?family=Roboto"', False),
+    ],
+)
 def test_a_linked_style_sheet_is_told(said: str, counts: bool) -> None:
-    link = f'<link xmlns="http://www.w3.org/1999/xhtml" {said} href="a.css"/>'
+    link = f'<link xmlns="http://www.w3.org/1999/xhtml" {said}/>'
     found = read_svg(f"<svg {NS} {PAGE}>{link}{RECT}</svg>".encode()).findings
     assert [each.counts for each in found] == [True] * counts
 

@@ -52,6 +52,11 @@ def without_comments(text: str) -> str:
     return _COMMENT.sub(" ", text) if "/*" in text or "<!--" in text or "-->" in text else text
 
 
+def may_hide(address: str) -> bool:
+    """Tell whether the style sheet of an address may have rules for shapes, and brings more than letters."""
+    return _NOT_FOR_SHAPES.search(address) is None
+
+
 def imported(text: str) -> Iterator[str]:
     """Yield the statements by which a style sheet takes rules for a screen from elsewhere.
 
@@ -59,7 +64,7 @@ def imported(text: str) -> Iterator[str]:
         text: of a style element.
     """
     for each in _IMPORT.finditer(without_comments(text)):
-        if not (_NOT_FOR_SHAPES.search(each[1]) or all(map(_NOT_ON_SCREENS.match, each[2].split(",")))):
+        if may_hide(each[1]) and not all(map(_NOT_ON_SCREENS.match, each[2].split(","))):
             yield each[0]
 
 
