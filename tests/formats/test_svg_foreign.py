@@ -129,9 +129,26 @@ def test_rules_that_hold_for_nothing_here_hide_nothing(sheet: str) -> None:
 
 def test_rules_that_are_nested_too_deep_or_too_often_are_told_and_take_no_time() -> None:
     names = ",".join("abcdefghij")
-    for sheet in (f"{names}{{" * 9 + "display:none" + "}" * 9, "g{" * 40 + "display:none" + "}" * 40):
+    many = "&amp;" * 100
+    for sheet in (
+        f"{names}{{" * 9 + "display:none" + "}" * 9,
+        "g{" * 40 + "display:none" + "}" * 40,
+        f"g{{{many}{{{many}{{{many}{{display:none}}}}}}}}",
+    ):
         found = read_svg(f"<svg {NS} {PAGE}><style>{sheet}</style>{RECT}</svg>".encode()).findings
         assert [each.counts for each in found] == [True]
+
+
+@pytest.mark.parametrize("sheet", [":is(rect,circle){ .a{display:none}}", "g{:is(rect,circle){display:none}}"])
+def test_commas_within_brackets_part_no_selectors(sheet: str) -> None:
+    (found,) = read_svg(f"<svg {NS} {PAGE}><style>{sheet}</style>{RECT}</svg>".encode()).findings
+    assert found.counts and found.text.startswith("1 rule ") and ":is(rect,circle)" in found.text
+
+
+def test_a_comma_within_quotes_parts_no_selector() -> None:
+    body = f'<style>[id="a,b"]{{display:none}}</style><circle id="a,b" r="3"/>{RECT}'
+    drawing = read_svg(f"<svg {NS} {PAGE}>{body}</svg>".encode())
+    assert len(drawing.part.entities) == 4 and not [each for each in drawing.findings if each.counts]
 
 
 @pytest.mark.parametrize("hidden", ['opacity="-1"', 'style="opacity:-.5"', 'requiredExtensions="http://x.y"'])

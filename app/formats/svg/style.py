@@ -12,7 +12,7 @@ from typing import NamedTuple
 from .colours import colour, is_clear
 from .lengths import MEDIUM, letter_height, size_of_font
 from .selectors import Selector, Specificity, keys_of, selector
-from .style_rules import imported, is_on_screen, may_hide, without_comments, written_rules
+from .style_rules import imported, is_on_screen, may_hide, selectors_of, without_comments, written_rules
 from .transforms import INDIVIDUAL, written_transform
 from .xml import LINKED, STYLES, Node
 
@@ -198,7 +198,7 @@ class StyleSheet:
     def _add(self, text: str) -> None:
         for selectors, body in written_rules(text):
             declared = list(declarations(body))
-            for written in selectors.split(",") if declared else ():
+            for written in selectors_of(selectors) if declared else ():
                 self._count += 1
                 read = selector(written)
                 if read is not None:
