@@ -133,6 +133,7 @@ def test_rules_that_are_nested_too_deep_or_too_often_are_told_and_take_no_time()
     for sheet in (
         f"{names}{{" * 9 + "display:none" + "}" * 9,
         "g{" * 40 + "display:none" + "}" * 40,
+        f"{names}{{" * 3 + "&amp;{fill:red}" * 240 + "}" * 3,
         f"g{{{many}{{{many}{{{many}{{display:none}}}}}}}}",
     ):
         found = read_svg(f"<svg {NS} {PAGE}><style>{sheet}</style>{RECT}</svg>".encode()).findings

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from .colours import colour, is_clear
 from .lengths import MEDIUM, letter_height, size_of_font
 from .selectors import Selector, Specificity, keys_of, selector
-from .style_rules import imported, is_on_screen, may_hide, selectors_of, without_comments, written_rules
+from .style_rules import UNREADABLE, imported, is_on_screen, may_hide, selectors_of, without_comments, written_rules
 from .transforms import INDIVIDUAL, written_transform
 from .xml import LINKED, STYLES, Node
 
@@ -64,6 +64,8 @@ _ZERO = re.compile(r"[+-]?0*\.?0+%?|-\d*\.?\d+%?")
 _DEEPEST, _LONGEST = 10, 1000
 """Variables within variables, and letters of a value with all of them in place."""
 
+_FREE_LETTERS, _MOST_FOLD = 20_000, 3
+"""Letters that selectors may have for nothing, and how many times those of all sheets: rules within rules multiply."""
 _LETTERS = ("color", "font-size", "font")
 _OF_THE_MOMENT = re.compile(r":(?:hover|active|focus|visited|link|target|before|after|selection)\b|::", re.IGNORECASE)
 """What a drawing looks like under the mouse or in letters; it says nothing of its shapes."""
@@ -190,6 +192,7 @@ class StyleSheet:
         self.unread: list[str] = [" ".join(written.split()) for written in outer]
         self.unread_hides = bool(self.unread)
         self._count = 0
+        self._letters = _FREE_LETTERS + _MOST_FOLD * sum(map(len, sheets))
         for text in sheets:
             self._add(text)
         if self._count:
@@ -197,6 +200,11 @@ class StyleSheet:
 
     def _add(self, text: str) -> None:
         for selectors, body in written_rules(text):
+            self._letters -= len(selectors)
+            if self._letters < 0:
+                self.unread.append(UNREADABLE)
+                self.unread_hides = True
+                return
             declared = list(declarations(body))
             for written in selectors_of(selectors) if declared else ():
                 self._count += 1

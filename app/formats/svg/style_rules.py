@@ -28,7 +28,7 @@ _MOST_SELECTORS = 1000
 """Of a rule within others, which goes on from each of theirs."""
 _LONGEST, _MOST_LETTERS = 1000, 50_000
 """Letters of a selector, and of all those of a rule, within others: each & is as long as what stands for it."""
-_UNREADABLE = ":too-many"
+UNREADABLE = ":too-many"
 """Stands for selectors that are too many, too long, or nested too deep, to be followed."""
 _OF_SELECTOR = re.compile(r"\"(?:\\.|[^\"\\])*\"|'(?:\\.|[^'\\])*'|(?P<sign>[,()\[\]])|[^\"',()\[\]]+|.", re.DOTALL)
 
@@ -99,7 +99,7 @@ def _nested(head: str, body: str, depth: int) -> Iterator[WrittenRule]:
     yield WrittenRule(head, _own(body))
     for inner, text in _blocks(body):
         if depth >= _DEEPEST:
-            yield WrittenRule(_UNREADABLE, _BRACES.sub(";", text))
+            yield WrittenRule(UNREADABLE, _BRACES.sub(";", text))
         elif inner.startswith("@"):
             yield from _within(head, _rules(f"{inner}{{&{{{text}}}}}", depth + 1))
         else:
@@ -116,7 +116,7 @@ def _within(head: str, rules: Iterable[WrittenRule]) -> Iterator[WrittenRule]:
         made_letters = letters * sum(uses) + len(outer) * sum(map(len, inner))
         too_long = longest * max(uses) + max(map(len, inner)) > _LONGEST or made_letters > _MOST_LETTERS
         if too_long or len(outer) * len(inner) > _MOST_SELECTORS:
-            yield WrittenRule(_UNREADABLE, declared)
+            yield WrittenRule(UNREADABLE, declared)
         else:
             made = (each.replace("&", one) if "&" in each else f"{one} {each}" for one in outer for each in inner)
             yield WrittenRule(",".join(made), declared)
