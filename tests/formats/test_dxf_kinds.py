@@ -169,6 +169,19 @@ def test_a_block_of_which_a_clip_hides_something_is_told(
     assert all("clipped" in each.text and (each.x, each.y) == pytest.approx((20.0, 5.0)) for each in counted)
 
 
+@pytest.mark.parametrize(("layer", "told"), [("Off", False), ("0", False), ("On", True)])
+def test_a_clip_is_told_where_it_hides_something_that_is_machined(layer: str, told: bool) -> None:
+    document = new()
+    document.layers.add("Off").off()
+    block = document.blocks.new("B")
+    plate(block, layer=layer)
+    block.add_circle((3, 3), 1, dxfattribs={"layer": "On"})
+    insert = document.modelspace().add_blockref("B", (0, 0), dxfattribs={"layer": "Off"})
+    XClip(insert).set_block_clipping_path([(1, 1), (5, 5)])
+    counted = [each.text for each in read(document).findings if each.counts]
+    assert ["clipped" in text for text in counted] == [True] * told
+
+
 def test_a_clip_that_is_switched_off_hides_nothing() -> None:
     document = new()
     plate(document.blocks.new("B"))

@@ -158,3 +158,11 @@ def test_what_nobody_has_heard_of_is_missing_also_where_its_name_ends_with_a_bra
     thing = "0\nTHING(2)\n5\nFFF\n100\nAcDbEntity\n8\n0\n10\n1\n20\n2\n"
     drawing = read(LINE.replace("0\nLINE", f"{thing}0\nLINE"))
     assert any(each.counts and "1 THING(2)" in each.text for each in drawing.findings)
+
+
+def test_two_polylines_that_have_become_one_are_missing_and_told() -> None:
+    one = "0\nLWPOLYLINE\n100\nAcDbEntity\n8\n0\n100\nAcDbPolyline\n90\n2\n70\n0\n10\n{}\n20\n0\n10\n{}\n20\n9\n"
+    both = one.format(0, 9) + one.format(20, 29).removeprefix("0\nLWPOLYLINE\n")
+    drawing = read(LINE.replace("0\nLINE", f"{both}0\nLINE"))
+    assert [curve for _, curve in seen(drawing)] == [Line((0, 0), (9, 0))]
+    assert dict(drawing.left_out) == {"LWPOLYLINE (damaged)": 1}

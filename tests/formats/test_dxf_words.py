@@ -163,6 +163,24 @@ def test_letters_that_are_not_in_the_code_page_told_are_read_as_they_are(
     assert [layer for layer, _ in read(data)[0]] == [name]
 
 
+@pytest.mark.parametrize(
+    ("page", "encoding", "stray", "other"),
+    [
+        ("ANSI_1252", "cp1252", "schräge", "外形"),
+        ("ANSI_932", "cp932", "表ソ", "外形"),
+        ("", "cp1252", "é", "schräge"),
+    ],
+)
+def test_a_line_that_is_not_in_utf8_leaves_the_others_as_they_are(
+    page: str, encoding: str, stray: str, other: str
+) -> None:
+    told: Pairs = [(9, "$DWGCODEPAGE"), (3, page)] if page else []
+    head = section("HEADER", (9, "$ACADVER"), (1, "AC1032"), *told)
+    data = text([*head, *section("ENTITIES", *line(1.0, "STRAY"), *line(2.0, other)), (0, "EOF")])
+    curves, _, _ = read(data.replace(b"STRAY", stray.encode(encoding)))
+    assert [layer for layer, _ in curves] == [stray, other]
+
+
 def test_letters_of_a_file_of_carriage_returns_are_those_of_its_encoding() -> None:
     head = section("HEADER", (9, "$ACADVER"), (1, "AC1032"))
     curves, _, _ = read(text([*head, *section("ENTITIES", *line(1.0, "Schräge")), (0, "EOF")], "{0}\r{1}\r".format))

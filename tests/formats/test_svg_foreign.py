@@ -48,7 +48,16 @@ def test_a_prefix_that_cannot_be_declared_is_refused_in_one_line() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "meant"), [("Layer_x0020_1", "Layer 1"), ("a_x5F_b", "a_b"), ("_x7DDA_", "線"), ("a_x1_b", "a_x1_b")]
+    ("name", "meant"),
+    [
+        ("Layer_x0020_1", "Layer 1"),
+        ("a_x5F_b", "a_b"),
+        ("_x7DDA_", "線"),
+        ("a_x1_b", "a_x1_b"),
+        ("_xD83D__xDE00_", "\U0001f600"),
+        ("_xD83D_", "_xD83D_"),
+        ("a_x07_b", "a_x07_b"),
+    ],
 )
 def test_encoded_names_of_layers_are_as_they_were_typed(name: str, meant: str) -> None:
     (layer,) = read_svg(f'<svg {NS} {PAGE}><g id="{name}">{RECT}</g></svg>'.encode()).part.layers
@@ -76,9 +85,16 @@ def test_a_style_sheet_in_the_words_of_xhtml_counts() -> None:
     assert len(drawing.part.entities) == 4 and dict(drawing.left_out) == {"circle (invisible)": 1}
 
 
-@pytest.mark.parametrize(("said", "counts"), [('rel="stylesheet"', True), ('rel="icon"', False)])
+@pytest.mark.parametrize(
+    ("said", "counts"),
+    [
+        ('rel="stylesheet" href="a.css"', True),
+        ('rel="icon" href="a.css"', False),
+        ('rel="stylesheet" href="https://fonts.googleapis.com/css2?family=Roboto"', False),
+    ],
+)
 def test_a_linked_style_sheet_is_told(said: str, counts: bool) -> None:
-    link = f'<link xmlns="http://www.w3.org/1999/xhtml" {said} href="a.css"/>'
+    link = f'<link xmlns="http://www.w3.org/1999/xhtml" {said}/>'
     found = read_svg(f"<svg {NS} {PAGE}>{link}{RECT}</svg>".encode()).findings
     assert [each.counts for each in found] == [True] * counts
 
@@ -113,9 +129,27 @@ def test_rules_that_hold_for_nothing_here_hide_nothing(sheet: str) -> None:
 
 def test_rules_that_are_nested_too_deep_or_too_often_are_told_and_take_no_time() -> None:
     names = ",".join("abcdefghij")
-    for sheet in (f"{names}{{" * 9 + "display:none" + "}" * 9, "g{" * 40 + "display:none" + "}" * 40):
+    many = "&amp;" * 100
+    for sheet in (
+        f"{names}{{" * 9 + "display:none" + "}" * 9,
+        "g{" * 40 + "display:none" + "}" * 40,
+        f"{names}{{" * 3 + "&amp;{fill:red}" * 240 + "}" * 3,
+        f"g{{{many}{{{many}{{{many}{{display:none}}}}}}}}",
+    ):
         found = read_svg(f"<svg {NS} {PAGE}><style>{sheet}</style>{RECT}</svg>".encode()).findings
         assert [each.counts for each in found] == [True]
+
+
+@pytest.mark.parametrize("sheet", [":is(rect,circle){ .a{display:none}}", "g{:is(rect,circle){display:none}}"])
+def test_commas_within_brackets_part_no_selectors(sheet: str) -> None:
+    (found,) = read_svg(f"<svg {NS} {PAGE}><style>{sheet}</style>{RECT}</svg>".encode()).findings
+    assert found.counts and found.text.startswith("1 rule ") and ":is(rect,circle)" in found.text
+
+
+def test_a_comma_within_quotes_parts_no_selector() -> None:
+    body = f'<style>[id="a,b"]{{display:none}}</style><circle id="a,b" r="3"/>{RECT}'
+    drawing = read_svg(f"<svg {NS} {PAGE}>{body}</svg>".encode())
+    assert len(drawing.part.entities) == 4 and not [each for each in drawing.findings if each.counts]
 
 
 @pytest.mark.parametrize("hidden", ['opacity="-1"', 'style="opacity:-.5"', 'requiredExtensions="http://x.y"'])

@@ -143,6 +143,12 @@ def test_a_style_sheet_in_another_file_is_told() -> None:
     assert found.counts and 'xml-stylesheet href="a.css"' in found.text
 
 
+def test_a_style_sheet_in_another_file_that_brings_letters_alone_is_not_told() -> None:
+    address = 'href="https://fonts.googleapis.com/css2?family=Roboto" type="text/css"'
+    data = f'<?xml version="1.0"?>\n<?xml-stylesheet {address}?>\n<svg {PAGE}>{RIM}</svg>'.encode()
+    assert not read_drawing("a.svg", data).findings
+
+
 @pytest.mark.parametrize(
     ("sheet", "told"),
     [

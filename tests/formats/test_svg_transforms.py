@@ -88,6 +88,24 @@ def test_shares_of_a_move_are_of_the_box_that_is_meant() -> None:
 
 
 @pytest.mark.parametrize(
+    ("body", "end"),
+    [
+        ('<g transform="translate(10 20)"><text>A</text>{}</g>', (30, 30)),
+        ('<g transform="scale(2)">{}</g>', (30, 20)),
+        ('<g style="transform:translate(100%,0)">{}</g>', (30, 10)),
+        ('<g transform="scale(2)"><g transform="translate(10 0)">{}</g></g>', (40, 20)),
+        ('<g style="transform:scale(2);transform-origin:center"><a transform="scale(2)">{}</a></g>', (40, 30)),
+        ('<defs><g id="a">{}</g></defs><use href="#a" x="5" transform="scale(2)"/>', (35, 20)),
+        ('<g transform="scale(2)"><defs><circle r="99"/></defs>{}</g>', (30, 20)),
+    ],
+)
+def test_groups_and_copies_turn_about_the_box_of_what_they_draw(body: str, end: Point) -> None:
+    line = '<path d="M10 0L20 10" stroke="red"/>'
+    drawing = read(f"<style>*{{transform-box:fill-box}}</style>{body.format(line)}")
+    assert [each.curve.end for each in drawing.part.entities] == [pytest.approx((end[0], 50 - end[1]))]
+
+
+@pytest.mark.parametrize(
     ("body", "what"),
     [
         ('<g transform="spin(3)"><circle r="9"/><circle r="8"/></g>', "spin(3)"),
@@ -98,8 +116,16 @@ def test_shares_of_a_move_are_of_the_box_that_is_meant() -> None:
         ('<circle r="9" transform="rotate(5 5)"/>', "rotate(5 5)"),
         ('<circle r="9" style="transform:translate(5vw)"/>', "translate(5vw)"),
         (
-            '<g style="transform:scale(2);transform-box:fill-box;transform-origin:center"><circle r="9"/></g>',
+            '<g style="transform:scale(2);transform-box:fill-box;transform-origin:center"><text>A</text></g>',
             "scale(2) about center",
+        ),
+        (
+            '<g id="g" style="transform:scale(2);transform-box:fill-box"><use href="#g"/><use href="#g"/></g>',
+            "scale(2)",
+        ),
+        (
+            '<g style="transform:scale(2);transform-box:fill-box"><path d="M0 0L9 5" transform="rotate(30)"/></g>',
+            "scale(2)",
         ),
     ],
 )

@@ -17,7 +17,7 @@ from ...geometry.affine import Affine, transformed
 from ...model.curves import Curve, Point
 from ..drawing import LeftOutReason, LeftOutSort
 from ..drawing_account import LEVEL_ZERO, MOST_CURVES, LayeredCurve
-from .block_clips import hides
+from .block_clips import hidden_layers
 from .curves import (
     DamagedCurveError,
     NegativeRadiusError,
@@ -121,10 +121,22 @@ def _place_of(entity: Any) -> Point:
 
 
 class ClippedBlock(NamedTuple):
-    """A block that is read whole although a clip hides a part of it: its name and place, drawing units."""
+    """A block that is read whole although a clip hides a part of it: its name and place, drawing units, and the layers
+    of what is hidden.
+    """
 
     name: str
     at: Point
+    layers: tuple[str, ...]
+
+    def moved(self, place: Affine, outer: str) -> ClippedBlock:
+        """Return it under a map; what is on layer 0 goes to `outer`."""
+        return ClippedBlock(self.name, place.point(self.at), _on(self.layers, outer))
+
+
+def _on(layers: Iterable[str], outer: str) -> tuple[str, ...]:
+    """Return layers of a block as they are where it is inserted on the layer `outer`."""
+    return tuple(outer if layer == "0" else layer for layer in layers)
 
 
 class LayeredPoint(NamedTuple):
@@ -350,7 +362,7 @@ class DxfWalker:
         self._bounded(content.size + inner.size * places, insert)
         self._bounded(places, insert)
         if self._is_hidden(insert):
-            layers = tuple(insert.dxf.layer if layer == "0" else layer for layer in inner.layers())
+            layers = _on(inner.layers(), insert.dxf.layer)
             content.hidden.append(
                 HiddenInsert(insert.dxf.layer, insert.dxf.name, next(iter(_origins(insert)), None), layers * places)
             )
@@ -371,8 +383,9 @@ class DxfWalker:
             for place in copies
             for at, layer in points
         ]
-        if hides(insert, inner.drawn()):
-            content.clipped.append(ClippedBlock(insert.dxf.name, _inserted_at(insert, copies[0])))
+        if clipped := hidden_layers(insert, zip(inner.drawn(), inner.layers(), strict=True)):
+            clip = ClippedBlock(insert.dxf.name, _inserted_at(insert, copies[0]), _on(clipped, insert.dxf.layer))
+            content.clipped.append(clip)
         for place in copies:
             self._copy(inner, place, insert.dxf.layer, content, float(insert.dxf.insert.z))
         self._attributes(insert, copies, content)
@@ -410,7 +423,7 @@ class DxfWalker:
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.negative
         ]
-        content.clipped += [each._replace(at=place.point(each.at)) for each in inner.clipped]
+        content.clipped += [each.moved(place, outer) for each in inner.clipped]
         content.bands += [each.moved(place, outer) for each in inner.bands]
         content.unread += [
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import codecs
 import re
+from itertools import compress
 
 HEAD = 1 << 16
 """Bytes of the beginning in which version and code page have to stand."""
@@ -66,7 +67,24 @@ def with_told_letters(data: bytes) -> bytes:
         return data
     mark = next((each for each in _BYTE_ORDERS if data.startswith(each)), None)
     meant = _BYTE_ORDERS[mark] if mark is not None else _meant(data)
-    return data if meant == "" else _plain(data.decode(meant, "replace"))
+    if meant == "":
+        return data
+    whole = mark is not None or meant == "utf-8"
+    return _plain(data.decode(meant, "replace") if whole else _by_lines(data, meant))
+
+
+def _by_lines(data: bytes, page: str) -> str:
+    """Return the text of a file that should be in UTF-8 and is not throughout: one line that was put in by a program of
+    old does not change the others.
+    """
+    lines = data.splitlines(keepends=True)
+    kept = [not line.isascii() and _is_utf8(line) for line in lines]
+    if page in _OF_SEVERAL_BYTES and not any(map(_OF_THREE_BYTES.search, compress(lines, kept))):
+        return data.decode(page, "replace")
+    return "".join(
+        line.decode("utf-8" if stays or line.isascii() else page, "replace")
+        for line, stays in zip(lines, kept, strict=True)
+    )
 
 
 def plain_letters(data: bytes) -> bytes:
@@ -81,7 +99,7 @@ def _plain(text: str) -> bytes:
 
 
 def _meant(data: bytes) -> str:
-    """Return the encoding that a file has and does not tell, "" where it tells what it has."""
+    """Return the encoding that a file, or lines of it, has and does not tell, "" where it tells what it has."""
     if data.isascii() or b"\0" in data[:HEAD]:
         return ""
     told, page = encoding(data[:HEAD]), _page(data[:HEAD])

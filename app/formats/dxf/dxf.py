@@ -162,7 +162,7 @@ def read_dxf(
         *without_length(nothing),
         *_heights(content, unit.size),
         *hidden_insert_findings(content, unit.size),
-        *clip_findings(content, unit.size),
+        *clip_findings([each for each in content.clipped if any(map(machined, each.layers))], unit.size),
         *text_findings([each for each in content.letterings if machined(each.layer)], unit.size),
         *hatch_findings(drawn),
         *band_findings([each for each in content.bands if machined(each.layer)], unit.size),

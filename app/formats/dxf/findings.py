@@ -12,7 +12,7 @@ from ...core.options import option
 from ...core.wording import in_plane, together
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
-from .blocks import BrokenLine, DrawnCurves, DxfContent, HiddenInsert, WidePolyline
+from .blocks import BrokenLine, ClippedBlock, DrawnCurves, DxfContent, HiddenInsert, WidePolyline
 from .curves import is_unbroken
 from .letters import TextCurves
 from .numbers import DecimalCommas
@@ -165,10 +165,14 @@ def _hidden(inserts: list[HiddenInsert], size: float) -> Finding:
     )
 
 
-def clip_findings(content: DxfContent, size: float) -> Iterator[Finding]:
-    """Say that clipped blocks are read whole; `size` is that of the drawing's unit, mm."""
-    if content.clipped:
-        first, count = content.clipped[0], len(content.clipped)
+def clip_findings(clipped: Sequence[ClippedBlock], size: float) -> Iterator[Finding]:
+    """Say that clipped blocks are read whole.
+
+    Args:
+        clipped: with something hidden on layers that are machined. size: of the drawing's unit, mm.
+    """
+    if clipped:
+        first, count = clipped[0], len(clipped)
         x, y = first.at[0] * size, first.at[1] * size
         what = (
             f"Block {first.name}, inserted at {in_plane(x, y)}, is clipped"

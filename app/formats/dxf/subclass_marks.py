@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import takewhile
+from itertools import dropwhile, takewhile
 from typing import Any
 
 from .sections import Sections, with_block_ends
@@ -53,9 +53,9 @@ def put_in(sections: Sections) -> None:
             kind = tags[0].value
             kinds.add(kind)
             _without_wrong_handle(tags)
-            if kind in _AT_ONE_PLACE and _is_merged(tags):
+            if (kind in _AT_ONE_PLACE and _is_merged(tags)) or (kind in _OWN and _is_marked_again(tags, kind)):
                 _call_damaged(tags)
-            if kind in _OWN and not _is_marked(tags, kind):
+            elif kind in _OWN and not _is_marked(tags, kind):
                 entities[at] = _with_marks(tags, kind)
     if kinds & _MARKED:
         _raise_version(sections)
@@ -141,8 +141,22 @@ def _is_handle(text: str) -> bool:
 
 def _is_merged(tags: Any) -> bool:
     """Tell whether an entity has two places: the line that begins another one is lost, and so are both."""
-    codes = takewhile(lambda code: code not in (_EMBEDDED, _EXTENDED), (int(tag.code) for tag in tags))
-    return sum(code == _PLACE for code in codes) > 1
+    return len([tag for tag in _plain(tags) if tag.code == _PLACE]) > 1
+
+
+def _is_marked_again(tags: Any, kind: str) -> bool:
+    """Tell whether an entity's kind is marked again behind a place: the line that begins another one is lost."""
+    behind = dropwhile(lambda tag: tag.code != _PLACE, dropwhile(lambda tag: not _is_own(tag, kind), _plain(tags)))
+    return any(_is_own(tag, kind) for tag in behind)
+
+
+def _is_own(tag: Any, kind: str) -> bool:
+    return bool(tag.code == _MARK and tag.value == _OWN[kind])
+
+
+def _plain(tags: Any) -> Iterator[Any]:
+    """Return an entity's tags without those of objects within it and of other programs."""
+    return takewhile(lambda tag: tag.code not in (_EMBEDDED, _EXTENDED), tags)
 
 
 def _is_marked(tags: Any, kind: str) -> bool:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from .colours import colour, is_clear
 from .lengths import MEDIUM, letter_height, size_of_font
 from .selectors import Selector, Specificity, keys_of, selector
-from .style_rules import imported, is_on_screen, without_comments, written_rules
+from .style_rules import UNREADABLE, imported, is_on_screen, may_hide, selectors_of, without_comments, written_rules
 from .transforms import INDIVIDUAL, written_transform
 from .xml import LINKED, STYLES, Node
 
@@ -64,10 +64,13 @@ _ZERO = re.compile(r"[+-]?0*\.?0+%?|-\d*\.?\d+%?")
 _DEEPEST, _LONGEST = 10, 1000
 """Variables within variables, and letters of a value with all of them in place."""
 
+_FREE_LETTERS, _MOST_FOLD = 20_000, 3
+"""Letters that selectors may have for nothing, and how many times those of all sheets: rules within rules multiply."""
 _LETTERS = ("color", "font-size", "font")
 _OF_THE_MOMENT = re.compile(r":(?:hover|active|focus|visited|link|target|before|after|selection)\b|::", re.IGNORECASE)
 """What a drawing looks like under the mouse or in letters; it says nothing of its shapes."""
 
+_HREF = re.compile(r"\shref\s*=\s*(\"[^\"]*\"|'[^']*')")
 _IMPORTANT = re.compile(r"!\s*important", re.IGNORECASE)
 
 
@@ -184,10 +187,12 @@ class StyleSheet:
         named = [each for each in root.every() if each.tag in (*STYLES, LINKED)]
         sheets = [each.text for each in named if each.tag in STYLES and _is_in_force(each)]
         linked = [f"link {each.attributes.get('href', '')}" for each in named if _is_linked_sheet(each)]
-        outer = [*root.outer_sheets, *linked, *(each for text in sheets for each in imported(text))]
+        instructed = [each for each in root.outer_sheets if may_hide(_address(each))]
+        outer = [*instructed, *linked, *(each for text in sheets for each in imported(text))]
         self.unread: list[str] = [" ".join(written.split()) for written in outer]
         self.unread_hides = bool(self.unread)
         self._count = 0
+        self._letters = _FREE_LETTERS + _MOST_FOLD * sum(map(len, sheets))
         for text in sheets:
             self._add(text)
         if self._count:
@@ -195,8 +200,13 @@ class StyleSheet:
 
     def _add(self, text: str) -> None:
         for selectors, body in written_rules(text):
+            self._letters -= len(selectors)
+            if self._letters < 0:
+                self.unread.append(UNREADABLE)
+                self.unread_hides = True
+                return
             declared = list(declarations(body))
-            for written in selectors.split(",") if declared else ():
+            for written in selectors_of(selectors) if declared else ():
                 self._count += 1
                 read = selector(written)
                 if read is not None:
@@ -233,9 +243,16 @@ def _is_in_force(sheet: Node) -> bool:
 
 
 def _is_linked_sheet(node: Node) -> bool:
-    """Tell whether an element names a style sheet for a screen in another file."""
-    said = node.attributes.get("rel", "").lower().split()
-    return node.tag == LINKED and "stylesheet" in said and is_on_screen(node.attributes.get("media", ""))
+    """Tell whether an element names a style sheet for shapes on a screen in another file."""
+    said, address = node.attributes.get("rel", "").lower().split(), node.attributes.get("href", "").strip()
+    on_screen = node.tag == LINKED and "stylesheet" in said and is_on_screen(node.attributes.get("media", ""))
+    return on_screen and may_hide(address)
+
+
+def _address(instruction: str) -> str:
+    """Return the address in an instruction before the root that names a style sheet, "" for none."""
+    found = _HREF.search(instruction)
+    return found[1][1:-1].strip() if found is not None else ""
 
 
 def declarations(text: str) -> Iterator[Declaration]:

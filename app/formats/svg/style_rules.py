@@ -26,8 +26,11 @@ _DEEPEST = 10
 """At-rules and rules within one another."""
 _MOST_SELECTORS = 1000
 """Of a rule within others, which goes on from each of theirs."""
-_UNREADABLE = ":too-many"
-"""Stands for selectors that are too many, or nested too deep, to be followed."""
+_LONGEST, _MOST_LETTERS = 1000, 50_000
+"""Letters of a selector, and of all those of a rule, within others: each & is as long as what stands for it."""
+UNREADABLE = ":too-many"
+"""Stands for selectors that are too many, too long, or nested too deep, to be followed."""
+_OF_SELECTOR = re.compile(r"\"(?:\\.|[^\"\\])*\"|'(?:\\.|[^'\\])*'|(?P<sign>[,()\[\]])|[^\"',()\[\]]+|.", re.DOTALL)
 
 
 class WrittenRule(NamedTuple):
@@ -52,6 +55,11 @@ def without_comments(text: str) -> str:
     return _COMMENT.sub(" ", text) if "/*" in text or "<!--" in text or "-->" in text else text
 
 
+def may_hide(address: str) -> bool:
+    """Tell whether the style sheet of an address may have rules for shapes, and brings more than letters."""
+    return _NOT_FOR_SHAPES.search(address) is None
+
+
 def imported(text: str) -> Iterator[str]:
     """Yield the statements by which a style sheet takes rules for a screen from elsewhere.
 
@@ -59,7 +67,7 @@ def imported(text: str) -> Iterator[str]:
         text: of a style element.
     """
     for each in _IMPORT.finditer(without_comments(text)):
-        if not (_NOT_FOR_SHAPES.search(each[1]) or all(map(_NOT_ON_SCREENS.match, each[2].split(",")))):
+        if may_hide(each[1]) and not all(map(_NOT_ON_SCREENS.match, each[2].split(","))):
             yield each[0]
 
 
@@ -91,7 +99,7 @@ def _nested(head: str, body: str, depth: int) -> Iterator[WrittenRule]:
     yield WrittenRule(head, _own(body))
     for inner, text in _blocks(body):
         if depth >= _DEEPEST:
-            yield WrittenRule(_UNREADABLE, _BRACES.sub(";", text))
+            yield WrittenRule(UNREADABLE, _BRACES.sub(";", text))
         elif inner.startswith("@"):
             yield from _within(head, _rules(f"{inner}{{&{{{text}}}}}", depth + 1))
         else:
@@ -100,14 +108,33 @@ def _nested(head: str, body: str, depth: int) -> Iterator[WrittenRule]:
 
 def _within(head: str, rules: Iterable[WrittenRule]) -> Iterator[WrittenRule]:
     """Yield rules that stand within one of these selectors."""
-    outer = [each.strip() for each in head.split(",")]
+    outer = [each.strip() for each in selectors_of(head)]
+    letters, longest = sum(map(len, outer)), max(map(len, outer))
     for selectors, declared in rules:
-        inner = [each.strip() for each in selectors.split(",")]
-        if len(outer) * len(inner) > _MOST_SELECTORS:
-            yield WrittenRule(_UNREADABLE, declared)
+        inner = [each.strip() for each in selectors_of(selectors)]
+        uses = [max(each.count("&"), 1) for each in inner]
+        made_letters = letters * sum(uses) + len(outer) * sum(map(len, inner))
+        too_long = longest * max(uses) + max(map(len, inner)) > _LONGEST or made_letters > _MOST_LETTERS
+        if too_long or len(outer) * len(inner) > _MOST_SELECTORS:
+            yield WrittenRule(UNREADABLE, declared)
         else:
             made = (each.replace("&", one) if "&" in each else f"{one} {each}" for one in outer for each in inner)
             yield WrittenRule(",".join(made), declared)
+
+
+def selectors_of(text: str) -> list[str]:
+    """Return selectors with commas between them, one each; commas within brackets and quotes part nothing."""
+    if not any(sign in text for sign in "([\"'"):
+        return text.split(",")
+    found, begin, depth = list[str](), 0, 0
+    for part in _OF_SELECTOR.finditer(text):
+        sign = part["sign"]
+        if sign == "," and not depth:
+            found.append(text[begin : part.start()])
+            begin = part.end()
+        elif sign and sign != ",":
+            depth = depth + 1 if sign in "([" else max(depth - 1, 0)
+    return [*found, text[begin:]]
 
 
 def _own(body: str) -> str:

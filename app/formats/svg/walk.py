@@ -20,6 +20,7 @@ from ...model.part import Layer
 from ..drawing import LeftOutReason, LeftOutSort
 from ..drawing_account import MOST_CURVES, LayeredCurve
 from ..dxf.splines import MOST_POINTS
+from .boxes import TransformReader
 from .clips import Clip, ClipReader, Seen, covers, seen_of, viewport_clip
 from .joined import beziers_joined, joined
 from .lengths import FONT_LENGTH, LengthBasis, Viewport
@@ -27,7 +28,7 @@ from .numbers import UnreadableError, ViewBox, fitted, view_box
 from .painted import bounding, closed_by_line
 from .path import SvgPath
 from .shapes import LENGTHS, SHAPES, measure, shape
-from .strokes import PaintedOutlines, origin
+from .strokes import PaintedOutlines
 from .style import StyleSheet, SvgStyle
 from .transforms import UnplacedError, transform
 from .xml import DEEPEST, INKSCAPE, LINK, SODIPODI, Node
@@ -44,6 +45,7 @@ _SIGN = re.compile(r"_x([0-9A-Fa-f]{2}|[0-9A-Fa-f]{4})_")
 _SHADE = re.compile(r"\s*url\(\s*[\"']?#([^)\"']+?)[\"']?\s*\)(.*)", re.DOTALL)
 """A paint of this file, and what is taken where there is none of that name."""
 _BREAK = re.compile(r"[\x00-\x1f]+")
+_NO_LETTER = re.compile(r"[\x00-\x1f\x7f-\x9f\ufffd]")
 
 
 @dataclass
@@ -161,6 +163,7 @@ class SvgWalker:
             self._named_layers |= _is_layer(node)
         self._open: list[int] = []
         self._page: Box | None = None
+        self._transforms = TransformReader(self._styles.style, self._target)
         self._clips: ClipReader[InheritedState] = ClipReader(self._ids, self._in_place, self._target)
 
     def content(self, to: Affine, view: Viewport) -> SvgContent:
@@ -265,7 +268,7 @@ class SvgWalker:
         style, to, layer = self._with_paints(self._styles.style(node, outer.style)), outer.to, outer.layer
         self._sheet.unfollowed.update(style.unfollowed)
         if style.transform and style.shown:
-            to = to.after(self._transform(node, style, outer.basis))
+            to = to.after(self._transforms.transform(node, style, outer.basis))
         named = "" if outer.copied else self._layer_name(node, outer.depth)
         if named:
             layer = named
@@ -286,38 +289,6 @@ class SvgWalker:
     def _paint(self, written: str) -> str:
         found = _SHADE.match(written)
         return written if found is None or found[1] in self._ids else found[2].strip() or "none"
-
-    def _transform(self, node: Node, style: SvgStyle, basis: LengthBasis) -> Affine:
-        """Return where an element's own transform brings it.
-
-        Raises:
-            UnplacedError: that cannot be told.
-        """
-        try:
-            place = self._reference(node, style, basis)
-            made = transform(style.transform, replace(basis, viewport=(place.width, place.height)))
-            if made == IDENTITY:
-                return made
-            x, y = origin(style.origin, place, basis)
-        except (UnreadableError, ArithmeticError):
-            raise UnplacedError(" about ".join(filter(None, (style.transform, style.origin)))) from None
-        return Affine(x0=x, y0=y).after(made).after(Affine(x0=-x, y0=-y)) if x or y else made
-
-    def _reference(self, node: Node, style: SvgStyle, basis: LengthBasis) -> ViewBox:
-        """Return what an element's transform is relative to, user units.
-
-        Raises:
-            UnreadableError: the box round a group, or round an outline's width.
-        """
-        if style.box in ("", "view-box"):
-            return ViewBox(0.0, 0.0, *basis.viewport)
-        with_outline = style.box in ("stroke-box", "border-box") and style.outlined
-        sized = replace(node, attributes={**node.attributes, **style.geometry})
-        drawn = shape(sized, basis, MOST_CURVES) if not with_outline else None
-        box = None if drawn is None else bounds_of_all(curve for run in drawn.runs for curve in run)
-        if box is None or not all(map(math.isfinite, box)):
-            raise UnreadableError(style.box)
-        return ViewBox(box[0], box[1], box[2] - box[0], box[3] - box[1])
 
     def _layer_name(self, node: Node, depth: int) -> str:
         """Return the name of the layer that a group is; a file without Inkscape's layers has its top groups that are
@@ -511,8 +482,12 @@ def _of_font(node: Node) -> bool:
 
 
 def _decoded(name: str) -> str:
-    """Return the name of an element as it was typed: some editors write what no name may have as _x0020_."""
-    return _SIGN.sub(lambda sign: chr(int(sign[1], 16)), name)
+    """Return the name of an element as it was typed: some editors write what no name may have as _x0020_, a letter of
+    two such numbers as both; one that gives no letter was typed as it stands.
+    """
+    units = _SIGN.sub(lambda sign: chr(int(sign[1], 16)), name).encode("utf-16", "surrogatepass")
+    typed = units.decode("utf-16", "replace")
+    return name if _NO_LETTER.search(typed) else typed
 
 
 def _is_layer(node: Node) -> bool:
