@@ -398,7 +398,7 @@ def test_films_of_curves_read_a_program_in_the_units_that_were_said(letter: str)
 def test_what_is_no_program_is_told_so_and_not_taken_for_a_faulty_one(name: str, kind: str) -> None:
     from app.core.errors import InputError
 
-    for read in (lambda: points_of(name, b"arc 1,2"), lambda: program_input(name, b"arc 1,2")):
+    for read in (lambda: points_of(name, b"arc 1,2"), lambda: program_input(FilmSource(name, b"arc 1,2", no_file))):
         with pytest.raises(InputError, match=f"{name} is {kind}.*an NC program"):
             read()
     assert len(points_of("no-suffix", resource("samples", "points.ngc").read_bytes())) > 4

@@ -237,6 +237,7 @@ def _forget_text(wiring: WindowController) -> None:
         page.set_replaces(False)
     control.trial_runner.leave()
     control.trial_runner._session = DraftingSession()
+    wiring.window_.canvas._stock_of = None
     if wiring.window_.canvas._trial != DrawingDifference():
         wiring.window_.canvas.show_trial(DrawingDifference())
     control._kept.clear()

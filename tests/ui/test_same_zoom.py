@@ -67,3 +67,29 @@ def test_zero_of_the_program_may_be_elsewhere_and_another_program_is_not_followe
     look_at(path, (900.0, 900.0))
     showing.show_view(View.PATHS)
     assert looked_at(canvas) == pytest.approx((*PLACE, SCALE), abs=3.0), "but for other widths of what stands beside"
+
+
+def test_what_was_looked_at_elsewhere_is_followed_once(qtbot, computed):
+    """A program that was made anew while all of it was seen jumped back to where *Paths* had been looked at."""
+    showing, document = computed.display_controller, computed.document
+    showing.show_view(View.PATHS)
+    look_at(computed.window_.canvas, PLACE)
+    path = show_nc(qtbot, computed)
+    path.fit_now()
+    document.change_job("Origin", replace(document.job, origin_xy=OriginXY.CENTRE))
+    computed.computation.start()
+    qtbot.waitUntil(lambda: computed.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
+    show_nc(qtbot, computed)
+    assert not path.moved
+
+
+def test_a_motion_that_is_picked_elsewhere_is_in_sight(qtbot, computed):
+    showing = computed.display_controller
+    showing.show_view(View.PATHS)
+    look_at(computed.window_.canvas, PLACE)
+    path = show_nc(qtbot, computed)
+    motions = computed.nc.shown.program.motions
+    far = int(abs(motions.end[:, :2] - PLACE).sum(axis=1).argmax())
+    computed.nc.pick_motion(0, far)
+    x, y = motions.end[far, :2].tolist()
+    qtbot.waitUntil(lambda: path.area.contains(path.view.to_screen((x, y))), timeout=WAIT_MS)

@@ -145,6 +145,18 @@ class FacetsApart:
         )
 
 
+@dataclass(frozen=True, slots=True)
+class ComparedSize:
+    """Facets of one size beside the closed form: that size in distances of the dexels (d / w), how many there are, how
+    heights lie, and the error that is stated for them, mm, square to the surface.
+    """
+
+    times: float
+    count: int
+    apart: FacetsApart
+    stated: float
+
+
 class _DexelSteps:
     """One program on two grids: over all of its stock, and over a part."""
 
@@ -251,8 +263,8 @@ class _DexelSteps:
         most = self._closed_form(held) if held is not None else np.asarray(self.part.heights, np.float64)
         return FacetsApart.of(heights, self.exact, most, self.grid.pitch)
 
-    def _compared(self, progress: Progress) -> tuple[tuple[float, int, FacetsApart, float], ...]:
-        """Return of each size d / w how many facets, how heights lie beside exact ones, and the stated error."""
+    def _compared(self, progress: Progress) -> tuple[ComparedSize, ...]:
+        """Return how heights by facets of several sizes lie beside exact ones; of too many facets nothing."""
         rows = []
         for number, times in enumerate(FACET_PITCHES):
             progress.step(number / len(FACET_PITCHES), "Comparing sizes of facets")
@@ -263,7 +275,8 @@ class _DexelSteps:
             heights = np.minimum(
                 self.part.heights, np.maximum(drawn(facets.quads.astype(np.float64), self.grid), self.part.floor)
             )
-            rows.append((times, len(facets.kind), self._apart(heights, size), facet_error(self.cutter, size)))
+            stated = facet_error(self.cutter, size)
+            rows.append(ComparedSize(times, len(facets.kind), self._apart(heights, size), stated))
         return tuple(rows)
 
     def entered(self) -> FilmStep:
@@ -406,8 +419,11 @@ class _DexelSteps:
         """Return S105."""
         rows = [_COMPARED]
         rows += [
-            (f"{times:g}", f"{count:,}", f"{off.largest:.6f}", f"{stated:.6f}", f"{off.allowed:.6f}", f"{off.outside}")
-            for times, count, off, stated in self.by_facet
+            (
+                *(f"{each.times:g}", f"{each.count:,}", f"{each.apart.largest:.6f}", f"{each.stated:.6f}"),
+                *(f"{each.apart.allowed:.6f}", f"{each.apart.outside}"),
+            )
+            for each in self.by_facet
         ]
         counts = self.counts[2.0]
         return FilmStep(

@@ -17,14 +17,12 @@ class FollowedPicture:
     """A picture of the plane that others follow, and which follows them.
 
     Attributes:
-        zero: where its zero lies in the drawing, mm; None where it shows something else.
-        content: what it shows: another thing is fitted when it comes.
+        zero: where its zero lies in the drawing, mm; None where it shows something else, or nothing yet.
         fit: shows all of it at once.
     """
 
     viewport: Viewport
     zero: Callable[[], Point | None]
-    content: Callable[[], object]
     fit: Callable[[], None]
 
 
@@ -43,33 +41,30 @@ class SameZoom(QObject):
         super().__init__(parent)
         self._pictures = pictures
         self._last: FollowedPicture | None = None
-        self._wanted: ViewedPlace | None = None
-        self._given: object = None
+        self._requested: ViewedPlace | None = None
 
     def follow(self, view: View) -> None:
         """Another view came to the front."""
         picture = self._pictures.get(view)
         if picture is None:
             return
-        before, self._last, self._given = self._last, picture, None
+        before, self._last, self._requested = self._last, picture, None
         if before is None or before.viewport is picture.viewport or before.zero() is None:
-            self._wanted = None
             return
-        self._wanted = _look_of(before)
-        if self._wanted is not None:
+        self._requested = _look_of(before)
+        if self._requested is not None:
             self.take()
         elif picture.zero() is not None and picture.viewport.moved:
             picture.fit()
 
     def take(self) -> None:
-        """Look at what is wanted; again where something else is shown since, which was fitted."""
-        picture, wanted = self._last, self._wanted
-        zero = picture.zero() if picture is not None else None
-        if picture is None or wanted is None or zero is None or picture.content() is self._given:
+        """Look at what is requested, once there is a picture of the job; afterwards the view is the user's."""
+        picture, requested = self._last, self._requested
+        if picture is None or requested is None or (zero := picture.zero()) is None:
             return
-        self._given, viewport = picture.content(), picture.viewport
-        place = (wanted.middle[0] - zero[0], wanted.middle[1] - zero[1])
-        viewport.set_view(replace(viewport.view, scale=wanted.scale).centred(place, viewport.area))
+        self._requested = None
+        viewport, place = picture.viewport, (requested.middle[0] - zero[0], requested.middle[1] - zero[1])
+        viewport.set_view(replace(viewport.view, scale=requested.scale).centred(place, viewport.area))
 
 
 def _look_of(picture: FollowedPicture) -> ViewedPlace | None:

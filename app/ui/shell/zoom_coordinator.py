@@ -24,7 +24,7 @@ class ZoomCoordinator:
     ) -> None:
         self._computation, self._nc = window.computation, nc
         canvas = window.canvas
-        drawing = FollowedPicture(canvas, lambda: (0.0, 0.0), lambda: canvas, canvas.fit)
+        drawing = FollowedPicture(canvas, lambda: (0.0, 0.0), canvas.fit)
         program, curved = map(self._followed, (window.views.nc.path, window.views.curves.path))
         views = {View.DRAW: drawing, View.PATHS: drawing, View.NC: program, View.CURVES: curved}
         self.zoom = SameZoom(views, window)
@@ -33,7 +33,7 @@ class ZoomCoordinator:
             controller.changed.connect(self.zoom.take)
 
     def _followed(self, path: PathView) -> FollowedPicture:
-        return FollowedPicture(path, partial(self._zero_of, path), lambda: path.picture, path.fit_now)
+        return FollowedPicture(path, partial(self._zero_of, path), path.fit_now)
 
     def _zero_of(self, path: PathView) -> Point | None:
         """Return where zero of a path seen from above lies in the drawing, mm; None of another program, or side."""

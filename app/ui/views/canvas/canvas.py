@@ -172,11 +172,11 @@ class Canvas(InteractiveViewport):
         """Show where the stock is; None = there is none yet. What was fitted is fitted anew where the job, and not the
         drawing, makes the stock reach beyond it.
         """
+        drawn, self._stock_of = self._stock_of, self.document.part
         if stock == self.around.stock:
             return
         self.around.stock = stock
         self.repaint_scene()
-        drawn, self._stock_of = self._stock_of, self.document.part
         if stock is not None and drawn is self._stock_of:
             self.widen_fit((stock.x0, stock.y0, stock.x1, stock.y1))
 

@@ -319,6 +319,7 @@ class NcController(Controller):
         motion, self._picked = self._picked, None
         if motion is not None:
             self._view.pick_motion(motion)
+            self._view.path.bring_into_sight()
 
     def _show_own(self) -> None:
         source = self.source
@@ -333,8 +334,8 @@ class NcController(Controller):
     def _on_own(self, shown: ShownProgram) -> None:
         if self._foreign is None:
             self._view.show_program(shown)
-            self._pick()
             self.changed.emit()
+            self._pick()  # last: whoever follows may look elsewhere
 
     def _show_heads(self, guessed: Dialect | None = None) -> None:
         """Say what is shown: another program, or one that the job has outgrown."""
