@@ -23,6 +23,8 @@ _WITH_OUTLINES = ("stroke-box", "border-box")
 _GROUPS = ("g", "a")
 _UNKNOWN = ("image", "foreignObject", "video", "audio", "iframe", "canvas", "text", "flowRoot", "svg", "switch")
 """Elements that take up room, and nobody here knows how much."""
+_MOST_ASKED = 200_000
+"""Elements, and curves of theirs that are moved, for all boxes: those of groups within groups ask for the same ones."""
 _NAN = (math.nan, math.nan)
 
 
@@ -36,7 +38,7 @@ class TransformReader:
             style: returns that of an element inside one of another style. target: what a `use` copies.
         """
         self._style, self._target = style, target
-        self._left = MOST_CURVES  # elements of groups; boxes of groups within groups ask for the same ones again
+        self._left = _MOST_ASKED
 
     def transform(self, node: Node, style: SvgStyle, basis: LengthBasis) -> Affine:
         """Return where an element's own transform brings it; its style's lengths are relative to `basis`.
@@ -103,6 +105,7 @@ class TransformReader:
         to = self._about(style, basis, lambda: inner)
         if (to.xy or to.yx) and (to.xx or to.yy):
             raise UnreadableError(box)
+        self._left -= len(inner)
         yield from _through(inner, to)
 
 
