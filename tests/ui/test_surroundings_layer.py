@@ -121,6 +121,16 @@ def test_the_outline_is_the_stock_that_the_program_tells(qtbot, wiring):
     assert window.canvas.around.stock == StockBox(-2.0, -2.0, -10.0, 87.0, 72.0)
 
 
+def test_a_stock_that_the_job_widens_is_fitted_also_behind_an_edit_that_left_it_as_it_was(qtbot, wiring):
+    canvas, document = wiring.window_.canvas, wiring.document
+    document.run("rect 0,0 60,40")
+    canvas.fit()
+    document.run("line 10,10 20,20")
+    document.change_job("Margin", replace(document.job, stock=Stock(margin=40.0)))
+    corner = canvas.around.stock.x0, canvas.around.stock.y0
+    qtbot.waitUntil(lambda: canvas.area.contains(canvas.view.to_screen(corner)), timeout=5000)
+
+
 def test_a_click_marks_a_place_and_escape_ends(qtbot, canvas):
     places: list[tuple[float, float]] = []
     canvas.mark(MarkerMode("Places", lambda: places, lambda at, reach: places.append(at)))
