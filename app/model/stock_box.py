@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from ..core.errors import ParameterError
 from .curves import Arc, Circle, Line, Point
 from .job import Job, OriginXY, OriginZ
+from .moves import Program
 from .part import Contour, Region
 
 QUADRANTS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
@@ -105,6 +106,11 @@ def work_origin(job: Job, box: StockBox) -> tuple[float, float, float]:
         OriginXY.CENTRE: ((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2),
     }[job.origin_xy]
     return (x, y, 0.0 if job.origin_z is OriginZ.TOP else box.z0)
+
+
+def program_origin(job: Job, program: Program) -> tuple[float, float, float]:
+    """Return the work origin of a job's program, mm, part coordinates: of the stock round all that it machines."""
+    return work_origin(job, stock_box(job, program.regions, program.lines))
 
 
 def _tops_beyond(curve: Arc | Circle, box: _Box) -> list[Point]:

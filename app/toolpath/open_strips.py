@@ -26,8 +26,9 @@ from numpy.typing import NDArray
 from ..core.errors import GeometryError
 from ..core.tolerances import WELD
 from ..core.wording import in_plane
+from ..geometry.outlines import reversed_contour
 from ..geometry.primitives import contour_rows, sample
-from ..model.curves import Line, Primitive, reversed_curve
+from ..model.curves import Line, Primitive
 from ..model.finding import Finding, FindingKind
 from ..model.operation import SideStrip
 from ..model.part import Contour
@@ -61,11 +62,11 @@ class _EdgeLine(NamedTuple):
     """A line in the direction in which its area lies on the left.
 
     Attributes:
-        points: (n, 2) of its chords, mm.
+        drawn: as it is drawn. turned: in this direction. points: (n, 2) of its chords, mm.
     """
 
-    line: Contour
-    primitives: tuple[Primitive, ...]
+    drawn: Contour
+    turned: Contour
     points: Floats
 
 
@@ -93,17 +94,15 @@ def _apart(made: Sequence[StripsBesideLines]) -> bool:
 
 
 def _way(line: Contour, strip: SideStrip) -> _EdgeLine:
-    primitives: tuple[Primitive, ...] = line.primitives
-    if not strip.left:
-        primitives = tuple(reversed_curve(each) for each in reversed(primitives))  # type: ignore[misc]
-    rows = contour_rows(replace(line, primitives=primitives))
-    return _EdgeLine(line, primitives, np.concatenate([sample(rows, _CHORD), rows[-1:, 2:4]]))
+    turned = line if strip.left else reversed_contour(line)
+    rows = contour_rows(turned)
+    return _EdgeLine(line, turned, np.concatenate([sample(rows, _CHORD), rows[-1:, 2:4]]))
 
 
 def _strip(way: _EdgeLine, strip: SideStrip) -> StripsBesideLines | None:
     """Return the area on the left of a line; None where it bends back within reach."""
     points = way.points
-    ahead = headings_at(contour_rows(replace(way.line, primitives=way.primitives))[[0, -1]], np.array([0.0, 1.0]))
+    ahead = headings_at(contour_rows(way.turned)[[0, -1]], np.array([0.0, 1.0]))
     right = np.column_stack([ahead[:, 1], -ahead[:, 0]])
     first, last = points[[0, -1]] + 2 * strip.reach * right
     across = shapely.LineString([first, *points, last])
@@ -113,7 +112,7 @@ def _strip(way: _EdgeLine, strip: SideStrip) -> StripsBesideLines | None:
     if len(sides) != 2 or rest is None:
         return None
     back = _chords(np.array([points[-1], *rest, points[0]]))
-    bounds = replace(way.line, primitives=(*way.primitives, *back), closed=True)
+    bounds = replace(way.turned, primitives=(*way.turned.primitives, *back), closed=True)
     return StripsBesideLines([bounds], [Contour(back, False)])
 
 
@@ -178,7 +177,7 @@ def _together(ways: Sequence[_EdgeLine], alone: Sequence[bool], strip: SideStrip
     try:
         areas = _air(ways, strip.reach)
     except shapely.errors.GEOSException as error:  # nearly parallel edges of bands that rounding alone tells apart
-        raise _too_near(ways[0].line, strip, other[alone[0]]) from error
+        raise _too_near(ways[0].drawn, strip, other[alone[0]]) from error
     kept = list(range(len(ways)))
     while True:
         tree = shapely.STRtree([shapely.LineString(ways[number].points) for number in kept])
@@ -187,10 +186,10 @@ def _together(ways: Sequence[_EdgeLine], alone: Sequence[bool], strip: SideStrip
         if whole >= set(kept):
             break
         kept = [number for number in kept if number in whole]
-    errors = {k: _too_near(ways[k].line, strip, other[alone[k]]) for k in range(len(ways)) if k not in kept}
+    errors = {k: _too_near(ways[k].drawn, strip, other[alone[k]]) for k in range(len(ways)) if k not in kept}
     if not kept:
         raise errors[0]
-    findings = tuple(_left_out(ways[k].line, error) for k, error in errors.items())
+    findings = tuple(_left_out(ways[k].drawn, error) for k, error in errors.items())
     found = [each for each in links if any(link.after is not None for link in each)]
     contours = [contour for each in found for contour in _bounds(each, ways)]
     bare = [Contour(_chords(link.points), link.after is None) for each in found for link in each]
@@ -334,10 +333,13 @@ def _bounds(links: Sequence[_Link], ways: Sequence[_EdgeLine]) -> Iterator[Conto
             link = behind.pop(number)
             assert link.before is not None
             ends = ways[number].points[[-1]], ways[link.before].points[[0]]
-            primitives += [*ways[number].primitives, *_chords(np.concatenate([ends[0], link.points[1:-1], ends[1]]))]
-            ids += ways[number].line.entity_ids
+            primitives += [
+                *ways[number].turned.primitives,
+                *_chords(np.concatenate([ends[0], link.points[1:-1], ends[1]])),
+            ]
+            ids += ways[number].drawn.entity_ids
             number = link.before
-        yield replace(ways[first].line, primitives=tuple(primitives), closed=True, entity_ids=tuple(ids))
+        yield replace(ways[first].turned, primitives=tuple(primitives), closed=True, entity_ids=tuple(ids))
 
 
 def _left_out(line: Contour, error: GeometryError) -> Finding:

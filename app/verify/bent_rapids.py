@@ -71,9 +71,9 @@ def _in_question(course: Course, before: Workpiece, cutters: Mapping[int, Cutter
         (low[:, 0] - radius < x1) & (low[:, 1] - radius < y1) & (high[:, 0] + radius > x0) & (high[:, 1] + radius > y0)
     )
     below = low[:, 2] < float(before.heights.max()) - LEVEL
-    requested = (motions.kind == MotionKind.RAPID) & bent & over & below & np.isin(course.tool, list(cutters))
-    requested[list(course.left_out)] = False
-    return np.flatnonzero(requested)
+    found = (motions.kind == MotionKind.RAPID) & bent & over & below & np.isin(course.tool, list(cutters))
+    found[list(course.left_out)] = False
+    return np.flatnonzero(found)
 
 
 def _legs(start: Floats, end: Floats, rows: NDArray[np.intp]) -> _Legs:

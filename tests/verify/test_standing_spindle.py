@@ -68,6 +68,8 @@ def test_builders_words_for_spindle_and_coolant_start_it() -> None:
     for dialect in (Dialect.FANUC, Dialect.HAAS):
         assert not standing(f"S3000 M13\n{FIRST}M5\nT2 M6\nM14\n{SECOND}", dialect)
     assert len(standing(f"S3000 M3\n{FIRST}M5\nM88\n{SECOND}", Dialect.HAAS)) == 1
+    told = [each.text for each in read_program(b"G21 S3000 M14\n", ReadOptions(dialect=Dialect.HAAS)).problems]
+    assert told == ["M14 is the machine builder's own; it is taken for M4 with coolant."]
 
 
 def test_taps_of_fanuc_start_the_spindle_themselves() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping
+from typing import NamedTuple
 
 from ...geometry.affine import IDENTITY, Affine
 from .lengths import LengthBasis, length
@@ -84,10 +85,10 @@ def _arguments(text: str) -> Iterator[str]:
 
 
 def _one(kind: str, given: list[str], basis: LengthBasis) -> Affine:
-    counts, reader = _READERS.get(kind, ((), _matrix))
-    if len(given) not in counts:
+    reader = _READERS.get(kind)
+    if reader is None or len(given) not in reader.counts:
         raise UnreadableError(kind)
-    return reader(given, basis)
+    return reader.read(given, basis)
 
 
 def _number(text: str) -> float:
@@ -149,24 +150,31 @@ def _skew(given: list[str], _: LengthBasis) -> Affine:
     return Affine(xy=math.tan(math.radians(along)), yx=math.tan(math.radians(up)))
 
 
-_READERS: dict[str, tuple[tuple[int, ...], Callable[[list[str], LengthBasis], Affine]]] = {
-    "matrix": ((6,), _matrix),
-    "matrix3d": ((16,), _matrix3d),
-    "translate": ((1, 2), _translate),
-    "translate3d": ((3,), _translate),
-    "translatex": ((1,), _translate),
-    "translatey": ((1,), lambda given, basis: Affine(y0=length(given[0]).user(basis, "y"))),
-    "translatez": ((1,), lambda _, __: IDENTITY),
-    "scale": ((1, 2), _scale),
-    "scale3d": ((3,), _scale),
-    "scalex": ((1,), lambda given, _: Affine(xx=_number(given[0]))),
-    "scaley": ((1,), lambda given, _: Affine(yy=_number(given[0]))),
-    "scalez": ((1,), lambda _, __: IDENTITY),
-    "rotate": ((1, 3), _rotate),
-    "rotatez": ((1,), _rotate),
-    "rotate3d": ((4,), _rotate3d),
-    "skew": ((1, 2), _skew),
-    "skewx": ((1,), _skew),
-    "skewy": ((1,), lambda given, basis: _skew(["0", *given], basis)),
+class _FunctionReader(NamedTuple):
+    """Reads one kind of transform; `counts`: how many values it may have."""
+
+    counts: tuple[int, ...]
+    read: Callable[[list[str], LengthBasis], Affine]
+
+
+_READERS: dict[str, _FunctionReader] = {
+    "matrix": _FunctionReader((6,), _matrix),
+    "matrix3d": _FunctionReader((16,), _matrix3d),
+    "translate": _FunctionReader((1, 2), _translate),
+    "translate3d": _FunctionReader((3,), _translate),
+    "translatex": _FunctionReader((1,), _translate),
+    "translatey": _FunctionReader((1,), lambda given, basis: Affine(y0=length(given[0]).user(basis, "y"))),
+    "translatez": _FunctionReader((1,), lambda _, __: IDENTITY),
+    "scale": _FunctionReader((1, 2), _scale),
+    "scale3d": _FunctionReader((3,), _scale),
+    "scalex": _FunctionReader((1,), lambda given, _: Affine(xx=_number(given[0]))),
+    "scaley": _FunctionReader((1,), lambda given, _: Affine(yy=_number(given[0]))),
+    "scalez": _FunctionReader((1,), lambda _, __: IDENTITY),
+    "rotate": _FunctionReader((1, 3), _rotate),
+    "rotatez": _FunctionReader((1,), _rotate),
+    "rotate3d": _FunctionReader((4,), _rotate3d),
+    "skew": _FunctionReader((1, 2), _skew),
+    "skewx": _FunctionReader((1,), _skew),
+    "skewy": _FunctionReader((1,), lambda given, basis: _skew(["0", *given], basis)),
 }
-"""By name, in small letters: how many values each may have, and its reader."""
+"""By name, in small letters."""

@@ -19,7 +19,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...model.job import Job
 from ...model.motion import Floats, MotionKind, Plane
 from ...model.moves import MoveKind, Moves, Program
-from ...model.stock_box import stock_box, work_origin
+from ...model.stock_box import program_origin
 from ..interpreter.options import ReadOptions, ToolOffset
 from ..interpreter.program import Event, EventKind, NcProgram, ProgramProblem
 from ..interpreter.reader import read_program
@@ -143,7 +143,7 @@ def check(data: bytes, file: NcFile, reference: CheckReference, progress: Progre
     read = read_program(data, options, progress.part(0.0, 0.5))
     stop = file.first + len(file.nc.lines)
     moves = program.moves.part(file.first, stop)
-    origin = work_origin(job, stock_box(job, program.regions, program.lines))
+    origin = program_origin(job, program)
     step = writing_tolerance(job, post)
     allowed, ends = allowed_distances(moves, job, step)
     compared = _FileCheck(

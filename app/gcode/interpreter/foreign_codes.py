@@ -214,7 +214,7 @@ def adapt(control: Control, block: Block) -> None:
         _pass_look_ahead(control, block)
         _refuse_lathe(block)
         _keep_cutter(control, block)
-    _leave_to_builder(block)
+    _leave_to_builder(control, block)
     if control.options.dialect is Dialect.FANUC:
         _refuse_otherwise(block)
     if control.options.dialect is Dialect.MACH3:
@@ -245,15 +245,16 @@ def adapt(control: Control, block: Block) -> None:
             control.warn(f"{code} ({_PASSED[code]}) is passed over.", "g")
 
 
-def _leave_to_builder(block: Block) -> None:
+def _leave_to_builder(control: Control, block: Block) -> None:
     """Take the M codes that LinuxCNC alone gives a meaning for unknown ones, and what is likely of others."""
     for group, code in list(block.codes.items()):
         if group in _BUILDERS_GROUPS or code in _BUILDERS_CODES:
             del block.codes[group]
             block.unknown.append(code)
-    for code in block.unknown:
-        if code in _STARTS:
-            block.codes.setdefault(ModalGroup.SPINDLE, _STARTS[code])
+    for code in [each for each in block.unknown if each in _STARTS]:
+        block.unknown.remove(code)
+        block.codes.setdefault(ModalGroup.SPINDLE, _STARTS[code])
+        control.warn(f"{code} is the machine builder's own; it is taken for {_STARTS[code]} with coolant.", "m")
 
 
 def _refuse_otherwise(block: Block) -> None:

@@ -118,10 +118,10 @@ class _DeferredTranslation(QObject):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Before a label or a button is painted, a menu opens or a tip shows."""
         kind = event.type()
-        if kind == QEvent.Type.Paint and isinstance(text := watched.parent(), QPlainTextEdit):  # this is its viewport
-            translate(text)
-        elif isinstance(watched, _PAINTED if kind == QEvent.Type.Paint else QWidget) and kind in _SEEN:
+        if kind in _SEEN and isinstance(watched, _PAINTED if kind == QEvent.Type.Paint else QWidget):
             translate(watched)
+        elif kind == QEvent.Type.Paint and isinstance(text := watched.parent(), QPlainTextEdit):  # this is its viewport
+            translate(text)
         elif kind == QEvent.Type.Show and isinstance(watched, QMenu):
             translate_all(watched)
             for action in watched.actions():

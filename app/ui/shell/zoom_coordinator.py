@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from ...model.curves import Point
-from ...model.stock_box import stock_box, work_origin
+from ...model.stock_box import program_origin
 from ..framework.view import View
 from ..views.curves.controller import SmoothingController
 from ..views.nc.controller import NcController
@@ -40,4 +40,4 @@ class ZoomCoordinator:
         made, picture = self._computation.made, path.picture
         if made is None or picture is None or picture.side is not ViewSide.XY or self._nc.foreign:
             return None
-        return work_origin(made.job, stock_box(made.job, made.program.regions, made.program.lines))[:2]
+        return program_origin(made.job, made.program)[:2]

@@ -27,7 +27,7 @@ from ...model.finding import Finding, FindingKind, worst_first
 from ...model.job import Job
 from ...model.machine import Machine
 from ...model.moves import Program
-from ...model.stock_box import stock_box, work_origin
+from ...model.stock_box import program_origin
 from ...toolpath.coverage.coverage import Coverage, coverage_findings, measure_beside_clear
 from ...toolpath.coverage.floor_target import CHORD
 from ...toolpath.witness import floor_findings
@@ -120,8 +120,7 @@ class MakeResult:
         """
         from ...gcode.rework.frame import JobFrame, frame_text
 
-        program = self.program
-        top = work_origin(self.job, stock_box(self.job, program.regions, program.lines))[2] if self.files else 0.0
+        top = program_origin(self.job, self.program)[2] if self.files else 0.0
         height = self.job.travel_z - top if self.files else 0.0
         tool = int(self.program.moves.tool[0]) if self.files else 0
         return frame_text(JobFrame(self.box, height, tool), self.job, load_post(self.job.post))

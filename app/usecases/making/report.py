@@ -22,7 +22,7 @@ from ...model.job import Job
 from ...model.motion import MotionKind
 from ...model.moves import MoveKind, Moves, Program, Purpose
 from ...model.operation import Operation
-from ...model.stock_box import extent, stock_box, work_origin
+from ...model.stock_box import extent, program_origin
 from ...model.tool import Tool
 from ...toolpath.coverage.coverage import STRIP, Coverage, UncutPlace
 from ...toolpath.coverage.floor_target import CHORD
@@ -288,8 +288,8 @@ def _tool(tool: Tool, measured: ReportData) -> Json:
 
 def _origin(measured: ReportData) -> tuple[float, float, float]:
     """Return the work origin in part coordinates; the drawing's zero where nothing is machined."""
-    program, job = measured.program, measured.job
-    return work_origin(job, stock_box(job, program.regions, program.lines)) if len(program.moves) else (0.0, 0.0, 0.0)
+    program = measured.program
+    return program_origin(measured.job, program) if len(program.moves) else (0.0, 0.0, 0.0)
 
 
 def _setup(measured: ReportData) -> Json:

@@ -81,10 +81,9 @@ class PlacedArea:
 
 def _tabs_of(operation: Operation) -> list[str]:
     """Return in a few words how what an operation cuts out is held, if it is."""
-    known, values = parameters_of(type(operation)), list[int]()
-    if "tabs" in known:
-        values = [known["tabs"].of(operation) or len(known["tab_places"].of(operation))]
-    return [counted(count, "tab") for count in values if count]
+    known = parameters_of(type(operation))
+    count = known["tabs"].of(operation) or len(known["tab_places"].of(operation)) if "tabs" in known else 0
+    return [counted(count, "tab")] if count else []
 
 
 @dataclass(frozen=True, eq=False)
