@@ -4,11 +4,12 @@ missing.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QWidget
 
 from ..framework.boxes import v_box
+from ..framework.catalogue import tr
 from ..framework.fade import Fade
 from ..framework.labels import show_words
 from ..framework.themed import Themed
@@ -25,7 +26,9 @@ from ..views.stages.view import StagesView
 from ..views.surfaces.view import SurfacesView
 from .start_page.page import StartPage
 
-_RULER_PX, _MARGIN_PX = 24, 16
+_RULER_PX, _MARGIN_PX, _SIDE_PX = 24, 16, 24
+_MOST_PX = 1 << 14
+"""More than any screen has."""
 _LONG_MS = 30.0
 
 
@@ -48,7 +51,7 @@ class EmptyState(Themed, QWidget):
         self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.button.clicked.connect(self.pressed)
         self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        column = v_box(self, (24, 16, 24, 16), 12)
+        column = v_box(self, (_SIDE_PX, 16, _SIDE_PX, 16), 12)
         column.addWidget(self.sentence)
         column.addWidget(self.button, 0, Qt.AlignmentFlag.AlignHCenter)
         self.hide()
@@ -59,6 +62,21 @@ class EmptyState(Themed, QWidget):
         show_words(self.button, button)
         self.adjustSize()
         self.show()
+
+    def fit_into(self, width: int) -> None:
+        """Break the sentence into lines where it is too long for so many px."""
+        words, room = tr(self.sentence.text()), max(width - 2 * _SIDE_PX, 1)
+        metrics = self.sentence.fontMetrics()
+        broken = metrics.horizontalAdvance(words) > room
+        self.sentence.setWordWrap(broken)
+        if broken:
+            flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+            high = metrics.boundingRect(QRect(0, 0, room, _MOST_PX), int(flags), words).height()
+            self.sentence.setFixedSize(room, high)
+        else:
+            self.sentence.setMinimumSize(0, 0)
+            self.sentence.setMaximumSize(_MOST_PX, _MOST_PX)
+        self.adjustSize()
 
     def event(self, event: QEvent) -> bool:
         """Stay as large as the words: they are looked up in another language when painted."""
@@ -188,12 +206,12 @@ class ViewStack(QStackedWidget):
 
     def _place_empty(self) -> None:
         """Put what is missing into the middle of the view, or beside the drawing."""
-        self.empty.adjustSize()
         self.empty.on_paper = self.view is View.STAGES
+        behind = self.stages.picture if self.empty.on_paper else self
+        self.empty.fit_into(behind.width() - 2 * _MARGIN_PX)
         if self._beside_drawing:
             self.empty.move(max(self.width() - self.empty.width() - _MARGIN_PX, 0), _RULER_PX + 12)
             return
-        behind = self.stages.pixels if self.empty.on_paper else self
         middle = behind.mapTo(self, behind.rect().center()) - self.empty.rect().center()
         self.empty.move(max(middle.x(), 0), max(middle.y(), 0))
 

@@ -125,3 +125,17 @@ def test_a_program_that_does_not_tell_its_tool_is_said_where_and_then_shown(qtbo
     wiring.display_controller.show_view(View.STAGES)
     qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
     assert stages.films.film is not None and stages.films.film.source == "bare.ngc"
+
+
+def test_a_long_sentence_in_the_place_of_a_film_is_broken_into_lines(qtbot, wiring, tmp_path):
+    """It was one line, cut off at the view's edge."""
+    program = tmp_path / "flat.ngc"
+    program.write_text("(T1 D=6 flat)\nG21 G90 G17\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F200\nX20\nG0 Z5\nM2\n")
+    open_file(qtbot, wiring, program)
+    wiring.window_.resize(1280, 800)
+    show_text(qtbot, wiring, "D")
+    QTest.mouseClick(wiring.window_.film_panel.source.buttons[True], LEFT)
+    qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
+    empty, picture = wiring.window_.views.empty, wiring.window_.views.stages.picture
+    assert empty.isVisible() and "such as the sample" in empty.sentence.text()
+    assert empty.width() <= picture.width() and empty.sentence.height() > 1.5 * empty.sentence.fontMetrics().height()

@@ -103,12 +103,17 @@ class StagesView(QWidget):
         """Letter of the text whose steps are shown."""
         return str(self.texts.value)
 
+    @property
+    def picture(self) -> QWidget:
+        """Where a step of the text is shown."""
+        return self.pixels if self.text == "A" else self.films.picture
+
     def show_text(self, letter: str) -> None:
         """Show the steps of another text: of A the display memory."""
         self.texts.show_value(letter)
         self.player.pause()
         self._stack.setCurrentIndex(0 if letter == "A" else 1)
-        self.setFocusProxy(self.films.picture if letter != "A" else self.pixels)
+        self.setFocusProxy(self.picture)
         self.text_chosen.emit(letter)
 
     @property
