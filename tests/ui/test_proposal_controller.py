@@ -371,7 +371,7 @@ def test_words_are_as_large_as_they_are_in_japanese(qtbot, plate):
     qtbot.waitUntil(lambda: len(told.words) == 4, timeout=WAIT_MS)
     plate.window_.grab()
     qtbot.waitUntil(lambda: all(word.size() == word.sizeHint() for word in told.words), timeout=WAIT_MS)
-    assert words_of(plate)[2:] == ["ポケット加工 · 2 mm", "輪郭加工 外 · 貫通 · タブ 4 個"]
+    assert words_of(plate)[2:] == ["ポケット加工 · 2 mm", "輪郭加工 外側 · 貫通 · タブ 4 個"]
     plate.window_.actions_["units_inch"].trigger()
     assert words_of(plate)[2] == "Pocket · 0.07874 in", "in the unit that is shown, and looked up when it is seen"
     plate.window_.actions_["units_mm"].trigger()
