@@ -35,10 +35,11 @@ class _ImportBlocker:
 
 @contextmanager
 def _light() -> Iterator[None]:
-    """Let numba do without scipy, which it would import for linear algebra that no kernel uses, and without yaml, in
-    which it would read settings from the folder that a command is given in: 0.16 and 0.02 s of every start.
+    """Let numba do without scipy, which it would import for linear algebra that no kernel uses, without yaml, in
+    which it would read settings from the folder that a command is given in, and without colours for its own errors:
+    0.16, 0.02 and 0.003 s of every start.
     """
-    hidden = _ImportBlocker("scipy", "yaml")
+    hidden = _ImportBlocker("scipy", "yaml", "colorama")
     sys.meta_path.insert(0, hidden)
     try:
         yield
