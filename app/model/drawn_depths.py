@@ -41,10 +41,10 @@ class DrawnDepth:
 
 
 _WORD = r"(?:depth|deep|dp\.?|tiefe|深さ|深|↓|↧|(?<![a-z])[tz](?=\s?[=:\d.+-]))"
-_BEFORE = re.compile(rf"{_WORD}\s{{0,3}}[=:_\u2212-]{{0,2}}\s{{0,3}}(?=[\d.,]*\d)", re.IGNORECASE)
-_BEHIND = re.compile(rf"(?<![\d.,/])(?:{LENGTH}){UNIT}\s?(?:deep|tief|dp)(?![a-z])", re.IGNORECASE)
-_RANGE = re.compile(r"(?:^|[\s(=:])\d{1,4}(?:[.,]\d+)?\s?[-\u2013~]\s?$")
-_MEANT = re.compile(r"depth|deep|tiefe?(?![a-z])|深|↓|↧", re.IGNORECASE)
+_BEFORE = rf"{_WORD}\s{{0,3}}[=:_\u2212-]{{0,2}}\s{{0,3}}(?=[\d.,]*\d)"
+_BEHIND = rf"(?<![\d.,/])(?:{LENGTH}){UNIT}\s?(?:deep|tief|dp)(?![a-z])"
+_RANGE = r"(?:^|[\s(=:])\d{1,4}(?:[.,]\d+)?\s?[-\u2013~]\s?$"
+_MEANT = r"depth|deep|tiefe?(?![a-z])|深|↓|↧"
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,11 +66,11 @@ def depth_words(words: str, unit: float) -> DepthWords | None:
     Args:
         unit: of numbers beside which none stands, mm.
     """
-    told = [told_length(words, each.end(), unit) for each in _BEFORE.finditer(words)]
+    told = [told_length(words, each.end(), unit) for each in re.finditer(_BEFORE, words, re.IGNORECASE)]
     if not told:
-        behind = (each for each in _BEHIND.finditer(words))
-        told = [None if _RANGE.search(words[: k.start()]) else told_length(words, k.start(), unit) for k in behind]
-    if not told and not _MEANT.search(words):
+        behind = re.finditer(_BEHIND, words, re.IGNORECASE)
+        told = [None if re.search(_RANGE, words[: k.start()]) else told_length(words, k.start(), unit) for k in behind]
+    if not told and not re.search(_MEANT, words, re.IGNORECASE):
         return None
     depths = {each[0] if each else math.nan for each in told} - {0.0}
     depth = depths.pop() if len(depths) == 1 else math.nan

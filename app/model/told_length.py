@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 
 _INCH = 25.4
 """mm."""
@@ -28,17 +29,22 @@ LENGTH = (
     r"|(?P<plain>\d{1,4}(?:[.,]\d{1,6})?|[.,]\d{1,6})(?!\d)"
 )
 UNIT = rf"(?:\s?(?P<unit>{_UNIT})(?![a-z]))?"
-_TOLD = re.compile(rf"(?:{LENGTH}){UNIT}", re.IGNORECASE)
+_TOLD = rf"(?:{LENGTH}){UNIT}"
 
-_GOES_ON = re.compile(
+_GOES_ON = (
     r"[.,/]\d|[a-z\u00b5\u03bc'\u2019\u2032]|\s?[-\u2013~](?=[\d.,])|\s?(?:to|bis|or)\s?\d"
-    r"|\s?(?:ft|feet|foot|mils?|[\u00b5\u03bcu]m)(?![a-z])",
-    re.IGNORECASE,
+    r"|\s?(?:ft|feet|foot|mils?|[\u00b5\u03bcu]m)(?![a-z])"
 )
 """What follows a number that is another one than it seems: a range, a product, a unit that is none of these."""
 
-_THOUSANDS = re.compile(r"[1-9]\d*,\d{3}")
+_THOUSANDS = r"[1-9]\d*,\d{3}"
 """A comma before three digits stands for nothing, or for a point."""
+
+
+@cache
+def _any_case(pattern: str) -> re.Pattern[str]:
+    """Return a pattern in any case, compiled with the first drawing that has words: most have none."""
+    return re.compile(pattern, re.IGNORECASE)
 
 
 def size_of(word: str | None, unit: float) -> float:
@@ -52,8 +58,8 @@ def told_length(words: str, at: int, unit: float) -> tuple[float, int] | None:
     Args:
         unit: of a number beside which none stands, mm.
     """
-    found = _TOLD.match(words, at)
-    if found is None or _GOES_ON.match(words, found.end()) or _THOUSANDS.fullmatch(found["plain"] or ""):
+    found = _any_case(_TOLD).match(words, at)
+    if found is None or _any_case(_GOES_ON).match(words, found.end()) or re.fullmatch(_THOUSANDS, found["plain"] or ""):
         return None
     size = size_of(found["unit"], unit)
     if found["plain"]:
