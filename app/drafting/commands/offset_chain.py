@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ...core.tolerances import RIDGE, WELD
 from ...geometry.sample import bounds
 from ...model.curves import Arc, Circle, Curve, Line, Point, reversed_curve
+from ...model.part import Contour
 from ..curves.chains import CurveChain, chained
 from ..curves.intersections import intersection_points, nearest_point
 from ..curves.shapes import curve_length, middle_of
@@ -217,7 +218,6 @@ def _near(boxes: NDArray[np.float64], others: NDArray[np.float64]) -> list[tuple
 def _thin(each: CurveChain) -> bool:
     """Return whether a chain is a loop without width: walls as far apart as twice the distance leave such."""
     from ...geometry.primitives import contour_rows, signed_area
-    from ...model.part import Contour
 
     length = sum(map(curve_length, each.curves))
     if not each.closed:
