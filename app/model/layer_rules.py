@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from ..core.errors import ParameterError
+from .drawn_depths import UNIT, size_of
 from .operation import Operation
 from .part import Layer
-from .told_length import UNIT, size_of
 
 COLOURS = {
     "red": "#ff0000",
