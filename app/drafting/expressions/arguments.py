@@ -11,7 +11,7 @@ from . import syntax as s
 from .effort import Effort
 from .errors import CommandError
 from .evaluate import length_of, number_of, point_of, value_of
-from .numbers import ANGLE_UNITS, LENGTH_UNITS
+from .units import ANGLE_UNITS, LENGTH_UNITS
 from .values import Curves, Scope, kind_of, wrong
 from .words import number_text
 

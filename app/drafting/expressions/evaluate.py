@@ -9,7 +9,7 @@ from dataclasses import replace
 from ...model.curves import Point
 from . import syntax as s
 from .functions import call
-from .numbers import ALL_UNITS, ANGLE_UNITS, LENGTH_UNITS
+from .units import ALL_UNITS, ANGLE_UNITS, LENGTH_UNITS
 from .values import Curves, Length, Scope, Value, kind_of, wrong
 
 _LARGEST = 1e7

@@ -16,7 +16,7 @@ from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedTok
 
 from . import syntax as s
 from .errors import CommandError
-from .numbers import ALL_UNITS, LENGTH_UNITS
+from .units import ALL_UNITS, LENGTH_UNITS
 
 _GRAMMAR = r"""
 script: block

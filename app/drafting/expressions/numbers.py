@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Mapping
 
 _PLAIN = re.compile(r"-?\d{1,7}(\.\d+)?", re.ASCII)
 """Numbers that need no grammar, whose parser takes as long to import as a small job to run."""
@@ -23,6 +21,7 @@ def length(text: str, plain: float = 1.0) -> float:
         return float(text) * plain
     from .evaluate import length_of
     from .grammar import read_value
+    from .units import LENGTH_UNITS
     from .values import Scope
 
     return float(length_of(read_value(text), Scope(units=LENGTH_UNITS, plain=plain)))
@@ -36,26 +35,7 @@ def angle(text: str) -> float:
     """
     from .evaluate import number_of
     from .grammar import read_value
+    from .units import ANGLE_UNITS
     from .values import Scope
 
     return number_of(read_value(text), Scope(units=ANGLE_UNITS))
-
-
-LENGTH_UNITS: Mapping[str, float] = {
-    "mm": 1.0,
-    "cm": 10.0,
-    "m": 1000.0,
-    "um": 1e-3,
-    "µm": 1e-3,
-    "in": 25.4,
-    '"': 25.4,
-    "ft": 304.8,
-    "thou": 0.0254,
-    "mil": 0.0254,
-}
-"""Size of each length unit, mm."""
-
-ANGLE_UNITS: Mapping[str, float] = {"deg": 1.0, "°": 1.0, "rad": 180.0 / math.pi}
-"""Size of each angle unit, degrees."""
-
-ALL_UNITS: Mapping[str, float] = {**LENGTH_UNITS, **ANGLE_UNITS}

@@ -15,7 +15,7 @@ from ..expressions import syntax as s
 from ..expressions.effort import Effort
 from ..expressions.errors import CommandError
 from ..expressions.evaluate import number_of, value_of
-from ..expressions.numbers import LENGTH_UNITS
+from ..expressions.units import LENGTH_UNITS
 from ..expressions.values import Curves, Length, Value, wrong
 from ..expressions.words import number_text, point_text
 from .language import COMMANDS, read

@@ -16,7 +16,7 @@ from ...drafting.curves.shapes import curve_length
 from ...drafting.document import Document
 from ...drafting.expressions.evaluate import length_of, number_of
 from ...drafting.expressions.grammar import read_value
-from ...drafting.expressions.numbers import ANGLE_UNITS, LENGTH_UNITS
+from ...drafting.expressions.units import ANGLE_UNITS, LENGTH_UNITS
 from ...drafting.expressions.words import ids_text, name_text, number_text, point_text
 from ...geometry.dimension_lines import figure
 from ...geometry.sample import Box

@@ -10,7 +10,7 @@ from enum import Enum
 from PySide6.QtGui import QColor, QFont, QSyntaxHighlighter, QTextCharFormat, QTextDocument
 
 from ....drafting.expressions.functions import FUNCTIONS
-from ....drafting.expressions.numbers import ALL_UNITS
+from ....drafting.expressions.units import ALL_UNITS
 from ....drafting.language.interpret import RESERVED
 from ....drafting.language.language import ALIASES, COMMANDS
 from ...framework.theme import LIGHT, Theme, mixed
