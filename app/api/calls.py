@@ -14,6 +14,7 @@ from ..core.input_file import FileBytes, read_input
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.drawing import Drawing
 from ..formats.readers import read_drawing
+from ..formats.scene.toml import read_scene, sources_of
 from ..formats.tools.materials import stock_material
 from ..model.job import Job
 from ..model.machine import Machine
@@ -38,6 +39,9 @@ from ..usecases.inlay import InlayOptions, inlay_of
 from ..usecases.inlay import inlay as inlay_drawing
 from ..usecases.job.options import MakeOptions
 from ..usecases.making import make as usecase
+from ..usecases.scene.compute import compute
+from ..usecases.scene_program.nc import write_scene_nc
+from ..usecases.scene_program.report import surface_report
 from ..usecases.smoothing.result import SmoothOptions
 from ..usecases.smoothing.smooth import smooth as smooth_text
 from .results import BetterText, CheckedProgram, CutMetal, MadeInlay, MadeProgram, MadeSurface, SmoothedText
@@ -325,10 +329,6 @@ def surface(scene: FilePath, progress: Progress = NO_PROGRESS) -> MadeSurface:
         HitofudeError: it cannot be read, computed or written.
         Cancelled: by progress.
     """
-    from ..formats.scene.toml import read_scene, sources_of
-    from ..usecases.scene.compute import compute
-    from ..usecases.scene_program.nc import write_scene_nc
-    from ..usecases.scene_program.report import surface_report
 
     path = _path(scene)
     sources = sources_of(_reader_beside(path))

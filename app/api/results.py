@@ -30,6 +30,7 @@ from ..usecases.inlay import InlayFit, InlayPair
 from ..usecases.making.make import MakeResult
 from ..usecases.scene_program.nc import WrittenScene
 from ..usecases.scene_program.report import SurfaceReport
+from ..usecases.smoothing import report as smoothing_report
 from ..usecases.smoothing.result import SmoothedProgram
 from .words import speaks_python
 
@@ -327,9 +328,7 @@ class SmoothedText(_NewText):
     @speaks_python
     def findings(self) -> tuple[Finding, ...]:
         """Stretches that could not be proven and stayed as they were."""
-        from ..usecases.smoothing.report import findings
-
-        return findings(self.result)
+        return smoothing_report.findings(self.result)
 
     @property
     def clean(self) -> bool:
@@ -339,14 +338,10 @@ class SmoothedText(_NewText):
     @property
     def report(self) -> Report:
         """The certificate and every stretch, by the keys of `smooth --report`."""
-        from ..usecases.smoothing.report import report
-
-        return report(self.result)
+        return smoothing_report.report(self.result)
 
     def __str__(self) -> str:
-        from ..usecases.smoothing.report import certificate
-
-        return "\n".join(certificate(self.result))
+        return "\n".join(smoothing_report.certificate(self.result))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ..core.errors import InputError
 from ..core.input_file import read_input
 from ..drafting.expressions.numbers import length
-from ..formats.job.toml import ORIGIN_HELP, StatedOrigin, parse_origin, read_out_units, read_units
+from ..formats.job.toml import ORIGIN_HELP, StatedOrigin, parse_origin, read_job, read_out_units, read_units
 from ..formats.readers import offered_suffixes
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
@@ -327,7 +327,6 @@ def _with_job(options: MakeOptions, path: Path | None) -> MakeOptions:
     """Return the options with the job file read, where there is one."""
     if path is None:
         return options
-    from ..formats.job.toml import read_job
 
     file = read_job(path.name, read_input(path))
     return replace(

@@ -11,9 +11,15 @@ from ..core.wording import together
 from ..model.part import Units
 from ..model.read_options import AS_DRAWN, OPTION_OF, DrawingOptions
 from ..model.reading import ReadingOptions
-from . import builtin  # noqa: F401 (registers what comes with the program)
+from .draw import DRAW
 from .drawing import Drawing
-from .registry import FORMATS, DrawingFormat
+from .dxf import DXF
+from .project import PROJECT
+from .registry import FORMATS, DrawingFormat, register
+from .svg import SVG, SVGZ
+
+for _format in (PROJECT, DXF, SVG, SVGZ, DRAW):  # what comes with the program, in the order in which it is offered
+    register(_format)
 
 
 def read_drawing(

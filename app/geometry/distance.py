@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.pool import in_bands
+from . import kernels
 from .primitives import Indices, Rows, boxes
 
 _WORTH_LINES = 8
@@ -31,8 +32,6 @@ class DistanceField:
     @staticmethod
     def of(rows: Rows) -> DistanceField:
         """Build the tree over rows (n, 8), n > 0."""
-        from . import kernels  # here, so that the window opens without the compiler
-
         rows = np.ascontiguousarray(rows)
         around = np.ascontiguousarray(boxes(rows))
         order, nodes = kernels.build_tree(around)
@@ -47,8 +46,6 @@ class DistanceField:
             limit: rows farther than this give (limit, -1), mm.
             enough: the first row found that is no farther is given, whether it is the nearest or not, mm.
         """
-        from . import kernels  # here, so that the window opens without the compiler
-
         points = np.ascontiguousarray(points, dtype=np.float64)
         distances, found = np.empty(len(points)), np.empty(len(points), np.int64)
 
@@ -62,14 +59,10 @@ class DistanceField:
 
     def gap(self, x: float, y: float) -> float:
         """Return the distance of one point, mm: for one, `nearest` mostly makes arrays."""
-        from . import kernels  # here, so that the window opens without the compiler
-
         return float(kernels.nearest_between(self.rows, self.order, self.nodes, x, y, -1.0, np.inf)[0])
 
     def farthest(self, points: NDArray[np.float64]) -> float:
         """Return the distance of that of points (m, 2) which is farthest from all rows, mm; 0 of none."""
-        from . import kernels  # here, so that the window opens without the compiler
-
         points = np.ascontiguousarray(points, dtype=np.float64)
         return max(
             in_bands(lambda part: float(kernels.farthest(self.rows, self.order, self.nodes, points[part])), len(points))
@@ -77,8 +70,6 @@ class DistanceField:
 
     def inside(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return for points (m, 2) whether the closed rows enclose them by the even-odd rule."""
-        from . import kernels  # here, so that the window opens without the compiler
-
         points = np.ascontiguousarray(points, dtype=np.float64)
         result = np.empty(len(points), np.bool_)
         heights, line = np.unique(points[:, 1], return_inverse=True)

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..core.errors import GeometryError
 from ..model.curves import Arc, Circle, Line, Point, Primitive
 from ..model.part import Contour, Region
+from . import kernels
 
 Rows = NDArray[np.float64]
 
@@ -200,8 +201,6 @@ def within_half_turn(rows: Rows) -> Rows:
 def sweeps(rows: Rows) -> NDArray[np.float64]:
     """Return the signed sweep of each row, radians; 0 for lines; a row that ends where it starts is a full turn."""
     if len(rows) >= _MANY:
-        from . import kernels  # here, so that the window opens without the compiler
-
         found = np.empty(len(rows))
         kernels.row_sweeps(np.ascontiguousarray(rows, np.float64), found)
         return found
@@ -271,8 +270,6 @@ def signed_area(rows: Rows) -> float:
 
 def boxes(rows: Rows) -> NDArray[np.float64]:
     """Return (n, 4) boxes x0, y0, x1, y1 that hold each row exactly, mm."""
-    from . import kernels  # here, so that the window opens without the compiler
-
     around = np.empty((len(rows), 4))
     kernels.row_boxes(np.ascontiguousarray(rows, np.float64), around)
     return around
@@ -312,8 +309,6 @@ def points_of(rows: Rows, which: Indices, fraction: NDArray[np.float64]) -> NDAr
     """Return the point (m, 2) at a fraction in [0, 1] of the length of the row that each of m numbers names."""
     if len(which) < _MANY:
         return points_at(rows[which], fraction)
-    from . import kernels  # here, so that the window opens without the compiler
-
     found = np.empty((len(which), 2))
     kernels.places_on(
         np.ascontiguousarray(rows, np.float64),

@@ -1,4 +1,6 @@
-"""Depths that a drawing tells of its own: by the elevation or the thickness of curves, or by a text beside a shape."""
+"""Depths that a drawing tells of its own: by the elevation or the thickness of curves, or by a text beside a shape,
+with a length as people write it: "4", "2,5 mm", "1/4 in", '1 1/2"'.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +8,70 @@ import math
 import re
 from dataclasses import dataclass
 from enum import Enum
+from functools import cache
 
 from .curves import Point
-from .told_length import LENGTH, UNIT, told_length
+
+_INCH = 25.4
+"""mm."""
+_SIZES = {
+    "mm": 1.0,
+    "ミリ": 1.0,
+    "cm": 10.0,
+    "センチ": 10.0,
+    "m": 1000.0,
+    "in": _INCH,
+    "inch": _INCH,
+    "inches": _INCH,
+    '"': _INCH,
+    "”": _INCH,
+    "″": _INCH,
+    "''": _INCH,
+    "thou": _INCH / 1000,
+}
+_UNIT = "|".join(re.escape(unit) for unit in sorted(_SIZES, key=len, reverse=True))
+
+_LENGTH = (
+    r"(?:(?P<whole>\d{1,4})[ -])?(?P<above>\d{1,3})/(?P<below>[1-9]\d{0,2})(?!\d)"
+    r"|(?P<plain>\d{1,4}(?:[.,]\d{1,6})?|[.,]\d{1,6})(?!\d)"
+)
+UNIT = rf"(?:\s?(?P<unit>{_UNIT})(?![a-z]))?"
+_TOLD = rf"(?:{_LENGTH}){UNIT}"
+
+_GOES_ON = (
+    r"[.,/]\d|[a-z\u00b5\u03bc'\u2019\u2032]|\s?[-\u2013~](?=[\d.,])|\s?(?:to|bis|or)\s?\d"
+    r"|\s?(?:ft|feet|foot|mils?|[\u00b5\u03bcu]m)(?![a-z])"
+)
+"""What follows a number that is another one than it seems: a range, a product, a unit that is none of these."""
+
+_THOUSANDS = r"[1-9]\d*,\d{3}"
+"""A comma before three digits stands for nothing, or for a point."""
+
+
+@cache
+def _any_case(pattern: str) -> re.Pattern[str]:
+    """Return a pattern in any case, compiled with the first drawing that has words: most have none."""
+    return re.compile(pattern, re.IGNORECASE)
+
+
+def size_of(word: str | None, unit: float) -> float:
+    """Return how long a unit is, by a word that `UNIT` finds, mm; None, "" = `unit`."""
+    return _SIZES[word.lower()] if word else unit
+
+
+def told_length(words: str, at: int, unit: float) -> tuple[float, int] | None:
+    """Return the length that words tell from a place on, mm, and where it ends; None where it cannot be told for sure.
+
+    Args:
+        unit: of a number beside which none stands, mm.
+    """
+    found = _any_case(_TOLD).match(words, at)
+    if found is None or _any_case(_GOES_ON).match(words, found.end()) or re.fullmatch(_THOUSANDS, found["plain"] or ""):
+        return None
+    size = size_of(found["unit"], unit)
+    if found["plain"]:
+        return float(found["plain"].replace(",", ".")) * size, found.end()
+    return (int(found["whole"] or 0) + int(found["above"]) / int(found["below"])) * size, found.end()
 
 
 class DepthSource(Enum):
@@ -41,10 +104,10 @@ class DrawnDepth:
 
 
 _WORD = r"(?:depth|deep|dp\.?|tiefe|深さ|深|↓|↧|(?<![a-z])[tz](?=\s?[=:\d.+-]))"
-_BEFORE = re.compile(rf"{_WORD}\s{{0,3}}[=:_\u2212-]{{0,2}}\s{{0,3}}(?=[\d.,]*\d)", re.IGNORECASE)
-_BEHIND = re.compile(rf"(?<![\d.,/])(?:{LENGTH}){UNIT}\s?(?:deep|tief|dp)(?![a-z])", re.IGNORECASE)
-_RANGE = re.compile(r"(?:^|[\s(=:])\d{1,4}(?:[.,]\d+)?\s?[-\u2013~]\s?$")
-_MEANT = re.compile(r"depth|deep|tiefe?(?![a-z])|深|↓|↧", re.IGNORECASE)
+_BEFORE = rf"{_WORD}\s{{0,3}}[=:_\u2212-]{{0,2}}\s{{0,3}}(?=[\d.,]*\d)"
+_BEHIND = rf"(?<![\d.,/])(?:{_LENGTH}){UNIT}\s?(?:deep|tief|dp)(?![a-z])"
+_RANGE = r"(?:^|[\s(=:])\d{1,4}(?:[.,]\d+)?\s?[-\u2013~]\s?$"
+_MEANT = r"depth|deep|tiefe?(?![a-z])|深|↓|↧"
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,11 +129,11 @@ def depth_words(words: str, unit: float) -> DepthWords | None:
     Args:
         unit: of numbers beside which none stands, mm.
     """
-    told = [told_length(words, each.end(), unit) for each in _BEFORE.finditer(words)]
+    told = [told_length(words, each.end(), unit) for each in re.finditer(_BEFORE, words, re.IGNORECASE)]
     if not told:
-        behind = (each for each in _BEHIND.finditer(words))
-        told = [None if _RANGE.search(words[: k.start()]) else told_length(words, k.start(), unit) for k in behind]
-    if not told and not _MEANT.search(words):
+        behind = re.finditer(_BEHIND, words, re.IGNORECASE)
+        told = [None if re.search(_RANGE, words[: k.start()]) else told_length(words, k.start(), unit) for k in behind]
+    if not told and not re.search(_MEANT, words, re.IGNORECASE):
         return None
     depths = {each[0] if each else math.nan for each in told} - {0.0}
     depth = depths.pop() if len(depths) == 1 else math.nan

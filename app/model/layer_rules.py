@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from ..core.errors import ParameterError
+from .drawn_depths import UNIT, size_of
 from .operation import Operation
 from .part import Layer
-from .told_length import UNIT, size_of
 
 COLOURS = {
     "red": "#ff0000",
@@ -23,16 +23,13 @@ COLOURS = {
 }
 """Words for the colours that drawings have most."""
 
-_COLOUR = re.compile(r"#[0-9a-f]{6}")
+_COLOUR = r"#[0-9a-f]{6}"
 _NUMBER = r"(?P<number>\d{1,4}(?:[.,]\d{1,6})?)"
 _TOLD = rf"[ _:=-]*{_NUMBER}(?![\d.,]){UNIT}"
-_DEPTHS = tuple(
-    re.compile(pattern, re.IGNORECASE)
-    for pattern in (
-        rf"(?:depth|deep|tiefe|\u6df1\u3055|\u2193|(?<![a-z])[zt]){_TOLD}",
-        rf"(?<![a-z])d{_TOLD}",  # a D is a diameter where another word tells the depth
-        rf"(?<![\d.,]){_NUMBER} ?(?P<unit>mm)(?![a-z])",
-    )
+_DEPTHS = (
+    rf"(?:depth|deep|tiefe|\u6df1\u3055|\u2193|(?<![a-z])[zt]){_TOLD}",
+    rf"(?<![a-z])d{_TOLD}",  # a D is a diameter where another word tells the depth
+    rf"(?<![\d.,]){_NUMBER} ?(?P<unit>mm)(?![a-z])",
 )
 
 
@@ -55,7 +52,7 @@ class LayerRule:
     def __post_init__(self) -> None:
         if not self.name.strip():
             raise ParameterError("A rule names no layer; write its name, or * for any.")
-        if self.colour and self.colour.lower() not in COLOURS and _COLOUR.fullmatch(self.colour.lower()) is None:
+        if self.colour and self.colour.lower() not in COLOURS and re.fullmatch(_COLOUR, self.colour.lower()) is None:
             raise ParameterError(
                 f"'{self.colour}' is no colour; write #rrggbb, such as #ff0000, or {', '.join(COLOURS)}."
             )
@@ -77,7 +74,7 @@ class LayerRule:
 def depth_in(name: str) -> float | None:
     """Return the depth that a layer's name tells, mm; None where it tells none, or 0."""
     for pattern in _DEPTHS:
-        *_, found = (None, *pattern.finditer(name))
+        *_, found = (None, *re.finditer(pattern, name, re.IGNORECASE))
         if found is not None:
             return float(found["number"].replace(",", ".")) * size_of(found["unit"], 1.0) or None
     return None

@@ -1,25 +1,54 @@
-"""How each kind of operation is carried out: registered by its folder, asked for by whoever computes a job or judges
-what it lacks.
+"""How each kind of operation is carried out: registered by its folder, asked for by whoever computes a job, judges what
+it lacks, or proves its motions as they were read back from the text.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from importlib.util import find_spec
 from typing import Any, ClassVar, Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..core.progress import Progress
 from ..model.finding import Finding
 from ..model.job import Job
+from ..model.motion import Floats
 from ..model.moves import Program
 from ..model.operation import Operation
-from ..model.operation_motions import OperationMotions
 from ..model.tool import Tool
 from ..toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..toolpath.operation_context import OperationContext, PreparedStrokes
 from .effort import Workload, along_walls
+
+
+@dataclass(frozen=True, eq=False)
+class OperationMotions:
+    """Motions of one operation, n of them.
+
+    Attributes:
+        start, end, centre: (n, 3) mm; centres of arcs. Program coordinates, where they were not moved.
+        kind: (n,) MotionKind.
+        feed: (n,) mm/min.
+        line: (n,) of the NC text of its file.
+    """
+
+    start: Floats
+    end: Floats
+    centre: Floats
+    kind: NDArray[np.uint8]
+    feed: Floats
+    line: NDArray[np.int32]
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+    def moved(self, by: tuple[float, float, float]) -> OperationMotions:
+        """Return them so many mm along X, Y, Z."""
+        return replace(self, start=self.start + by, end=self.end + by, centre=self.centre + by)
 
 
 @dataclass(frozen=True)

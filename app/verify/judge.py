@@ -28,8 +28,6 @@ from ..toolpath.coverage.coverage import UncutPlace
 from .exact import ExactDeviations
 from .judgement import BANDS, Band, CellPlace, Certificate, Judgement, Spot, SpotKind, places_of
 from .parts import FlatPart, Part, SolidPart, flat_target
-from .solid_depth import CutColumns
-from .solid_gouges import SolidGouges
 from .verdict import Gouge
 from .wall_probe import Probe, WallProbe
 
@@ -213,6 +211,8 @@ def _gouges(judging: JudgementInput, deviation: NDArray[np.float32], progress: P
     gouged = np.asarray(deviation < -part.tolerance)
     places, count = places_of(gouged, -deviation, judging.grid)
     if isinstance(part, SolidPart) and judging.lowest is not None:
+        from .solid_gouges import SolidGouges  # a drawing needs none of it
+
         cut, around = judging.cut, judging.part_target.target.around
         depths = partial(part.depths, progress)
         measure = SolidGouges(part, judging.lowest, cut.before, cut.heights, gouged, around, judging.lines, depths)
@@ -398,6 +398,7 @@ def _in_solid(part: SolidPart, target: PartTarget, low: Heights, before: Workpie
     that seem deepest are asked first, until no other can be deeper; where that takes too many, what they seem counts.
     """
     from ..simulation.field.judge_kernels import ways_out
+    from .solid_depth import CutColumns  # a drawing needs none of it
 
     grid, half = before.grid, before.grid.pitch / math.sqrt(2.0)
     cut = np.flatnonzero(low < before.heights)

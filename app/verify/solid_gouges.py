@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..model.motion import Floats
 from ..simulation.field.target import frozen
 from ..simulation.field.workpiece import Heights, Workpiece
+from .clearance_kernels import told_apart
 from .judgement import MOST, CellPlace, Spot, SpotKind
 from .parts import SolidPart
 from .solid_depth import CutColumns, DepthInSolid
@@ -214,7 +215,6 @@ class SolidGouges:
 
 def apart(places: Floats) -> NDArray[np.int64]:
     """Return which of some places (m, 2), in order, are farther than APART from all of these before them."""
-    from .clearance_kernels import told_apart
 
     cells = np.floor(places / APART).astype(np.int64)
     cells -= cells.min(axis=0, initial=0) - 1

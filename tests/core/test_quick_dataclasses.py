@@ -6,14 +6,14 @@ import dataclasses
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 
 from app.core.quick_dataclasses import make_dataclasses_quickly
 
 pytestmark = pytest.mark.skipif(sys.version_info >= (3, 13), reason="the library itself compiles a class at once")
-NAMES = ("_repr_fn", "_frozen_get_del_attr", "_cmp_fn", "_hash_fn")
+NAMES = ("_init_fn", "_repr_fn", "_frozen_get_del_attr", "_cmp_fn", "_hash_fn", "_is_type")
 OWN = {name: getattr(dataclasses, name, None) for name in NAMES}
 """The library's functions, before anything is replaced."""
 
@@ -48,6 +48,11 @@ def several(decorate: Callable[..., Any]) -> Any:
         b: Any = dataclasses.field(default="two", repr=False)
         c: Any = dataclasses.field(default=3.0, compare=False)
         d: Any = dataclasses.field(default_factory=tuple)
+        count: ClassVar[int] = 4
+        scale: dataclasses.InitVar[float] = 1.0
+
+        def __post_init__(self, scale: float) -> None:
+            assert scale == 1.0
 
         def rest(self) -> Any:
             return self.d
@@ -86,6 +91,10 @@ ASKED: tuple[Callable[[Any], Any], ...] = (
     lambda v: delattr(v, "a"),
     lambda v: delattr(v, "nothing"),
     lambda v: sorted(vars(type(v))),
+    lambda v: type(v)(1, 2, 3, 4, 5, 6, 7),
+    lambda v: type(v)(nothing=1),
+    lambda v: [each.name for each in dataclasses.fields(v)],
+    lambda v: (type(v).__init__.__name__, type(v).__init__.__qualname__),
     lambda v: [(type(v).__dict__[n].__name__, type(v).__dict__[n].__qualname__) for n in ("__repr__",)],
     lambda v: [getattr(type(v), n).__qualname__ for n in ("__eq__", "__setattr__", "__delattr__", "__hash__")],
 )
@@ -117,6 +126,17 @@ def test_what_holds_itself_is_shown_once() -> None:
     value = kind()
     value.a = [value]
     assert repr(value).endswith("Value(a=[...])")
+
+
+def test_a_class_below_begins_it_before_a_value_of_its_own_was_made() -> None:
+    make_dataclasses_quickly()
+    base = several(dataclasses.dataclass(frozen=True))
+
+    class Below(base):  # type: ignore[misc]
+        def __init__(self) -> None:
+            super().__init__(a=7)
+
+    assert (Below().a, Below().a, base().a, base(8).a) == (7, 7, 1, 8)
 
 
 def test_importing_the_python_door_leaves_the_library_alone() -> None:

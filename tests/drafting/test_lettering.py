@@ -16,7 +16,7 @@ from app.drafting.document import Document, drawn
 from app.drafting.expressions.errors import CommandError
 from app.drafting.expressions.syntax import TextSpan
 from app.drafting.expressions.values import Length, Scope
-from app.drafting.language.word_fields import with_fields
+from app.drafting.language.read_text import with_fields
 from app.drafting.language.write import draw_text
 from app.geometry.sample import bounds, sample
 from app.model.curves import Arc, Curve, Line, Point

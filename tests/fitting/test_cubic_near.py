@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 
 from app.core.errors import InputError
-from app.fitting.point_curves.cubic_approximation import cubic_near
+from app.fitting.point_curves.proven_curve import cubic_near
 from app.model.motion import Nurbs
 from tests.examples import examples
 

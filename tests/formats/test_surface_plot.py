@@ -21,7 +21,6 @@ from app.formats.plot.page import PlotPage
 from app.formats.plot.page_pdf import pages_pdf
 from app.formats.plot.page_png import page_png
 from app.formats.plot.page_svg import page_svg
-from app.formats.plot.surface_labels import free_places
 from app.formats.plot.surface_plot import (
     DASHES,
     VIEWS,
@@ -31,6 +30,7 @@ from app.formats.plot.surface_plot import (
     Projection,
     RunPiece,
     colour_of,
+    free_places,
     line_of,
 )
 from app.model.scene import LineType

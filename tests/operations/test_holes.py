@@ -27,8 +27,7 @@ from app.model.tool import Tool
 from app.model.tool_kind import ToolKind
 from app.operations.bore.paths import ways_of
 from app.operations.compute import compute
-from app.operations.thread.form import correction, flank_error
-from app.operations.thread.paths import way_of
+from app.operations.thread.paths import correction, flank_error, way_of
 from app.toolpath.drawn_contours import drawn_contours
 from app.toolpath.drill_holes import made_by_drills
 from tests.part_shapes import circle, layered_part, square

@@ -18,7 +18,6 @@ from app.simulation.gpu.wedges import (
     Tessellation,
     facets_in,
     polygon_counts,
-    sweep_facets,
 )
 from app.simulation.sweeps.chains import Chains, chains_of
 from tests.examples import examples
@@ -49,6 +48,14 @@ def areas(quads: Floats) -> Floats:
 
 def of_kind(found: SweepFacets, kind: FacetKind) -> Floats:
     return found.quads[found.kind == kind].astype(float)
+
+
+def sweep_facets(points: Floats, radius: float, how: Tessellation) -> SweepFacets:
+    """All facets of what a ball sweeps along one chain of places (n + 1, 3) of its centre."""
+    places = np.asarray(points, float) - (0.0, 0.0, radius)
+    chains = Chains.of(places[:-1], places[1:], np.arange(len(places) - 1) > 0)
+    parts = [(part.quads.copy(), part.kind.copy()) for part, _ in facets_in(Cutter(radius, 0.0, radius), chains, how)]
+    return SweepFacets(*(np.concatenate(each) for each in zip(*parts, strict=True)))
 
 
 def test_corners_lie_on_the_surface() -> None:

@@ -27,9 +27,8 @@ from app.usecases.making.make import finish
 from app.usecases.pixels.options import BitmapSize
 from app.usecases.pixels.way import compute_on_bitmap
 from app.usecases.scene.compute import compute
-from app.usecases.smoothing.effort import smooth_effort
 from app.usecases.smoothing.result import OutputForm, SmoothOptions
-from app.usecases.smoothing.smooth import smooth
+from app.usecases.smoothing.smooth import smooth, smooth_effort
 from tests.conftest import ROOT
 from tests.operations.test_reckoning import holes, job_of, square, wavy
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from ...core.input_file import read_input
+from ...usecases.examine import compared, examine
 from ..check_lines import difference_lines, examined_lines
 from ..check_options import EPILOG, add_check_options, check_files, examine_options
 from ..command import CliCommand
@@ -15,7 +16,6 @@ from ..signals import StopFlag
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 with problems or differences."""
-    from ...usecases.examine import compared, examine  # not for its options alone, as a batch reads them
 
     outputs = check_files(arguments)
     progress = shown_progress(arguments.quiet, stopped)

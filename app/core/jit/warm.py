@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..progress import NO_PROGRESS, Progress, waits_reported_to
 from ..resources import PACKAGE
+from .compiled import REGISTERED
 
 
 def kernel_modules() -> tuple[str, ...]:
@@ -26,7 +27,6 @@ def warm(progress: Progress = NO_PROGRESS) -> tuple[str, ...]:
     Raises:
         Cancelled: the job was asked to stop.
     """
-    from .compiled import REGISTERED
     from .compilers import compilers
 
     for name in kernel_modules():

@@ -63,7 +63,6 @@ from . import read_corners as corners
 from . import read_draw as draw
 from . import read_edit as edit
 from . import read_notes as notes
-from . import read_rework as rework
 from .read_set import SetProperty, set_property
 from .read_text import text
 
@@ -167,12 +166,12 @@ _READERS: dict[str, Callable[[Arguments, DraftingSession], Command]] = {
     "lock": edit.lock,
     "unlock": edit.unlock,
     "colour": edit.colour,
-    "trim": rework.trim,
-    "extend": rework.extend,
-    "break": rework.break_at,
+    "trim": edit.trim,
+    "extend": edit.extend,
+    "break": edit.break_at,
     "fillet": corners.fillet_of,
     "chamfer": corners.chamfer_of,
-    "offset": rework.offset,
+    "offset": edit.offset,
     "join": join,
     "explode": explode,
     "measure": measure,

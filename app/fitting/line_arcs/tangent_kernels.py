@@ -298,8 +298,8 @@ def _solved(band, right):
     return True
 
 
-@kernel(f"void({_BANDS}, {_R}, boolean[::1], int64, int64)", counts=False)
-def _hold(band, slope, bent, first, stop):
+@kernel(f"void({_BANDS}, {_R}, boolean[::1], int64)", counts=False)
+def _hold(band, slope, bent, first):
     """Keep lines straight, and make the system's numbers firm."""
     for i in range(len(slope)):
         # Where a joint may slide at nearly no cost the matrix is nearly singular: this keeps it positive.
@@ -342,7 +342,7 @@ def _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes,
     _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell, band, slope)
     _rails(feet, left, first, stop, limits, weight, swell, band, slope)
     _turns(z, half, frames, first, stop, band, slope)
-    _hold(band, slope, bent, first, stop)
+    _hold(band, slope, bent, first)
     way[:] = slope
     if not _solved(band, way):
         return -1.0

@@ -12,7 +12,7 @@ from typing import Any
 
 from ...core import tolerances
 from ...core.options import option
-from ...geometry.affine import scaled
+from ...geometry.affine import Affine, scaled
 from ...geometry.chaining.pieces import FARTHEST
 from ...model.drawn_depths import DepthSource, DrawnDepth, depth_words
 from ...model.finding import Finding, FindingKind
@@ -65,7 +65,7 @@ from .findings import (
     text_findings,
 )
 from .letters import TextCurves
-from .load import layout_named, load, paper
+from .load import LoadedDocument, layout_named, load, paper
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
     1: (25.4, Units.INCH),
@@ -124,65 +124,103 @@ def read_dxf(
     unit = _unit(document, data, units, how.overrule)
     walker = DxfWalker(document, name, layers, how.without_types)
     content = walker.content(layout_named(document, how.layout, name))
-    to_mm, machined = scaled(unit.size), _machined(document, layers, how.without_layers)
-    drawn = all_drawn(content, machined, unit.size)
-    curves = _spelled(document, drawn.curves)
-
-    def placed(to_zero: bool) -> UsableCurves:
-        return usable_curves(curves, to_mm if unit.size != 1.0 else None, machined if to_zero else None, drawn.strokes)
-
-    found, papers = placed(how.to_zero), paper(document)
+    machined = _machined(document, layers, how.without_layers)
+    dxf = _DrawnDxf(document, content, all_drawn(content, machined, unit.size), unit, machined)
+    found, papers = dxf.usable(how.to_zero), paper(document)
     others = Counter() if how.layout else papers
     if not found.entities and not any(machined(each.layer) for each in content.points):
         raise UndecidedError(
             f"{name}: {_nothing(content, found, others)}", _asked(content, found, others, reading, unit)
         )
-    used = {each.layer for each in found.entities} or {each.layer for each in content.points}
-    part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, used)).with_entities(
-        found.entities
-    )
-    marks = _marks(content, unit.size, found, part.layers)
-    depths = depths_of(DepthReading(content.letterings, drawn, found, unit.size))
-    part = replace(part, notes=marks, used_id=len(found.entities) + len(marks), depths=depths)
-    names = tuple(layer.name for layer in part.layers)
-    part = on_layers(part, layers, name)
-    left_out = content.left_out + Counter(
-        {PAPER: others.total(), LeftOutSort("POINT"): len(content.points) - len(marks)}
-    )
-    nothing = [None if p is None else to_mm.point(p) for p in content.without_length] + found.nothing
-    findings = [
+    whole = _part(dxf, found, name)
+    part = on_layers(whole, layers, name)
+    unread = {PAPER: others.total(), LeftOutSort("POINT"): len(content.points) - len(whole.notes)}
+    left_out = +(content.left_out + Counter(unread))
+    findings = (
         *_unit_findings(units, unit),
-        *comma_findings(loaded.commas),
-        *_damage(loaded.repaired),
-        *repeated_findings(loaded.repeated),
-        *stray_findings(loaded.strays),
+        *_file_findings(loaded),
         *placement_findings(found),
-        *negative_radius_findings(content, unit.size),
-        *about_unread(content, unit.size),
-        *without_length(nothing),
-        *_heights(content, unit.size),
-        *hidden_insert_findings(content, unit.size),
-        *clip_findings([each for each in content.clipped if any(map(machined, each.layers))], unit.size),
-        *text_findings([each for each in content.letterings if machined(each.layer)], unit.size),
-        *hatch_findings(drawn),
-        *band_findings([each for each in content.bands if machined(each.layer)], unit.size),
-        *broken_line_findings([each for each in content.broken if machined(each.layer)], unit.size),
+        *_content_findings(dxf, found),
         *layer_findings(document, Counter(each.layer for each in part.entities if machined(each.layer))),
         *switched_off(part, layers),
-        *all_left_out(+left_out),
-    ]
+        *all_left_out(left_out),
+    )
+    names = tuple(layer.name for layer in whole.layers)
     contents = FileContents(names, tuple(papers.items()), tuple(sorted(walker.types)), unit.own)
-    question = strays_or_none(found, reading, placed) or (
+    question = strays_or_none(found, reading, dxf.usable) or (
         None if unit.named or units else units_question(unit.shown, size_of(part), reading)
     )
-    return Drawing(
-        part,
-        tuple(findings),
-        left_out_kinds(+left_out + found.missing),
-        unit.named,
-        contents,
-        question,
-    )
+    return Drawing(part, findings, left_out_kinds(left_out + found.missing), unit.named, contents, question)
+
+
+@dataclass(frozen=True, eq=False)
+class _DrawnDxf:
+    """What a document has on its model space, or on one layout.
+
+    Attributes:
+        document: of the library.
+        content: its curves, letters, points and what is none of them. drawn: all that is curves; both in drawing units.
+        unit: of the drawing. machined: tells whether a layer is.
+    """
+
+    document: Any
+    content: DxfContent
+    drawn: DrawnCurves
+    unit: _Unit
+    machined: Callable[[str], bool]
+
+    @property
+    def to_mm(self) -> Affine:
+        """The scaling from drawing units."""
+        return scaled(self.unit.size)
+
+    def usable(self, to_zero: bool) -> UsableCurves:
+        """Return the curves that can be used, in mm, on layers as the table spells them.
+
+        Args:
+            to_zero: they are moved so that what is machined begins at zero.
+        """
+        return usable_curves(
+            _spelled(self.document, self.drawn.curves),
+            self.to_mm if self.unit.size != 1.0 else None,
+            self.machined if to_zero else None,
+            self.drawn.strokes,
+        )
+
+
+def _part(dxf: _DrawnDxf, found: UsableCurves, name: str) -> Part:
+    """Return curves and points of a drawing as a part, with the depths that it tells."""
+    content, unit = dxf.content, dxf.unit
+    used = {each.layer for each in found.entities} or {each.layer for each in content.points}
+    bare = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(dxf.document, used))
+    part = bare.with_entities(found.entities)
+    marks = _marks(content, unit.size, found, part.layers)
+    depths = depths_of(DepthReading(content.letterings, dxf.drawn, found, unit.size))
+    return replace(part, notes=marks, used_id=len(found.entities) + len(marks), depths=depths)
+
+
+def _file_findings(loaded: LoadedDocument) -> Iterator[Finding]:
+    """Yield what is wrong with the file itself."""
+    yield from comma_findings(loaded.commas)
+    yield from _damage(loaded.repaired)
+    yield from repeated_findings(loaded.repeated)
+    yield from stray_findings(loaded.strays)
+
+
+def _content_findings(dxf: _DrawnDxf, found: UsableCurves) -> Iterator[Finding]:
+    """Yield what is not read of the content, or not as it stands there; of layers that are machined."""
+    content, machined, size = dxf.content, dxf.machined, dxf.unit.size
+    yield from negative_radius_findings(content, size)
+    yield from about_unread(content, size)
+    nothing = [None if place is None else dxf.to_mm.point(place) for place in content.without_length]
+    yield from without_length(nothing + found.nothing)
+    yield from _heights(content, size)
+    yield from hidden_insert_findings(content, size)
+    yield from clip_findings([each for each in content.clipped if any(map(machined, each.layers))], size)
+    yield from text_findings([each for each in content.letterings if machined(each.layer)], size)
+    yield from hatch_findings(dxf.drawn)
+    yield from band_findings([each for each in content.bands if machined(each.layer)], size)
+    yield from broken_line_findings([each for each in content.broken if machined(each.layer)], size)
 
 
 def _asked(

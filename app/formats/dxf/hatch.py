@@ -11,6 +11,9 @@ import numpy as np
 
 from ...core import tolerances
 from ...geometry.affine import Affine, ellipse, transformed
+from ...geometry.chaining.pieces import pieces_from, rows_of
+from ...geometry.primitives import points_at
+from ...geometry.sample import bounds, union
 from ...model.curves import Curve, Line
 from ...model.part import Entity
 from ..drawing_account import has_place
@@ -166,8 +169,6 @@ def bounding_alone(rings: Sequence[tuple[Curve, ...]], drawn: Sequence[Curve], s
         rings: boundaries, drawing units. drawn: curves that are machined, drawing units. size: of the unit, mm.
     """
     from ...geometry.distance import DistanceField
-    from ...geometry.primitives import points_at
-    from ...geometry.sample import bounds, union
 
     around = union([bounds(curve) for ring in rings for curve in ring if has_place(curve)])
     if around is None:
@@ -190,7 +191,6 @@ def bounding_alone(rings: Sequence[tuple[Curve, ...]], drawn: Sequence[Curve], s
 
 def _rows(curves: Sequence[Curve], to: Affine) -> Any:
     """Return curves as rows of lines and arcs, mm."""
-    from ...geometry.chaining.pieces import pieces_from, rows_of
 
     placed = (transformed(curve, to) for curve in curves)
     pieces, _ = pieces_from([Entity(number, curve) for number, curve in enumerate(placed, 1) if curve is not None])

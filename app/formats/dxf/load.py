@@ -18,7 +18,6 @@ from ..drawing_account import MOST_CURVES
 from . import subclass_marks
 from .code_pages import HEAD, MOST_BYTES, encoding, plain_letters
 from .numbers import NO_COMMAS, DecimalCommas, with_points
-from .repeated_blocks import without_repeated
 from .sections import sections_of, strays_of, tidied, without_empty_variables
 from .splines import MOST_POINTS, too_many
 
@@ -326,3 +325,30 @@ def paper(document: Any) -> Counter[str]:
         if not layout.is_modelspace:
             counts[layout.name] += sum(entity.dxftype() != "VIEWPORT" for entity in layout)
     return +counts
+
+
+_SPACES = ("*model_space", "*paper_space")
+"""Names of spaces, which begin so; what lies in one may stand in several places."""
+_NAME = 2
+
+
+def without_repeated(sections: dict[str, list[Any]]) -> tuple[str, ...]:
+    """Take later definitions of a block away, from BLOCK to ENDBLK, and return their names.
+
+    Args:
+        sections: of a file by name, each the entities of the library, as tags of codes and values.
+    """
+    entities, known = sections.get("BLOCKS", []), set[str]()
+    kept, repeated, dropping = [], list[str](), False
+    for tags in entities:
+        kind = tags[0].value
+        if kind == "BLOCK":
+            name = str(next((tag.value for tag in tags if tag.code == _NAME), ""))
+            dropping = name.casefold() in known
+            repeated += [name] if dropping else []
+            known |= {name.casefold()} if name and not name.casefold().startswith(_SPACES) else set()
+        if not dropping:
+            kept.append(tags)
+        dropping = dropping and kind != "ENDBLK"
+    entities[:] = kept
+    return tuple(repeated)

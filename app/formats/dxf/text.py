@@ -11,11 +11,10 @@ from typing import Any
 from ...geometry.affine import Affine
 from ...model.curves import Point
 from ..drawing import MOST_LETTERS, LeftOutReason
-from .codes import stretches
 from .curves import NoLengthError, plane_of
 from .fonts import Fonts, style_font
 from .letter_boxes import LetterBox
-from .letters import LeftOutError, LetterRun, LetterStyle, TextCurves, lettered, run_of
+from .letters import LeftOutError, LetterRun, LetterStyle, TextCurves, lettered, run_of, stretches
 from .vertical import is_vertical, stacked
 
 _BACKWARD, _UPSIDE_DOWN = 2, 4

@@ -1,5 +1,5 @@
 """Paths over a compound surface on paper, as they are generated: each surface's part told apart by colour or by line
-type.
+type, with a legend, and labels of points where they find room.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +18,7 @@ from ...model.curves import Circle
 from ...model.part import Units
 from ...model.scene import LineType
 from .content import INK, TOOL_COLOURS
-from .page import Box, PageContent, Pen, PenStroke, TextLine, TracedPolyline
-from .surface_labels import free_places
-from .surface_legend import LegendEntry, legend_height, legend_ink
+from .page import Box, PageContent, Pen, PenStroke, TextLine, TracedPolyline, fitted
 
 Floats = NDArray[np.float64]
 
@@ -194,3 +193,124 @@ class BySurface:
         passes.
         """
         return legend_ink(self._entries, box)
+
+
+Place = tuple[float, float]
+
+_CELL = 0.4
+"""Side of the squares of paper that are either free or taken, mm."""
+
+_MOST_CELLS = 2e7
+"""Of the table of what is taken; on larger paper cells are larger."""
+_GAP, _POINT, _ROUND = 0.5, 0.7, 3.5
+"""mm on paper: round a label, half the side of a point, how far labels may stand beyond all points."""
+_WIDE, _BODY = 0.62, 0.75
+"""Greatest width of a letter and height of a capital, of the height of a text."""
+
+
+def free_places(lines: Sequence[Floats], points: Floats, texts: Sequence[str], height: float) -> list[Place | None]:
+    """Return where the foot of each point's text begins; None where there is no room.
+
+    Args:
+        lines: polylines (n, 2) that labels keep off. points: (m, 2) to be labelled. texts: m. height: of the letters.
+            All mm on paper.
+    """
+    if not len(points):
+        return []
+    every = np.concatenate([*lines, points])
+    corner, far = every.min(axis=0) - _ROUND, every.max(axis=0) + _ROUND
+    cell = max(_CELL, math.sqrt(float(np.prod(far - corner)) / _MOST_CELLS))
+    taken = np.zeros(np.ceil((far - corner) / cell).astype(int) + 1, bool)
+    for line in lines:
+        at = np.floor((_dense(line, cell / 2) - corner) / cell).astype(int)
+        taken[at[:, 0], at[:, 1]] = True
+    for point in points:
+        _cells(taken, (point - corner - _POINT) / cell, (point - corner + _POINT) / cell)[:] = True
+    found = [
+        _place(taken, _LabelledPoint(at, points - corner, cell), len(text) * height * _WIDE, height * _BODY)
+        if text
+        else None
+        for at, text in enumerate(texts)
+    ]
+    return [None if place is None else (place[0] + float(corner[0]), place[1] + float(corner[1])) for place in found]
+
+
+class _LabelledPoint(NamedTuple):
+    """The number of a point among all, (m, 2), and the side of the squares of paper, mm."""
+
+    number: int
+    points: Floats
+    cell: float
+
+
+def _place(taken: NDArray[np.bool_], where: _LabelledPoint, wide: float, high: float) -> Place | None:
+    """Return a free place beside one of the points, nearer to it than to the others, and take it; to the right and
+    above first.
+    """
+    number, points, cell = where
+    point = points[number]
+    for away in (1.0, 2.0, 3.2):
+        for side, up in ((1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1), (1, 0), (-1, 0)):
+            centre = point + (side * (wide / 2 + away * (0.7 if up else 1.0)), up * (high / 2 + away))
+            half = np.array([wide / 2 + _GAP, high / 2 + _GAP])
+            cells = _cells(taken, (centre - half) / cell, (centre + half) / cell)
+            if not cells.size or cells.any() or np.hypot(*(points - centre).T).argmin() != number:
+                continue
+            cells[:] = True
+            x, y = (centre - (wide / 2, high / 2)).tolist()
+            return x, y
+    return None
+
+
+def _cells(taken: NDArray[np.bool_], low: Floats, high: Floats) -> NDArray[np.bool_]:
+    """Return the squares of a rectangle; none where it leaves the paper."""
+    (x0, y0), (x1, y1) = np.floor(low).astype(int).tolist(), (np.floor(high).astype(int) + 1).tolist()
+    inside = min(x0, y0) >= 0 and x1 <= taken.shape[0] and y1 <= taken.shape[1]
+    return taken[x0:x1, y0:y1] if inside else taken[:0]
+
+
+def _dense(line: Floats, step: float) -> Floats:
+    """Return places along a polyline no farther apart than a step."""
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+    at = np.union1d(along, np.arange(0.0, along[-1], step))
+    return np.stack([np.interp(at, along, line[:, axis]) for axis in (0, 1)], axis=1)
+
+
+_COLUMNS, _ROW, _EDGE, _SAMPLE, _TEXT = 3, 5.2, 2.0, 15.0, 2.5
+"""Columns; mm: from row to row, to the edge, length of a sample, height of letters."""
+
+
+@dataclass(frozen=True, slots=True)
+class LegendEntry:
+    """A line of a legend: a text, behind a sample of a pen's line, behind a circle of a radius in mm, or alone."""
+
+    text: str
+    pen: Pen | None = None
+    radius: float = 0.0
+
+
+def legend_height(count: int) -> float:
+    """Return the height of a legend of so many entries, mm."""
+    return 2 * _EDGE + _ROW * math.ceil(count / _COLUMNS)
+
+
+def legend_ink(entries: Sequence[LegendEntry], box: Box) -> PageContent:
+    """Return a legend in a place x0, y0, x1, y1 of the paper, row by row."""
+    x0, _, x1, y1 = box
+    wide = (x1 - x0) / _COLUMNS
+    made = PageContent()
+    for number, entry in enumerate(entries):
+        x, y = x0 + wide * (number % _COLUMNS) + _EDGE, y1 - _EDGE - _ROW * (number // _COLUMNS + 0.5)
+        indent = 0.0
+        if entry.pen is not None and entry.radius:
+            made += PageContent((PenStroke(entry.pen, (Circle((x + _SAMPLE / 2, y), entry.radius),)),))
+        elif entry.pen is not None:
+            made += PageContent(traces=(TracedPolyline(entry.pen, np.array([[x, y], [x + _SAMPLE, y]])),))
+        if entry.pen is not None:
+            indent = _SAMPLE + _EDGE
+        made += PageContent(
+            words=(
+                TextLine(fitted(entry.text, _TEXT, wide - indent - 2 * _EDGE), (x + indent, y - 0.36 * _TEXT), _TEXT),
+            )
+        )
+    return made

@@ -61,13 +61,11 @@ class ParsedLine:
     """A line that was understood.
 
     Attributes:
-        deleted: it begins with a slash.
         settings: parameters that it sets, in order.
         words: the others, in order.
     """
 
     code: str
-    deleted: bool
     settings: tuple[ParameterSetting, ...]
     words: tuple[Word, ...]
 
@@ -121,7 +119,6 @@ def _parsed(code: str, nesting: int, grammar: Grammar, begin: int) -> ParsedLine
     values.at = begin
     free, polar = grammar in (Grammar.FREE, Grammar.MACRO_B), grammar is Grammar.NGC
     slash = SLASH.match(code, begin)
-    deleted = slash is not None
     if slash is not None:
         values.at = slash.end()
     settings: list[ParameterSetting] = []
@@ -145,7 +142,7 @@ def _parsed(code: str, nesting: int, grammar: Grammar, begin: int) -> ParsedLine
             values.letter = ""
         else:
             raise BlockFault(f"{letter!r} begins no word; {_instead(code, at)}.", column=-1 - at, word=letter)
-    return ParsedLine(code, deleted, tuple(settings), tuple(words))
+    return ParsedLine(code, tuple(settings), tuple(words))
 
 
 def _instead(code: str, at: int) -> str:

@@ -96,55 +96,41 @@ class FastLane:
 
     def _put(self, begin: Cursor) -> None:
         """Write what is in force into the lane's numbers."""
-        control, ints, reals, modal = self._control, self._ints, self._reals, self._control.modal
-        motion = control.motion
-        number = _GO[motion] if motion in _GO else _CYCLES.get(motion, -1) if ints[at.LINUXCNC] else -1
-        ints[: at.LINUXCNC] = (
-            begin.offset,
-            begin.line,
-            control.columns.count,
-            number,
-            modal.plane,
-            modal.absolute,
-            modal.arc_absolute,
-            modal.spindle,
-            modal.flood,
-            modal.mist,
-            modal.tool,
-            modal.retract_to_r,
-            control.selected,
-            0,
-            0,
-            0,
-            0,
-            control.unrolled,
-            PORTION,
-            min(len(control.columns.kind), control.options.limits.motions),
-            control.options.limits.looped_blocks,
-            ints[at.LONGEST],
-        )
-        name, inch = control.offsets.name, modal.units is Units.INCH
-        ints[at.WORK_OFFSET :] = (
-            round(100 * float(name[1:])) if " " not in name else -1,
-            2000 if inch else 2100,
-            control.offsets.tool == ZERO and modal.length_offset == 0,
-            modal.constant_surface,
-            0,
-            0,
-            *control.known,
-        )
-        unit = control.unit
-        reals[at.FEED], reals[at.SPEED], reals[at.SCALE], reals[at.BARE] = (
-            control.feed,
-            modal.speed,
-            unit,
-            unit * control.least,
-        )
-        reals[at.INITIAL], reals[at.PLACE :] = control.initial, (*control.at, *modal.shift)
+        control, ints, reals = self._control, self._ints, self._reals
+        ints[at.OFFSET], ints[at.LINE], ints[at.COUNT] = begin.offset, begin.line, control.columns.count
+        ints[at.MOTION] = self._motion()
+        ints[at.SELECTED], ints[at.UNROLLED] = control.selected, control.unrolled
+        ints[at.STATE : at.UNROLLED] = 0
+        ints[at.LINES_LEFT], ints[at.MOST_UNROLLED] = PORTION, control.options.limits.looped_blocks
+        ints[at.ROWS] = min(len(control.columns.kind), control.options.limits.motions)
+        ints[at.KNOWN :] = control.known
+        reals[at.FEED], reals[at.SCALE], reals[at.BARE] = control.feed, control.unit, control.unit * control.least
+        reals[at.INITIAL], reals[at.PLACE : at.SHIFT] = control.initial, control.at
+        self._put_modal()
         self._put_cycle()
+
+    def _motion(self) -> int:
+        """Return the number of the G word in force, -1 for one that the lane does not know."""
+        motion = self._control.motion
+        if motion in _GO:
+            return _GO[motion]
+        return _CYCLES.get(motion, -1) if self._ints[at.LINUXCNC] else -1
+
+    def _put_modal(self) -> None:
+        """Write the modal state and the offsets."""
+        modal, offsets, ints = self._control.modal, self._control.offsets, self._ints
+        ints[at.PLANE], ints[at.ABSOLUTE], ints[at.ARC_ABSOLUTE] = modal.plane, modal.absolute, modal.arc_absolute
+        ints[at.SPINDLE], ints[at.FLOOD], ints[at.MIST] = modal.spindle, modal.flood, modal.mist
+        ints[at.TOOL], ints[at.RETRACT] = modal.tool, modal.retract_to_r
+        ints[at.WORK_OFFSET] = round(100 * float(offsets.name[1:])) if " " not in offsets.name else -1
+        ints[at.UNITS] = 2000 if modal.units is Units.INCH else 2100
+        ints[at.LENGTH_FREE] = offsets.tool == ZERO and modal.length_offset == 0
+        ints[at.SURFACE] = modal.constant_surface
+        self._reals[at.SPEED], self._reals[at.SHIFT :] = modal.speed, modal.shift
 
     def _put_cycle(self) -> None:
         cycle = self._control.cycle
+        self._ints[at.CYCLE : at.KNOWN] = 0
         if cycle is not None:
             self._ints[at.CYCLE] = int(cycle.code[1:])
             words = (cycle.depth, cycle.r, cycle.dwell, cycle.peck)

@@ -24,33 +24,27 @@ class _Language:
     """
 
     title: str
-    telling: re.Pattern[str]
+    telling: str
     remedy: str = _POST_IT
 
 
-_REMARK = re.compile(r"(?<=\()[^()\n]*(?=\))")
+_REMARK = r"(?<=\()[^()\n]*(?=\))"
 """What CAM programs write in brackets speaks of tools (CR=0.), times and other controls."""
-
-
-def _telling(words: str) -> re.Pattern[str]:
-    return re.compile(words, re.IGNORECASE | re.MULTILINE)
 
 
 _LANGUAGES = (
     _Language(
         "a program in Heidenhain's plain language",
-        _telling(r"^[ \t]*(?:\d+\s+)?(?:BEGIN\s+PGM|TOOL\s+CALL|BLK\s+FORM)\b"),
+        r"^[ \t]*(?:\d+\s+)?(?:BEGIN\s+PGM|TOOL\s+CALL|BLK\s+FORM)\b",
     ),
     _Language(
         "a Heidenhain program in DIN/ISO",
-        _telling(
-            r"^[ \t]*%[^\n%]{1,60}\sG7[01]\s*\*?\s*$|^[ \t]*(?:N\d+\s*)?G30\s+G17\s+X|^[ \t]*N\d+\s[^\n*;]*\*\s*$"
-        ),
+        r"^[ \t]*%[^\n%]{1,60}\sG7[01]\s*\*?\s*$|^[ \t]*(?:N\d+\s*)?G30\s+G17\s+X|^[ \t]*N\d+\s[^\n*;]*\*\s*$",
     ),
-    _Language("an Eding CNC program with its own subroutines", _telling(r"^[ \t]*(?:GOSUB|ENDSUB)\b")),
+    _Language("an Eding CNC program with its own subroutines", r"^[ \t]*(?:GOSUB|ENDSUB)\b"),
     _Language(
         "a Siemens Sinumerik program",
-        _telling(
+        (
             r"^[ \t]*%_N_|\bG(?:710|700|641|642)\b|\bCYCLE\d+\s*\(|\bPOCKET\d\s*\(|\bWORKPIECE\s*\(|\bCR\s*="
             r"|[A-Z]\d?\s*=\s*(?:AC|IC)\s*\("
             r"|\bT\d*\s*=\s*\""
@@ -60,38 +54,38 @@ _LANGUAGES = (
     ),
     _Language(
         "an Okuma OSP program",
-        _telling(r"^[ \t]*\$[^\n$]{1,40}%|^[ \t]*(?:N\d+\s*)?CALL\s+O\w+|\bVC\d+\s*=|\bG15\s*H\d"),
+        r"^[ \t]*\$[^\n$]{1,40}%|^[ \t]*(?:N\d+\s*)?CALL\s+O\w+|\bVC\d+\s*=|\bG15\s*H\d",
     ),
     _Language(
         "cutter location data (APT)",
-        _telling(r"^[ \t]*(?:GOTO|FEDRAT|LOADTL|TLDATA)\s*/"),
+        r"^[ \t]*(?:GOTO|FEDRAT|LOADTL|TLDATA)\s*/",
     ),
     _Language(
         "a plot file (HP-GL)",
-        _telling(r"^[ \t]*(?:IN|SP\d+|PU|PD)\s*;|;\s*P[UD]-?\d"),
+        r"^[ \t]*(?:IN|SP\d+|PU|PD)\s*;|;\s*P[UD]-?\d",
         "save it with the ending .plt and open it as a drawing",
     ),
     _Language(
         "a program for a 3D printer",
-        _telling(r"^[ \t]*M(?:8[23]\b|(?:104|109|140|190)\s*[SR]\d)|^[ \t]*(?:N\d+\s*)?G[01]\b[^;(\n]*\bE-?[\d.]"),
+        r"^[ \t]*M(?:8[23]\b|(?:104|109|140|190)\s*[SR]\d)|^[ \t]*(?:N\d+\s*)?G[01]\b[^;(\n]*\bE-?[\d.]",
         "a mill has no extruder: open the solid itself, as STL, and make its paths here",
     ),
     _Language(
         "a program for Marlin, Smoothieware or Klipper",
-        _telling(r"^[ \t]*(?:M11[78]\s+[A-Z]{2}|M300\s*S|[A-Z]{2,}_[A-Z_]+(?:\s+\w+=|\s*$))"),
+        r"^[ \t]*(?:M11[78]\s+[A-Z]{2}|M300\s*S|[A-Z]{2,}_[A-Z_]+(?:\s+\w+=|\s*$))",
     ),
     _Language(
         "a ShopBot program",
-        _telling(r"^[ \t]*(?:[MJ][2-5XYZ]|[MJV]S|TR|C6|C7|C9)\s*,\s*[-.\d]"),
+        r"^[ \t]*(?:[MJ][2-5XYZ]|[MJV]S|TR|C6|C7|C9)\s*,\s*[-.\d]",
     ),
     _Language(
         "a Gerber drawing of a circuit board",
-        _telling(r"^[ \t]*(?:%(?:FS[LT]|MO(?:MM|IN)\*|ADD\d)|G04[^\n]*\*\s*$)"),
+        r"^[ \t]*(?:%(?:FS[LT]|MO(?:MM|IN)\*|ADD\d)|G04[^\n]*\*\s*$)",
         "save its outline as DXF or SVG and open it as a drawing",
     ),
     _Language(
         "a list of a circuit board's holes (Excellon)",
-        _telling(r"^[ \t]*(?:(?:METRIC|INCH)(?:,[TL]Z\b|\s*$)|FMAT,\d|T\d+C[\d.]+\s*$)"),
+        r"^[ \t]*(?:(?:METRIC|INCH)(?:,[TL]Z\b|\s*$)|FMAT,\d|T\d+C[\d.]+\s*$)",
         "save the holes as DXF and open it as a drawing",
     ),
 )
@@ -104,9 +98,9 @@ def foreign_language(data: bytes) -> ProgramProblem | None:
     Args:
         data: the file's bytes.
     """
-    text = _REMARK.sub("", data[:_LOOKED_AT].decode("latin-1"))
+    text = re.sub(_REMARK, "", data[:_LOOKED_AT].decode("latin-1"))
     for language in _LANGUAGES:
-        found = language.telling.search(text)
+        found = re.search(language.telling, text, re.IGNORECASE | re.MULTILINE)
         if found is not None:
             word = " ".join(found[0].split())
             line = text.count("\n", 0, found.end() - 1) + 1

@@ -6,6 +6,7 @@ import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -34,11 +35,16 @@ KEYWORDS = (
 _SPACED = "|".join(r"[ \t]*".join(word) for word in sorted(KEYWORDS, key=len, reverse=True))
 """The keywords with blanks between their letters, which a control skips: "end sub"."""
 
-_O_LINE = re.compile(
-    rb"^[ \t]*(?:/[ \t]*)?(?:n[ \t]*[0-9.]+[ \t]*)?[o:][ \t]*(<[^>\n]{1,200}>|[0-9](?:[ \t]*[0-9]){0,8})[ \t]*(%s)?"
-    % _SPACED.encode(),
-    re.IGNORECASE | re.MULTILINE,
-)
+
+@cache
+def _o_line() -> re.Pattern[bytes]:
+    """Return what a line with an O word looks like, compiled for the first program that jumps."""
+    line = (
+        rb"^[ \t]*(?:/[ \t]*)?(?:n[ \t]*[0-9.]+[ \t]*)?[o:][ \t]*(<[^>\n]{1,200}>|[0-9](?:[ \t]*[0-9]){0,8})[ \t]*(%s)?"
+    )
+    return re.compile(line % _SPACED.encode(), re.IGNORECASE | re.MULTILINE)
+
+
 _N_LINE = re.compile(rb"^[ \t]*(?:/[ \t]*)?n[ \t]*([0-9]{1,9})(?![0-9.])", re.IGNORECASE | re.MULTILINE)
 _DO_END = re.compile(
     rb"^[ \t]*(?:n[ \t]*[0-9]+[ \t]*)?(?:while[^\n(]*\]do|(end))[ \t]*([0-9])", re.IGNORECASE | re.MULTILINE
@@ -194,7 +200,7 @@ class JumpTargets:
 
     def uncalled(self, behind: Cursor) -> tuple[Statement, ...]:
         """Return the programs behind a line that no P word of the whole text names, in their order."""
-        if _O_LINE.search(self._text.data, behind.offset, self._end) is None:
+        if _o_line().search(self._text.data, behind.offset, self._end) is None:
             return ()
         self._statements("")
         every = [each for own in (self._by_label or {}).values() for each in own]
@@ -225,7 +231,7 @@ class JumpTargets:
     def _statements(self, label: str) -> list[Statement]:
         if self._by_label is None:
             self._by_label = {}
-            for found, line in self._found(_O_LINE):
+            for found, line in self._found(_o_line()):
                 name = label_of(found[1].decode(self._text.encoding, "replace"))
                 keyword = "".join((found[2] or b"").decode().lower().split())
                 self._by_label.setdefault(name, []).append(Statement(Cursor(found.start(), line), name, keyword))

@@ -29,7 +29,6 @@ from .foreign_codes import (
     warn_of_numbers,
     warn_of_uncalled,
 )
-from .foreign_languages import foreign_language
 from .linuxcnc_blocks import check_linuxcnc_block, check_linuxcnc_line, check_one_taker
 from .moves import move
 from .notes import notes
@@ -129,37 +128,42 @@ class InterpreterRun:
             Cancelled: the job was asked to stop.
         """
         try:
-            self._skip_leader()
-            warn_of_bytes(self._control, self._file)
-            warn_of_numbers(self._control, self._text.data)
-            self._warn_of_percent()
-            while self._flow.next.offset < len(self._text.data):
-                if not self._step():
-                    break
-            else:
-                self._miss_end()
-            if self._rules.fanuc_flow and not self.stopped:
-                warn_of_uncalled(self._control, self._flow)
-            if self._control.compensation is not None and not self.stopped:
-                self._control.compensation.flush(self._control.columns)
+            self._read_blocks()
         except BlockFault as fault:
             self._problems.append(self._located(fault, Severity.ERROR))
         except RecursionError:
             self._problems.append(
                 self._located(BlockFault("the block is too long or too deep to be read."), Severity.ERROR)
             )
-        control = self._control
-        if control.compensation is not None:
-            control.compensation.spill(control.columns)
+        if self._control.compensation is not None:
+            self._control.compensation.spill(self._control.columns)
         self._warn_of_start()
         self._warn_of_tools()
-        warnings = [
-            ProgramProblem(line, 0, letter.upper(), text, Severity.WARNING)
-            for text, (letter, line) in control.warnings.items()
-        ]
-        foreign = foreign_language(self._text.data) if self._problems else None
-        if foreign is not None:
-            warnings.append(foreign)
+        return self._program()
+
+    def _read_blocks(self) -> None:
+        """Obey the blocks to the end of the program, or to where it is to stop.
+
+        Raises:
+            BlockFault: a block that nobody can obey.
+        """
+        self._skip_leader()
+        warn_of_bytes(self._control, self._file)
+        warn_of_numbers(self._control, self._text.data)
+        self._warn_of_percent()
+        while self._flow.next.offset < len(self._text.data):
+            if not self._step():
+                break
+        else:
+            self._miss_end()
+        if self._rules.fanuc_flow and not self.stopped:
+            warn_of_uncalled(self._control, self._flow)
+        if self._control.compensation is not None and not self.stopped:
+            self._control.compensation.flush(self._control.columns)
+
+    def _program(self) -> NcProgram:
+        """Return what was read."""
+        control = self._control
         noted = notes(self._text.data, self._options.units or Units.MM)
         motions = control.columns.motions(control.splines, control.known_from())
         # a block that fails has named its way, and not gone it
@@ -169,7 +173,7 @@ class InterpreterRun:
             control.states,
             tuple(control.events),
             homeward,
-            (*warnings, *self._problems),
+            (*self._warnings(), *self._problems),
             noted.tools,
             noted.stock,
             self._text.line_count,
@@ -177,6 +181,17 @@ class InterpreterRun:
             self._rules.rapids_bend,
             frozenset(control.probe_lines),
         )
+
+    def _warnings(self) -> Iterator[ProgramProblem]:
+        """Yield what the control told on the way and, where the reading ended, the language that this may be."""
+        for text, (letter, line) in self._control.warnings.items():
+            yield ProgramProblem(line, 0, letter.upper(), text, Severity.WARNING)
+        if self._problems:
+            from .foreign_languages import foreign_language  # patterns of what few files are
+
+            foreign = foreign_language(self._text.data)
+            if foreign is not None:
+                yield foreign
 
     def _warn_of_percent(self) -> None:
         """Tell of a per cent sign where grbl would come to it."""

@@ -118,7 +118,7 @@ class TranslatedText:
         if after.work_offset != self.modal.work_offset:
             self.emit(after.work_offset)
         self._path_mode(step, after)
-        self._length(step, after)
+        self._length(after)
         self.modal = after
 
     def _changed(self, after: ModalState) -> list[str]:
@@ -222,7 +222,7 @@ class TranslatedText:
         least = words.tolerance_mm if tolerance is None else tolerance
         return words.blend.format(blend=spelled(math.floor(least / unit.value * 10**digits + 1e-6), digits))
 
-    def _length(self, step: BlockStep, after: ModalState) -> None:
+    def _length(self, after: ModalState) -> None:
         if after.length_offset == (self.length if self.waiting is None else self.waiting):
             return
         if self.post.dialect in JOINED:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from ...model.face_operation import FaceOperation
 from ..registry import OperationMethod, register
-from .paths import face
-from .proof import face_proof
+from .paths import face, face_proof
 
 register(FaceOperation, OperationMethod(face, proof=face_proof))

@@ -1,13 +1,18 @@
-"""Tapping: down by one pitch a turn of the spindle, and out with the spindle turning back."""
+"""Tapping: down by one pitch a turn of the spindle, and out with the spindle turning back; and what is proven of it on
+the written text as read back: how far the tap is fed for each turn, and how deep.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from ...core.errors import ParameterError
 from ...core.progress import Progress
 from ...model.finding import Finding, FindingKind
 from ...model.hole_operations import TapOperation
+from ...model.motion import MotionKind
 from ...model.moves import Purpose
 from ...model.tool import Tool
 from ...toolpath.drill_holes import CircleHole, tip_depth
@@ -21,6 +26,8 @@ from ..holes import (
     over_hole,
     thread_findings,
 )
+from ..registry import ProofInput
+from ..thread_proof import ThreadProof
 
 VERB = HoleVerb("tap", "taps", "tapped", "tap", "narrower than the thread's core")
 
@@ -83,3 +90,19 @@ def _feed_finding(operation: TapOperation, tool: Tool, feed: float) -> Finding:
         f"at {round(tool.spindle_speed)} rpm. The cut shows no turns of a thread, only the core within the tap's teeth."
     )
     return Finding(FindingKind.ASSUMED, text, counts=False, amount=feed)
+
+
+def tapped_proof(evidence: ProofInput) -> ThreadProof | None:
+    """Return what is proven of an operation that taps; None where it has no holes."""
+    operation, motions = evidence.operation, evidence.motions
+    assert isinstance(operation, TapOperation)
+    if not evidence.program.areas[evidence.index].regions:
+        return None
+    own = motions.kind == MotionKind.LINE
+    speed = round(evidence.job.tool(operation.cut.tool).spindle_speed)
+    off = np.abs(motions.feed[own] / speed - operation.thread.pitch)
+    floor = operation.cut.floor + operation.beyond
+    start, end = motions.start[:, 2], motions.end[:, 2]
+    bottoms = end[own & (end < start)]
+    bare = max(0.0, float((bottoms + floor).max(initial=-np.inf)))
+    return ThreadProof(operation.thread, len(bottoms), float(off.max(initial=0.0)), bare_mm=bare)

@@ -3,6 +3,7 @@
 Climb milling goes round counter-clockwise in a hole, clockwise on a boss. A right-handed thread rises
 counter-clockwise, a left-handed one falls. The half circle through the hole's middle stays on the thread's own surface:
 seen from the axis it turns half as fast as it goes round, so that it rises, or falls, by a quarter of the pitch.
+A wide mill cuts more of the flanks than a thread has: `correction` keeps it off the wall.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from ...model.finding import Finding, FindingKind
 from ...model.hole_operations import ThreadOperation
 from ...model.moves import Purpose
 from ...model.operation import Direction
+from ...model.thread_sizes import ThreadSize
 from ...model.tool import Tool
 from ...toolpath.build import Stroke, StrokeLabel
 from ...toolpath.drill_holes import CircleHole
@@ -33,7 +35,6 @@ from ..holes import (
     over_hole,
     thread_findings,
 )
-from .form import correction
 
 VERB = HoleVerb("thread", "threads", "threaded", "thread mill", "too narrow for the mill")
 
@@ -178,3 +179,42 @@ def _turns_finding(operation: ThreadOperation, tool: Tool, way: ThreadWay) -> Fi
         "cut shows no turns of a thread, only the core within the mill's teeth."
     )
     return Finding(FindingKind.ASSUMED, text, counts=False)
+
+
+_SAMPLES = 4096
+"""Angles that are looked at: what lies between two of them is less than a nanometre higher."""
+
+
+_ROUNDS = 6
+"""The error changes little with the way: each round is a tenth as far off as the one before, or less."""
+
+
+def flank_error(thread: ThreadSize, radius: float, way: float, place: float) -> float:
+    """Return by how much, mm along the axis, a tooth's flank cuts more than it is meant to.
+
+    Args:
+        thread: its pitch and form. radius: of the mill, mm. way: radius of its centre's helix, mm.
+        place: distance from the hole's axis, mm.
+    """
+    slope = math.tan(math.radians(thread.form.value / 2))
+
+    within = (way**2 + place**2 - radius**2) / (2 * way * place)  # beyond this angle the tooth is out of the wall
+    angles = np.linspace(0.0, math.acos(max(-1.0, min(1.0, within))), _SAMPLES)
+    far = np.sqrt(way**2 + place**2 - 2 * way * place * np.cos(angles))
+    gain = thread.pitch * angles / math.tau - (far - abs(place - way)) * slope
+    return float(gain.max())
+
+
+def correction(thread: ThreadSize, radius: float, external: bool) -> float:
+    """Return by how much farther from the wall a mill keeps than it is wide, mm, so that the thread has its pitch
+    diameter.
+
+    Args:
+        thread: that is cut. radius: of the mill, mm. external: on a boss, and not in a hole.
+    """
+    slope, place = math.tan(math.radians(thread.form.value / 2)), thread.pitch_diameter / 2
+    farther = 0.0
+    for _ in range(_ROUNDS):
+        way = thread.bolt_core / 2 + radius + farther if external else thread.major / 2 - radius - farther
+        farther = flank_error(thread, radius, way, place) / slope
+    return farther

@@ -11,13 +11,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import astuple, dataclass, replace
+from dataclasses import astuple, dataclass
 from enum import Enum, IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.motion import Floats
 from ..cutter import Cutter
 from ..sweeps.chains import Chains, chains_of
 from ..sweeps.course import Course
@@ -133,26 +132,6 @@ def facets_in(
             piece, part, filled = cutter_facets(*course, *parts, how.wedges, view, at, room.quads, room.kind)
         at = piece, part
         yield SweepFacets(room.quads[:filled], room.kind[:filled]), piece / len(chains)
-
-
-def sweep_facets(points: Floats, radius: float, how: Tessellation) -> SweepFacets:
-    """Return all facets of what a ball sweeps along one chain, to be looked at.
-
-    Args:
-        points: (n + 1, 3) places of the ball's centre, mm.
-        radius: mm, > 0.
-        how: in which facets.
-
-    Raises:
-        ParameterError: the facets are of no size, or far too small for the ball.
-    """
-    places = np.asarray(points, float) - (0.0, 0.0, radius)
-    joins = np.arange(len(places) - 1) > 0
-    parts = [
-        replace(part, quads=part.quads.copy(), kind=part.kind.copy())
-        for part, _ in facets_in(Cutter(radius, 0.0, radius), Chains.of(places[:-1], places[1:], joins), how)
-    ]
-    return SweepFacets(np.concatenate([part.quads for part in parts]), np.concatenate([part.kind for part in parts]))
 
 
 def chord_of(course: Course, cutters: Mapping[int, Cutter], facet: float) -> float:

@@ -10,8 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from .corners import doubled_areas
-from .edges import MeshEdges
+from .edges import MeshEdges, doubled_areas
 
 Floats = NDArray[np.float64]
 

@@ -16,8 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .corners import doubled_areas, numbered, numbered_rows
-from .edges import MeshEdges
+from .edges import MeshEdges, doubled_areas, numbered, numbered_rows
 from .sew import sew_mesh
 
 Floats = NDArray[np.float64]

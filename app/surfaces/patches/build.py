@@ -34,10 +34,9 @@ from ...model.scene_shapes import (
 )
 from ..meshes.read import read_mesh
 from . import shapes
-from .loft import lofted
+from .loft import lofted, ruled
 from .patch import BsplineSurface
 from .revolve import revolved
-from .ruled import ruled
 from .section_curve import ResolvedCurve, contours_of, resolve, resolve_all
 from .step_faces import step_triangles
 from .sweep import TOLERANCE, following_sweep, parallel_sweep

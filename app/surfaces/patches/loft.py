@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import GeometryError
 from ...model.motion import Nurbs
-from .nurbs_curve import checked, compatible, through, unit_knots
+from .nurbs_curve import checked, compatible, even_knots, through, unit_knots
 from .patch import BsplineSurface
 
 Floats = NDArray[np.float64]
@@ -55,3 +55,12 @@ def section_parameters(sections: Floats) -> Floats:
     moving = whole > 1e-9 * whole.max()
     share: Floats = np.concatenate([[0.0], np.cumsum((steps[:, moving] / whole[moving]).mean(axis=1))])
     return unit_knots(share)
+
+
+def ruled(first: Nurbs, second: Nurbs) -> BsplineSurface:
+    """Return the straight lines from one curve to another: u goes along the curves, v along the lines."""
+    rows, knots, degree = compatible((first, second))
+    control = np.stack(rows, axis=1)
+    return BsplineSurface(
+        control[..., :3] / control[..., 3:], control[..., 3].copy(), knots, even_knots(2, 1), degree, 1
+    )

@@ -48,8 +48,8 @@ def looked_at(index, frame, disc):
     return False
 
 
-@kernel(f"void({_FIELD}, UniTuple(int64, 3), float32)", counts=False)
-def cut_run(heights, index, frame, run, z):
+@kernel("void(float32[::1], int32[:, ::1], UniTuple(int64, 3), float32)", counts=False)
+def cut_run(heights, index, run, z):
     """Cut the cells (row, first column … last column) down to z, mm."""
     row, at, last = run
     while at <= last:
@@ -84,8 +84,8 @@ def cut_disc(heights, index, frame, disc, before):
         if old > 0.0 and square >= 0.0:
             half = math.sqrt(square)
             done = min(last, math.ceil(bx - half) - 1)
-            cut_run(heights, index, frame, (row, max(first, math.floor(bx + half) + 1), last), z)
-        cut_run(heights, index, frame, (row, first, done), z)
+            cut_run(heights, index, (row, max(first, math.floor(bx + half) + 1), last), z)
+        cut_run(heights, index, (row, first, done), z)
 
 
 @kernel(f"int64({_FIELD}, UniTuple(float64, 5), float64, float64[:, ::1])", counts=False)

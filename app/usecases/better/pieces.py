@@ -223,14 +223,12 @@ class LiftedPolyline:
         boundaries: (b, 3) places where the passes go from one surface to the next. apart: (b,) by how much the two
             surfaces differ in height there, mm.
         chord_mm: how far chords are from the surfaces at most, proven.
-        lifted_mm: by how much a place was lifted or lowered at most, mm.
     """
 
     points: Floats
     boundaries: Floats
     apart: Floats
     chord_mm: float
-    lifted_mm: float
 
 
 class _Crossing(NamedTuple):
@@ -283,7 +281,6 @@ class PassLifter:
             crossed.boundaries,
             crossed.apart,
             float(self._chord_bounds(own, labels).max(initial=0.0)),
-            float(np.abs(new[:, 2] - own[:, 2]).max(initial=0.0)),
         )
 
     def _heights(self, places: Floats, piece: Ints) -> tuple[Floats, NDArray[np.bool_]]:

@@ -33,6 +33,10 @@ from ...model.scene import Scene
 from ...model.stock_box import StockBox, stock_box, work_origin
 from ...simulation.field.solid import SolidStock, read_solid
 from ...simulation.field.workpiece import BoxStock, StockShape
+from ...toolpath.coverage.floor_target import CHORD
+from ...toolpath.drawn_contours import drawn_contours
+from ...toolpath.machining_areas import MachiningAreas
+from ...toolpath.witness import floor_findings
 from ...verify.parts import TOLERANCE, FlatPart, Part, SolidPart
 from ..examine import ExaminedProgram
 from ..job.options import layers_to_read, with_layers_spelled
@@ -283,10 +287,6 @@ def _flat(programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], re
     """Return the drawing and what of it is milled, and what there is to say about it."""
     from ...operations.compute import drawing_findings, followed_lines
     from ...operations.unmachined import unmachined_findings
-    from ...toolpath.coverage.floor_target import CHORD
-    from ...toolpath.drawn_contours import drawn_contours
-    from ...toolpath.machining_areas import MachiningAreas
-    from ...toolpath.witness import floor_findings
 
     header = _header(programs)
     requested = _job(DrawnPart(), programs, tools, request)

@@ -41,7 +41,6 @@ from ...verify.verdict import (
     rapids_in_material,
 )
 from ..cutting.cut import CutProgram
-from ..job.drawn_depths import JobToDepths, with_drawn_depths
 from ..job.feeds import JobWithFeeds
 from ..job.layer_operations import with_layer_rules
 from ..job.machining import check_order
@@ -53,6 +52,7 @@ from .report import MakeReport, ReportData, make_report, rings_in_words
 from .written import MeasuredMoves, cut_job, news, write_and_check
 
 if TYPE_CHECKING:
+    from ..job.drawn_depths import JobToDepths  # few drawings tell depths
     from ..proposal.propose import Proposal  # few jobs are proposed
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
@@ -214,6 +214,8 @@ def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -
         options, proposal = with_proposal(drawing.part, options, progress)
     job, depths = job_from_drawing(drawing, options), None
     if options.drawn_depths:
+        from ..job.drawn_depths import with_drawn_depths
+
         depths = with_drawn_depths(job)
         job = depths.job
     found = (

@@ -26,9 +26,9 @@ from ...model.machine import Machine
 from ...model.motion import MotionKind, Motions
 from ...model.motion_path import anchored, lengths
 from ...model.moves import Program
-from ...model.operation_motions import OperationMotions
 from ...model.part import Units
 from ...model.stock_box import StockBox, stock_box, work_origin
+from ...operations.registry import OperationMotions
 from ...simulation.field.workpiece import BoxStock
 from ...toolpath.coverage.coverage import Coverage
 from ...verify.exact import ExactDeviations

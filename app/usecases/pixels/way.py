@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...core.effort import announce
+from ...core.effort import Reckoning, announce
 from ...core.errors import ParameterError
 from ...core.progress import NO_PROGRESS, Progress
-from ...core.wording import in_plane
+from ...core.wording import counted, in_plane
 from ...fitting.corner_smoothing.smooth import CornerSmoothingOptions
 from ...fitting.corner_smoothing.smoothed_path import SmoothedPath
 from ...geometry.distance import DistanceField
@@ -38,7 +38,6 @@ from ...toolpath.drawn_contours import DrawnContours
 from ...toolpath.linking.link import link_by_proof
 from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ...toolpath.operation_context import OperationContext, emit, passes_of
-from .effort import bitmap_effort
 from .part import BitmapPart
 from .path import TOLERANCE_PX, WallLimits, chain_points, pixel_path
 
@@ -362,3 +361,28 @@ def _without_path(part: BitmapPart, paths: Sequence[OperationPaths], job: Job) -
             f"pixels of {part.frame.pitch:.3g} mm; use a larger bitmap or a smaller tool."
         )
         yield Finding(FindingKind.REGION_TOO_SMALL, text, x, y, counts, boundaries[number].entity_ids)
+
+
+_PIXEL_S = 5e-8
+"""A pixel of a bitmap that an operation shrinks and traces."""
+_CHAIN_S = 2e-5
+"""A pixel along a path that is smoothed, and proven to keep clear: straight walls take a third of it, waves twice."""
+_ON_PIXELS_S = 0.07
+"""A contour whose paths on pixels are linked, written, read back, and measured as to what they leave."""
+
+
+def bitmap_effort(part: BitmapPart, chains_mm: Sequence[float]) -> Reckoning:
+    """Return what a job on pixels takes.
+
+    Args:
+        part: the pixels. chains_mm: how long the paths of each operation are, about, in one pass.
+    """
+    pitch, contours = part.frame.pitch, sum(len(region.contours) for region in part.regions)
+    along = sum(chains_mm) / pitch
+    seconds = part.free.size * len(chains_mm) * _PIXEL_S + along * _CHAIN_S + contours * _ON_PIXELS_S
+    many, outlines = contours * _ON_PIXELS_S > seconds / 2, counted(contours, "contour", thousands=",")
+    return Reckoning(
+        seconds,
+        f"{along:,.0f} pixels of paths in {outlines} on {part.frame.cols:,} x {part.frame.rows:,} pixels",
+        "leave out layers" if many else "use a smaller bitmap, a larger pitch, or a larger tool",
+    )

@@ -48,7 +48,7 @@ def purpose_areas(job: Job, seen: DrawnContours) -> tuple[PurposeArea, ...]:
         area
         for index, operation in enumerate(job.operations)
         if operation.cut.enabled and operation.cut.curves
-        for area in _areas_of(index, operation, _machined(operation, seen, drilled))
+        for area in _areas_of(index, _machined(operation, seen, drilled))
     )
 
 
@@ -87,8 +87,8 @@ def _machined(operation: Operation, seen: DrawnContours, drilled: frozenset[Circ
     return [*without_drilled(found.closed, frozenset() if operation.HOLES else drilled), *found.open]
 
 
-def _areas_of(index: int, operation: Operation, contours: Sequence[Contour]) -> list[PurposeArea]:
-    """Return the places of one operation."""
+def _areas_of(index: int, contours: Sequence[Contour]) -> list[PurposeArea]:
+    """Return the places of the operation with an index, which has these contours."""
     groups = [*_nested([each for each in contours if each.closed]), *([each] for each in contours if not each.closed)]
     if len(groups) > MOST_AREAS:
         return [PurposeArea(index, tuple(each for some in groups for each in some), len(groups), ())]

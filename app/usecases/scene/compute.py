@@ -5,14 +5,14 @@ surface.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from ...core.effort import announce
+from ...core.effort import Reckoning, announce
 from ...core.errors import GeometryError, ParameterError
 from ...core.progress import NO_PROGRESS, Progress
 from ...gcode.posts import load_post
@@ -26,7 +26,7 @@ from ...model.stock_box import StockBox
 from ...model.tool import Tool
 from ...operations.parallel.surface_moves import PassFamily, SurfaceMoves, surface_moves
 from ...surfaces.cutter_contact.scene_facets import SceneFacets, region_area, scene_facets
-from ...surfaces.passes.facet_crossings import facet_crossings
+from ...surfaces.passes.facet_crossings import FacetCrossings, facet_crossings
 from ...surfaces.passes.path import Follower, FollowOptions, Overrun, cutter_path
 from ...surfaces.passes.scallop import corner_radius, scallop_planes, stepover_for_scallop
 from ...surfaces.patches.build import BuiltSurface, build, regions_of
@@ -34,7 +34,6 @@ from ...surfaces.patches.facets import SurfaceFacets, joined
 from ...surfaces.sections.compound import CompoundSurface, CuttingPlanes
 from ...surfaces.sections.planes import even_planes, widened
 from ...surfaces.sections.section import compound_surface
-from .effort import scene_effort
 from .findings import floor_findings, moves_findings, scene_findings
 from .plane_rules import expanded
 
@@ -314,4 +313,22 @@ def job_of(scene: Scene, tools: Mapping[int, Tool] | None = None) -> Job:
         post=scene.post,
         out_units=scene.out_units,
         exact_path=scene.exact_path,
+    )
+
+
+_CROSSING_S = 1.1e-4
+"""A facet that a plane of passes crosses: contact, path, compound surface, text and proof; measured on scenes of 1,500
+to 120,000 moves.
+"""
+
+
+def scene_effort(families: Iterable[FacetCrossings]) -> Reckoning:
+    """Return what a scene's passes take."""
+    crossings, planes = 0.0, 0
+    for family in families:
+        crossings, planes = crossings + family.crossings, planes + family.planes
+    return Reckoning(
+        crossings * _CROSSING_S,
+        f"{planes:,} passes over {crossings:,.0f} facets",
+        "use a larger pitch or scallop height, coarser surfaces, or check the model's units",
     )

@@ -122,10 +122,10 @@ def _facts(made: MakeResult, box: StockBox, report: Json) -> list[SheetFact]:
     return [
         SheetFact("Stock", f"{wide:.4g} x {high:.4g} x {thick:.4g} mm{of}{above}"),
         SheetFact("Zero X Y", _zero_words(job, box)),
-        SheetFact("Zero Z", _zero_z_words(job, box)),
+        SheetFact("Zero Z", _zero_z_words(job)),
         *zero_note(job.zero_note),
         offset_fact(file.nc.text for file in made.files),
-        SheetFact("Clamping", _clamping(made, box), own_words(job.clamping_note)),
+        SheetFact("Clamping", _clamping(made), own_words(job.clamping_note)),
         SheetFact("Clearance height", f"{job.travel_z:g} mm above the stock's top"),
         SheetFact("Total time", total),
     ]
@@ -139,7 +139,7 @@ def _zero_words(job: Job, box: StockBox) -> str:
     return f"{where}: {corner_words(x - box.x0, y - box.y0)}"
 
 
-def _zero_z_words(job: Job, box: StockBox) -> str:
+def _zero_z_words(job: Job) -> str:
     if job.origin_z is OriginZ.BOTTOM:
         return "underside of the stock"
     if job.stock.above:
@@ -153,7 +153,7 @@ def deepest_cut(moves: Moves) -> float:
     return max(0.0, -float(cuts.min(initial=0.0)))
 
 
-def _clamping(made: MakeResult, box: StockBox) -> str:
+def _clamping(made: MakeResult) -> str:
     """Return what the way that the stock is held has to allow, as far as the paths tell."""
     job, deep = made.job, deepest_cut(made.program.moves)
     through = deep - job.stock.thickness

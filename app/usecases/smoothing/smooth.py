@@ -6,26 +6,28 @@ stands for. One that does not pass, or takes more blocks than it had, stays as i
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...core.effort import announce
+from ...core.effort import Reckoning, announce
 from ...core.errors import InputError
+from ...core.options import option
 from ...core.progress import NO_PROGRESS, Progress
+from ...core.wording import counted
+from ...fitting.point_curves.effective_method import EffectiveMethod
 from ...fitting.point_curves.smoothness import of_curve, of_points
 from ...gcode.interpreter.options import PATIENT, ReadOptions
 from ...gcode.interpreter.program import NcProgram
 from ...gcode.interpreter.reader import read_program
-from ...gcode.rework.stretches import RewrittenText, rewrite
+from ...gcode.rework.stretches import FeedStretch, RewrittenText, rewrite
 from ...gcode.writer.blocks import Blocks
 from .context import SmoothContext, resolved
-from .effort import smooth_effort
 from .fit import StretchFit, fit_all, fit_stretch
 from .proof import JudgedStretch, judged, require_the_rest
 from .report import certificate
-from .result import SmoothedProgram, SmoothedStretch, SmoothOptions
+from .result import OutputForm, SmoothedProgram, SmoothedStretch, SmoothOptions
 
 
 def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = NO_PROGRESS) -> SmoothedProgram:
@@ -157,3 +159,18 @@ def _with_certificate(done: SmoothedProgram, context: SmoothContext, written: _W
         head.comment(line)
     text = rewrite(context.source.data, context.found.stretches, written.blocks, head.lines)
     return replace(done, data=text.data)
+
+
+_POINT_S = {OutputForm.LINES: 6e-6, OutputForm.ARCS: 6e-5, OutputForm.NURBS: 2e-4}
+"""A point of a stretch that is fitted anew and proven."""
+
+
+def smooth_effort(stretches: Sequence[FeedStretch], form: OutputForm, effective: EffectiveMethod | None) -> Reckoning:
+    """Return what fitting a program's stretches takes."""
+    points = sum(stretch.stop - stretch.first for stretch in stretches)
+    as_lines = f"smooth it as lines ({option('as', 'lines')}), or in parts"
+    return Reckoning(
+        points * _POINT_S[form] * (1.0 if effective is None else 2.0),
+        f"{points:,} moves in {counted(len(stretches), 'stretch', 'stretches', ',')}",
+        "smooth it in parts" if form is OutputForm.LINES else as_lines,
+    )

@@ -19,8 +19,7 @@ from app.formats.plot.pdf_text import is_wide, runs_of, text_width, wrapped
 from app.formats.readers import read_drawing
 from app.formats.sheet.content import SetupSheet
 from app.formats.sheet.layout import MARGIN, WIDTH, sheet_pages
-from app.formats.sheet.translated import translated
-from app.formats.sheet.write import sheet_bytes
+from app.formats.sheet.write import sheet_bytes, translated
 from app.model.contour_operation import ContourOperation
 from app.model.entry import Tabs
 from app.model.job import Job, Stock
