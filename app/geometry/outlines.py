@@ -19,7 +19,7 @@ from ..model.part import Contour, Region
 from . import kernels
 from .distance import DistanceField
 from .near_points import near
-from .primitives import Indices, R, Rows, boxes, contour_rows, lengths, points_at, samples, sweeps
+from .primitives import Indices, R, Rows, boxes, lengths, points_at, rows_of_each, samples, sweeps
 from .primitives import lengths as row_lengths
 
 Floats = NDArray[np.float64]
@@ -42,7 +42,7 @@ class Outlines:
     @staticmethod
     def of(contours: Sequence[Contour]) -> Outlines:
         """Return contours as rows."""
-        return Outlines.joined([contour_rows(contour) for contour in contours])
+        return Outlines.joined(rows_of_each(contours))
 
     @staticmethod
     def joined(parts: Sequence[Rows]) -> Outlines:
@@ -291,7 +291,9 @@ def reversed_contour(contour: Contour) -> Contour:
         turned = reversed_curve(curve)
         assert not isinstance(turned, type(None))
         back.append(turned)  # type: ignore[arg-type]  # a primitive turned round is a primitive
-    return replace(contour, primitives=tuple(back), entity_ids=contour.entity_ids[::-1])
+    turned_round = replace(contour, primitives=tuple(back), entity_ids=contour.entity_ids[::-1])
+    turned_round.kept["as_drawn"] = contour
+    return turned_round
 
 
 def polygon_contour(points: Sequence[tuple[float, float]]) -> Contour:

@@ -47,6 +47,7 @@ def extent(contours: Iterable[Contour]) -> _Box | None:
 
 
 def _box(contour: Contour) -> _Box:
+    contour = contour.kept.get("as_drawn", contour)  # what was turned round has the box that it had
     if "box" not in contour.kept:
         ends = _round_points([point for each in contour.primitives for point in (each.start, each.end)])
         bent = [each for each in contour.primitives if not isinstance(each, Line)]

@@ -6,6 +6,8 @@ import math
 from collections.abc import Hashable, Sequence
 from itertools import chain
 
+import numpy as np
+
 from ...core import tolerances
 from ...core.errors import GeometryError
 from ...core.pool import in_bands
@@ -35,7 +37,18 @@ def arcs_of_all(curves: Sequence[Bent]) -> list[LinesAndArcs | GeometryError]:
     alone = list(first.values())
     bands = in_bands(lambda band: [_made(curves[k]) for k in alone[band]], len(alone), _WORTH_TWO_CORES)
     made = dict(zip(alone, chain.from_iterable(bands), strict=True))
-    return [made[k] if k == mine else _like(curves[k], made[k], curves[mine]) for mine, k in enumerate(like)]
+    for k, others in _followers(like).items():
+        made.update(zip(others, _like(curves[k], made[k], [curves[mine] for mine in others]), strict=True))
+    return [made[k] for k in range(len(curves))]
+
+
+def _followers(like: Sequence[int]) -> dict[int, list[int]]:
+    """Return which others are like each curve that some are like, by their numbers."""
+    found: dict[int, list[int]] = {}
+    for mine, k in enumerate(like):
+        if k != mine:
+            found.setdefault(k, []).append(mine)
+    return found
 
 
 def _shape(curve: Bent, number: int) -> Hashable:
@@ -54,28 +67,37 @@ def _made(curve: Bent) -> LinesAndArcs | GeometryError:
         return error
 
 
-def _like(first: Bent, made: LinesAndArcs | GeometryError, curve: Bent) -> LinesAndArcs | GeometryError:
-    """Return what was made of one spline for another that is alike; an error speaks of its own curve."""
-    if isinstance(made, GeometryError) or isinstance(curve, Ellipse):
-        return _made(curve)
-    return _moved(first.start, made, curve)
+def _like(
+    first: Bent, made: LinesAndArcs | GeometryError, curves: Sequence[Bent]
+) -> Sequence[LinesAndArcs | GeometryError]:
+    """Return what was made of one spline for others that are alike; an error speaks of its own curve."""
+    if isinstance(made, GeometryError):
+        return [_made(curve) for curve in curves]
+    return _moved(first.start, made, curves)
 
 
-def _moved(begin: Point, first: LinesAndArcs, curve: Spline) -> LinesAndArcs:
-    """Return what was made of one spline where another one is, with the ends that this one has."""
-    dx, dy = curve.start[0] - begin[0], curve.start[1] - begin[1]
-    closed = math.dist(curve.start, curve.end) < tolerances.WELD
-    last = curve.start if closed else curve.end
-    made, at = list[Primitive](), curve.start
-    for k, each in enumerate(first.primitives):
-        if isinstance(each, Circle):
-            made.append(Circle((each.centre[0] + dx, each.centre[1] + dy), each.radius, each.ccw))
-            continue
-        end = last if k == len(first.primitives) - 1 else (each.end[0] + dx, each.end[1] + dy)
-        if isinstance(each, Arc):
-            centre = equally_far(at, end, (each.centre[0] + dx, each.centre[1] + dy))
-            made.append(Arc(at, end, centre, each.ccw))
-        else:
-            made.append(Line(at, end))
-        at = end
-    return LinesAndArcs(tuple(made), first.deviation + _APART)
+def _moved(begin: Point, first: LinesAndArcs, curves: Sequence[Bent]) -> list[LinesAndArcs]:
+    """Return what was made of one spline where others are, with the ends that these have."""
+    starts = np.array([curve.start for curve in curves])
+    shift = (starts - np.array(begin))[:, None]
+    ends = np.array([each.end for each in first.primitives]) + shift
+    ends[:, -1] = [
+        curve.start if math.dist(curve.start, curve.end) < tolerances.WELD else curve.end for curve in curves
+    ]
+    begins = np.concatenate([starts[:, None], ends[:, :-1]], axis=1)
+    centres = np.array([(0.0, 0.0) if isinstance(each, Line) else each.centre for each in first.primitives]) + shift
+    deviation = first.deviation + _APART
+    return [
+        LinesAndArcs(tuple(map(_between, first.primitives, *places)), deviation)
+        for places in zip(begins.tolist(), ends.tolist(), centres.tolist(), strict=True)
+    ]
+
+
+def _between(each: Primitive, start: list[float], end: list[float], centre: list[float]) -> Primitive:
+    """Return a primitive from one place to another, about a centre where it is no line."""
+    (ax, ay), (bx, by), (x, y) = start, end, centre
+    if isinstance(each, Line):
+        return Line((ax, ay), (bx, by))
+    if isinstance(each, Circle):
+        return Circle((x, y), each.radius, each.ccw)
+    return Arc((ax, ay), (bx, by), equally_far((ax, ay), (bx, by), (x, y)), each.ccw)
