@@ -291,9 +291,7 @@ def reversed_contour(contour: Contour) -> Contour:
         turned = reversed_curve(curve)
         assert not isinstance(turned, type(None))
         back.append(turned)  # type: ignore[arg-type]  # a primitive turned round is a primitive
-    turned_round = replace(contour, primitives=tuple(back), entity_ids=contour.entity_ids[::-1])
-    turned_round.kept["as_drawn"] = contour
-    return turned_round
+    return replace(contour, primitives=tuple(back), entity_ids=contour.entity_ids[::-1])
 
 
 def polygon_contour(points: Sequence[tuple[float, float]]) -> Contour:

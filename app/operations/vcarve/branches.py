@@ -41,7 +41,7 @@ class AxisBranch:
     @property
     def length(self) -> float:
         """Seen from above, mm."""
-        return float(lengths_of([self])[0])
+        return float(lengths_along(*joined([self]))[0])
 
     def backwards(self) -> AxisBranch:
         """Return it from its end to its beginning."""
@@ -64,20 +64,19 @@ class AxisBranch:
 
 def joined(branches: Sequence[AxisBranch]) -> tuple[Floats, NDArray[np.int64]]:
     """Return the discs (n, 3) of branches, one after the other, and the number (m + 1,) of the first one of each."""
-    discs = np.concatenate([np.zeros((0, 3)), *(branch.discs for branch in branches)])
-    return discs, np.cumsum([0, *(len(branch.discs) for branch in branches)], dtype=np.int64)
+    discs = np.concatenate([np.zeros((0, 3)), *[branch.discs for branch in branches]])
+    return discs, np.cumsum([0, *[len(branch.discs) for branch in branches]], dtype=np.int64)
 
 
-def lengths_of(branches: Sequence[AxisBranch]) -> Floats:
-    """Return the length (m,) of each branch, seen from above, mm.
+def lengths_along(discs: Floats, upto: NDArray[np.int64]) -> Floats:
+    """Return the length (m,) of each of some branches that are joined, seen from above, mm.
 
     Those of as many chords are summed together, each as it would be alone: of branches as long the first counts, and
     where they stand must not tell.
     """
-    discs, upto = joined(branches)
     chords = np.hypot(*np.diff(discs[:, :2], axis=0).T)
     counts = np.diff(upto) - 1
-    found = np.zeros(len(branches))
+    found = np.zeros(len(counts))
     for count in np.unique(counts).tolist():
         same = np.flatnonzero(counts == count)
         found[same] = chords[upto[same, None] + np.arange(count)].sum(axis=1)

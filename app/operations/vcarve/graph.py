@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.near_points import groups_within
-from .branches import AxisBranch, Floats, joined, lengths_of
+from .branches import AxisBranch, Floats, joined, lengths_along
 
 _SAME = 1e-5
 """mm; ends that are as near are one node."""
@@ -29,12 +29,15 @@ class BranchGraph:
         discs: (n, 3) x, y and radius of each node, mm: of the end that made it.
         ends: from node and to node of each branch.
         at: numbers of the branches at each node.
+        joined: the discs (k, 3) of all branches, one branch after the other, and the number (m + 1,) of the first one
+            of each.
     """
 
     branches: list[AxisBranch]
     discs: Floats
     ends: list[tuple[int, int]]
     at: list[list[int]]
+    joined: tuple[Floats, NDArray[np.int64]]
 
     def remove(self, number: int) -> None:
         """Take out a branch."""
@@ -50,7 +53,8 @@ class BranchGraph:
 def graph_of(branches: Iterable[AxisBranch]) -> BranchGraph:
     """Return branches as a graph."""
     branches = list(branches)
-    discs = end_discs(branches)
+    whole = joined(branches)
+    discs = _ends(*whole)
     number = groups_within(discs[:, :2], np.arange(len(discs)), len(discs), _SAME)
     _, first = np.unique(number, return_index=True)
     ends = [(a, b) for a, b in number.reshape(-1, 2).tolist()]
@@ -58,13 +62,16 @@ def graph_of(branches: Iterable[AxisBranch]) -> BranchGraph:
     for k, pair in enumerate(ends):
         for node in pair:
             at[node].append(k)
-    return BranchGraph(branches, discs[first], ends, at)
+    return BranchGraph(branches, discs[first], ends, at, whole)
 
 
 def end_discs(branches: Sequence[AxisBranch]) -> Floats:
     """Return the discs (2 n, 3) at which branches begin and end, one branch after the other."""
-    all_discs, upto = joined(branches)
-    ends: Floats = all_discs[np.stack([upto[:-1], upto[1:] - 1], axis=1).ravel()]
+    return _ends(*joined(branches))
+
+
+def _ends(discs: Floats, upto: NDArray[np.int64]) -> Floats:
+    ends: Floats = discs[np.stack([upto[:-1], upto[1:] - 1], axis=1).ravel()]
     return ends
 
 
@@ -117,21 +124,21 @@ def trails(graph: BranchGraph) -> list[AxisBranch]:
         np.array(graph.ends),
         np.append(0, np.cumsum(degree)),
         at,
-        lengths_of(graph.branches),
+        lengths_along(*graph.joined),
         shallowest[degree[shallowest] % 2 == 1],
         shallowest[degree[shallowest] > 0],
         steps,
     )
-    return _along(graph.branches, steps)
+    return _along(*graph.joined, steps)
 
 
-def _along(branches: Sequence[AxisBranch], steps: NDArray[np.int64]) -> list[AxisBranch]:
+def _along(discs: Floats, upto: NDArray[np.int64], steps: NDArray[np.int64]) -> list[AxisBranch]:
     """Return the ways that go along branches one after the other.
 
     Args:
+        discs, upto: of the branches, see `joined`.
         steps: (k, 3) number of a branch, 1 where it is gone along backwards, and 1 where a way begins with it.
     """
-    discs, upto = joined(branches)
     branch, back, begins = steps.T
     skipped = 1 - begins  # the disc at which the branch before ended
     first, last = upto[branch] + np.where(back, 0, skipped), upto[branch + 1] - 1 - np.where(back, skipped, 0)

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
@@ -151,17 +152,16 @@ def _followed(axes: Sequence[MedialAxis]) -> tuple[list[AxisBranch], list[Floats
     """
     whole: list[AxisBranch] = []
     lone: list[Floats] = []
-    known: dict[int, tuple[list[AxisBranch], list[Floats]]] = {}
+    known: dict[int, tuple[tuple[Floats, NDArray[np.int64]], list[Floats]]] = {}
     for axis in axes:
         # the axes keep their pieces alive, so that no other ones get the same id
         if id(axis.pieces) not in known:
             graph = graph_of(branches(replace(axis, middle=np.zeros(2))))
             single = prune(graph)
             kept = sorted({k for own in graph.at for k in own})
-            known[id(axis.pieces)] = [graph.branches[k] for k in kept], single
-        ways, single = known[id(axis.pieces)]
+            known[id(axis.pieces)] = joined([graph.branches[k] for k in kept]), single
+        (discs, upto), single = known[id(axis.pieces)]
         there = np.append(axis.middle, 0.0)
-        discs, upto = joined(ways)
         discs = discs + there
         whole += [AxisBranch(discs[a:b]) for a, b in pairwise(upto.tolist())]
         lone += [disc + there for disc in single]
