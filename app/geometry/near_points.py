@@ -153,6 +153,15 @@ def groups_within(points: Floats, owner: Indices, count: int, reach: float) -> I
     return _by_first(number)
 
 
+def places_of_each(values: Indices, numbers: Indices) -> list[Indices]:
+    """Return for each of some numbers (m,) at which places of values (n,) it stands, rising; however many there are,
+    the values are sorted once.
+    """
+    order = np.argsort(values, kind="stable")
+    first, stop = (np.searchsorted(values[order], numbers, side).tolist() for side in ("left", "right"))
+    return [order[a:b] for a, b in zip(first, stop, strict=True)]
+
+
 def near_together(points: Floats, most: int) -> list[Indices]:
     """Return the numbers of points in lots that lie near one another, each in rising order: halves along the longer
     side, until none has more than so many.
