@@ -17,6 +17,14 @@ Indices = NDArray[np.int64]
 FEW = 100_000
 """Distances that are sooner worked out than a tree is built."""
 
+_CELL = 1 + 1e-6
+"""Reaches that a cell of a grid is wide: points within reach lie in neighbouring cells, however the last digit of one
+of `_MOST_CELLS` falls.
+"""
+
+_MOST_CELLS = 2**31
+"""Cells of a grid along either axis: all of them can be numbered, and their edges told."""
+
 
 def pairs_within(points: Floats, reach: float) -> Indices:
     """Return the pairs (m, 2) of points within a distance of one another, the lower index first, in order.
@@ -132,16 +140,26 @@ def groups_within(points: Floats, owner: Indices, count: int, reach: float) -> I
         points: (n, 2) of all things. owner: (n,) whose each one is.
         reach: mm, > 0.
     """
+    if len(points) ** 2 <= FEW or float(np.ptp(points, axis=0).max()) > _MOST_CELLS * reach:
+        return groups(count, owner[pairs_within(points, reach)])
     from . import kernels
 
-    number = np.arange(count, dtype=np.int64)
-    if len(points):
-        column, row = np.floor((points - points.min(axis=0)) / (reach * (1 + 1e-9))).astype(np.int64).T
-        columns = int(column.max()) + 3
-        cell = row * columns + column + 1
-        order = np.argsort(cell, kind="stable")
-        kernels.merge_within(np.ascontiguousarray(points[order]), owner[order], cell[order], columns, reach, number)
+    number = np.empty(count, np.int64)
+    column, row = np.floor((points - points.min(axis=0)) / (reach * _CELL)).astype(np.int64).T
+    columns = int(column.max()) + 3
+    cell = row * columns + column + 1
+    order = np.argsort(cell, kind="stable")
+    kernels.merge_within(np.ascontiguousarray(points[order]), owner[order], cell[order], columns, reach, number)
     return _by_first(number)
+
+
+def places_of_each(values: Indices, numbers: Indices) -> list[Indices]:
+    """Return for each of some numbers (m,) at which places of values (n,) it stands, rising; however many there are,
+    the values are sorted once.
+    """
+    order = np.argsort(values, kind="stable")
+    first, stop = (np.searchsorted(values[order], numbers, side).tolist() for side in ("left", "right"))
+    return [order[a:b] for a, b in zip(first, stop, strict=True)]
 
 
 def near_together(points: Floats, most: int) -> list[Indices]:

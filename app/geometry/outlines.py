@@ -19,7 +19,7 @@ from ..model.part import Contour, Region
 from . import kernels
 from .distance import DistanceField
 from .near_points import near
-from .primitives import Indices, R, Rows, boxes, contour_rows, lengths, points_at, samples, sweeps
+from .primitives import Indices, R, Rows, boxes, lengths, points_at, rows_of_each, samples, sweeps
 from .primitives import lengths as row_lengths
 
 Floats = NDArray[np.float64]
@@ -42,7 +42,7 @@ class Outlines:
     @staticmethod
     def of(contours: Sequence[Contour]) -> Outlines:
         """Return contours as rows."""
-        return Outlines.joined([contour_rows(contour) for contour in contours])
+        return Outlines.joined(rows_of_each(contours))
 
     @staticmethod
     def joined(parts: Sequence[Rows]) -> Outlines:

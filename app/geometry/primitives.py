@@ -154,28 +154,34 @@ def _arc_row(
 
 def contour_rows(contour: Contour) -> Rows:
     """Return the rows (n, 8) of a contour, in its direction; they are the caller's own."""
-    if "rows" not in contour.kept:
-        contour.kept["rows"] = rows_of(contour.primitives)[0]
-    rows: Rows = contour.kept["rows"].copy()
-    return rows
+    return rows_of_each([contour])[0].copy()
+
+
+def rows_of_each(contours: Sequence[Contour]) -> list[Rows]:
+    """Return the rows (n, 8) of each of some contours, in its direction: the ones that the contour keeps, which nobody
+    may change. Those that none has asked for yet are made at once.
+    """
+    new = [contour for contour in contours if "rows" not in contour.kept]
+    if new:
+        rows, owner = rows_of([each for contour in new for each in contour.primitives])
+        upto = np.searchsorted(owner, np.cumsum([len(contour.primitives) for contour in new]))
+        for contour, own in zip(new, np.split(rows, upto[:-1]), strict=True):
+            contour.kept["rows"] = own
+    return [contour.kept["rows"] for contour in contours]
 
 
 def pack(regions: Sequence[Region]) -> Primitives:
     """Return the rows of all contours of some regions: boundaries counter-clockwise, islands clockwise, none
     crossing.
     """
-    rows, previous, numbers = [np.zeros((0, 8))], [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
-    first = 0
-    for region in regions:
-        for contour in region.contours:
-            rows.append(contour_rows(contour))
-            count = len(rows[-1])
-            before = np.arange(first - 1, first + count - 1)
-            before[:1] = first + count - 1
-            previous.append(before)
-            numbers.append(np.full(count, region.number))
-            first += count
-    return Primitives(np.concatenate(rows), np.concatenate(previous), np.concatenate(numbers))
+    contours = [(contour, region.number) for region in regions for contour in region.contours]
+    rows = rows_of_each([contour for contour, _ in contours])
+    counts = np.array([len(each) for each in rows], np.int64)
+    stop, some = np.cumsum(counts), counts > 0
+    previous = np.arange(-1, int(counts.sum()) - 1)
+    previous[(stop - counts)[some]] = stop[some] - 1
+    numbers = np.repeat(np.array([number for _, number in contours], np.int64), counts)
+    return Primitives(np.concatenate([np.zeros((0, 8)), *rows]), previous, numbers)
 
 
 def reversed_rows(rows: Rows) -> Rows:

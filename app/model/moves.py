@@ -95,13 +95,15 @@ class Moves:
 
         An arc that ends where it starts is a full turn.
         """
-        a, b = self.start[:, :2] - self.centre, self.end[:, :2] - self.centre
+        found, arcs = np.zeros(len(self)), np.flatnonzero(self.kind >= MoveKind.ARC_CW)
+        start, end, centre = self.start[arcs, :2], self.end[arcs, :2], self.centre[arcs]
+        a, b = start - centre, end - centre
         turn = (np.arctan2(b[:, 1], b[:, 0]) - np.arctan2(a[:, 1], a[:, 0])) % (2 * np.pi)
-        same = np.all(self.start[:, :2] == self.end[:, :2], axis=1)
+        same = np.all(start == end, axis=1)
         turn = np.where(same, 2 * np.pi, turn)
-        ccw, cw = self.kind == MoveKind.ARC_CCW, self.kind == MoveKind.ARC_CW
         back = np.where(same, -2 * np.pi, turn - 2 * np.pi)
-        return np.where(ccw, turn, np.where(cw, back, 0.0))
+        found[arcs] = np.where(self.kind[arcs] == MoveKind.ARC_CCW, turn, back)
+        return found
 
     def lengths(self) -> Floats:
         """(n,) length of each move, mm (helices along the helix)."""

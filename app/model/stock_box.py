@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
+from operator import attrgetter
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ..core.errors import ParameterError
-from .curves import Arc, Circle, Line, Point
+from .curves import Arc, Circle, Point, Primitive
 from .job import Job, OriginXY, OriginZ
 from .moves import Program
 from .part import Contour, Region
@@ -18,6 +23,8 @@ QUADRANTS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 
 _Box = tuple[float, float, float, float]
 """x0, y0, x1, y1, mm."""
+
+_ENDS = attrgetter("start", "end")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,26 +46,54 @@ class StockBox:
 
 def extent(contours: Iterable[Contour]) -> _Box | None:
     """Return (x0, y0, x1, y1) of the contours, mm, arcs by what they really reach; None when there are none."""
-    boxes = [_box(contour) for contour in contours if contour.primitives]
-    if not boxes:
+    drawn = [contour for contour in contours if contour.primitives]
+    if not drawn:
         return None
-    x0, y0, x1, y1 = zip(*boxes, strict=True)
+    _keep_boxes([contour for contour in drawn if "box" not in contour.kept])
+    x0, y0, x1, y1 = zip(*[contour.kept["box"] for contour in drawn], strict=True)
     return (min(x0), min(y0), max(x1), max(y1))
 
 
-def _box(contour: Contour) -> _Box:
-    if "box" not in contour.kept:
-        ends = _round_points([point for each in contour.primitives for point in (each.start, each.end)])
-        bent = [each for each in contour.primitives if not isinstance(each, Line)]
-        tops = [point for each in bent for point in _tops_beyond(each, ends)]
-        contour.kept["box"] = _round_points([ends[:2], ends[2:], *tops]) if tops else ends
-    box: _Box = contour.kept["box"]
-    return box
+def _keep_boxes(contours: Sequence[Contour]) -> None:
+    """Have contours keep their boxes."""
+    if not contours:
+        return
+    curves = [each for contour in contours for each in contour.primitives]
+    counts = np.array([len(contour.primitives) for contour in contours])
+    first, owner = np.cumsum(counts) - counts, np.repeat(np.arange(len(contours)), counts)
+    ends = np.fromiter(chain.from_iterable(chain.from_iterable(map(_ENDS, curves))), np.float64, 4 * len(curves))
+    ends = ends.reshape(-1, 2, 2)
+    low, high = np.minimum.reduceat(ends.min(axis=1), first), np.maximum.reduceat(ends.max(axis=1), first)
+    boxes = np.hstack([low, high]).tolist()
+    for curve, of in _perhaps_beyond(curves, ends, owner):
+        for x, y in _tops_beyond(curve, boxes[of]):
+            x0, y0, x1, y1 = boxes[of]
+            boxes[of] = [min(x0, x), min(y0, y), max(x1, x), max(y1, y)]
+    for contour, box in zip(contours, boxes, strict=True):
+        contour.kept["box"] = tuple(box)
 
 
-def _round_points(points: list[Point]) -> _Box:
-    x, y = zip(*points, strict=True)
-    return min(x), min(y), max(x), max(y)
+def _perhaps_beyond(
+    curves: Sequence[Primitive], ends: NDArray[np.float64], owner: NDArray[np.int64]
+) -> Iterator[tuple[Arc | Circle, int]]:
+    """Yield the circles, and the arcs that may pass a quadrant, with the number of their owner: hardly any of the short
+    arcs of a fitted curve passes one.
+
+    Args:
+        ends: (n, 2, 2) where each of the curves begins and ends.
+        owner: (n,) whose each one is.
+    """
+    bent = [(k, curve) for k, curve in enumerate(curves) if isinstance(curve, Arc | Circle)]
+    numbers = [k for k, _ in bent]
+    centre = np.fromiter(chain.from_iterable(curve.centre for _, curve in bent), np.float64, 2 * len(bent))
+    a, b = ends[numbers].transpose(1, 0, 2) - centre.reshape(-1, 2)
+    turn = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    ahead = np.where([curve.ccw for _, curve in bent], turn, -turn) > 0
+    round_ones = np.array([isinstance(curve, Circle) for _, curve in bent], np.bool_)
+    perhaps = round_ones | ~((a * b > 0).all(axis=1) & ahead)
+    for (k, curve), may in zip(bent, perhaps.tolist(), strict=True):
+        if may:
+            yield curve, int(owner[k])
 
 
 def stock_box(job: Job, regions: Iterable[Region], lines: Iterable[Contour] = ()) -> StockBox:
@@ -113,10 +148,8 @@ def program_origin(job: Job, program: Program) -> tuple[float, float, float]:
     return work_origin(job, stock_box(job, program.regions, program.lines))
 
 
-def _tops_beyond(curve: Arc | Circle, box: _Box) -> list[Point]:
+def _tops_beyond(curve: Arc | Circle, box: Sequence[float]) -> list[Point]:
     """Return where an arc or circle passes a quadrant beyond a box: there alone it may reach farther than the box."""
-    if isinstance(curve, Arc) and _within_quadrant(curve):
-        return []
     (cx, cy), radius, (x0, y0, x1, y1) = curve.centre, curve.radius, box
     found = []
     for ux, uy in QUADRANTS:
@@ -126,14 +159,6 @@ def _tops_beyond(curve: Arc | Circle, box: _Box) -> list[Point]:
         if isinstance(curve, Circle) or _passes(curve, math.atan2(uy, ux)):
             found.append((x, y))
     return found
-
-
-def _within_quadrant(arc: Arc) -> bool:
-    """Tell whether an arc passes no quadrant for sure: hardly any of the short ones of a fitted curve does."""
-    (x0, y0), (x1, y1), (cx, cy) = arc.start, arc.end, arc.centre
-    ax, ay, bx, by = x0 - cx, y0 - cy, x1 - cx, y1 - cy
-    turn = ax * by - ay * bx
-    return ax * bx > 0 and ay * by > 0 and (turn if arc.ccw else -turn) > 0
 
 
 def _passes(arc: Arc, angle: float) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -47,29 +47,22 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     progress.step(0.0, "Chain contours")
     parts = drawn_contours(job)
     lines = followed_lines(job, parts)
-    made = parts.regions
-    about = [*drawing_findings(job, parts, lines), *made.findings]
-    context = OperationContext(job, made.regions, MachiningAreas(job, parts), findings=about, observer=observer)
+    # What the witness says of the drawing nothing waits for: it measures while the paths are made.
+    with _told_beside(lambda: drawing_findings(job, parts, lines), progress) as about_drawing:
+        made = parts.regions
+        with _told_beside(lambda: made.findings, progress) as about_regions:
+            context = OperationContext(job, made.regions, MachiningAreas(job, parts), observer=observer)
+            if context.regions or lines:
+                _cut(context, lines, step, progress)
+            about = (*about_drawing.result(), *about_regions.result())
     if not context.regions and not lines:
-        return Program(context.builder.moves(), findings=tuple(context.findings))
-    if step:
-        x, y, _ = work_origin(job, stock_box(job, made.regions, lines))
-        context.digits = ProgramDigits(step, (x, y))
-    announce(job_effort(job, context.regions), progress)
-    context.findings.extend(under_clamps(job, parts, context.regions))
-    operations = in_order(job)
-    context.findings.extend(unfaced(job, operations))
-    carry_out(context, operations, progress.part(0.05, 1.0))
-    if job.order is Order.PATENT_1986:
-        context.findings.extend(slotting(job))
+        return Program(context.builder.moves(), findings=about)
     areas = context.areas.areas()
-    context.findings.extend(context.areas.findings)
     seen = context.on_bitmap or BitmapCheck(0.0, 0.0, 0, (0.0, 0.0), 0.0)
-    findings = worst_first(context.findings)
     return Program(
         context.builder.moves(),
         context.regions,
-        findings,
+        worst_first((*about, *context.findings, *context.areas.findings)),
         context.strokes,
         context.polyline_rings,
         seen.bitmap_area,
@@ -82,6 +75,33 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
         dog_bones=tuple(context.dog_bones),
         stepovers=context.stepovers,
     )
+
+
+def _told_beside(
+    about: Callable[[], Sequence[Finding]], progress: Progress
+) -> AbstractContextManager[BesideWork[Sequence[Finding]]]:
+    """Return findings that are found beside the job."""
+    return beside(lambda _: about(), progress.part(1.0, 1.0))
+
+
+def _cut(context: OperationContext, lines: Sequence[Contour], step: float, progress: Progress) -> None:
+    """Make the moves of a job.
+
+    Args:
+        lines: open ones that some operation follows.
+        step: of the digits that they are written with, mm; 0 = fine enough not to matter.
+    """
+    job = context.job
+    if step:
+        x, y, _ = work_origin(job, stock_box(job, context.regions, lines))
+        context.digits = ProgramDigits(step, (x, y))
+    announce(job_effort(job, context.regions), progress)
+    context.findings.extend(under_clamps(job, context.areas.drawn, context.regions))
+    operations = in_order(job)
+    context.findings.extend(unfaced(job, operations))
+    carry_out(context, operations, progress.part(0.05, 1.0))
+    if job.order is Order.PATENT_1986:
+        context.findings.extend(slotting(job))
 
 
 def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:

@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..geometry.primitives import contour_rows, path_length, signed_area
+from ..geometry.outlines import Outlines
 from ..model.operation import Operation
 from ..model.part import Region
 from ..model.tool import Tool
@@ -53,13 +53,13 @@ class Workload:
 
 def workload_of(regions: Sequence[Region]) -> Workload:
     """Return what some regions come to."""
-    rows = [contour_rows(contour) for region in regions for contour in region.contours]
+    walls = Outlines.of([contour for region in regions for contour in region.contours])
     return Workload(
-        abs(sum(signed_area(each) for each in rows)),
-        sum(path_length(each) for each in rows),
-        sum(len(each) for each in rows),
+        abs(float(walls.areas.sum())),
+        float(walls.lengths.sum()),
+        len(walls.rows),
         len(regions),
-        len(rows) - len(regions),
+        len(walls) - len(regions),
     )
 
 

@@ -4,7 +4,7 @@ touch.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
@@ -42,10 +42,19 @@ _CHORD = 1e-3
 
 @dataclass(frozen=True)
 class DrawnRegions:
-    """Regions that closed contours bound, and what there is to say of how they came about."""
+    """Regions that closed contours bound.
+
+    Attributes:
+        about: tells how they came about; the witness measures for it, so it is asked once, by whoever looks.
+    """
 
     regions: tuple[Region, ...]
-    findings: tuple[Finding, ...] = ()
+    about: Callable[[], Iterable[Finding]] = tuple
+
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """What there is to say of how they came about."""
+        return tuple(self.about())
 
 
 @dataclass(frozen=True)
@@ -58,14 +67,20 @@ class DrawnContours:
         crossing: True where closed ones may cross, themselves or one another.
         clamps: what closed outlines of keep-out layers hold, one region an outline, without islands; they may overlap.
             Not copied.
-        findings: about the drawing.
+        about: tells what there is to say about the drawing; the witness measures for it, so it is asked once, by
+            whoever looks.
     """
 
     closed: tuple[Contour, ...] = ()
     open: tuple[Contour, ...] = ()
     crossing: bool = False
     clamps: tuple[Region, ...] = ()
-    findings: tuple[Finding, ...] = ()
+    about: Callable[[], Iterable[Finding]] = tuple
+
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """What there is to say about the drawing."""
+        return tuple(self.about())
 
     @cached_property
     def uncrossed(self) -> OverlayResult:
@@ -83,7 +98,7 @@ class DrawnContours:
         """What all closed contours bound, without a look at clamps; those that meet count even-odd."""
         made = self.uncrossed
         nesting = nested(made.contours)
-        return DrawnRegions(nesting.regions, (*made.findings, *region_findings(self.closed, (), nesting)))
+        return DrawnRegions(nesting.regions, lambda: [*made.findings, *region_findings(self.closed, (), nesting)])
 
     def regions_of(self, contours: Sequence[Contour]) -> DrawnRegions:
         """Return `regions` of some contours, which are closed ones and others, without what clamps hold; the witness is
@@ -95,8 +110,10 @@ class DrawnContours:
         outlines = [clamp.boundary for clamp in self.clamps]
         free = without_outlines(plain.contours, outlines)
         nesting = nested(free.contours)
-        about = region_findings(contours, outlines, nesting)
-        return DrawnRegions(nesting.regions, (*plain.findings, *free.findings, *about))
+        return DrawnRegions(
+            nesting.regions,
+            lambda: [*plain.findings, *free.findings, *region_findings(contours, outlines, nesting)],
+        )
 
     def _all_closed(self, contours: Sequence[Contour]) -> bool:
         return len(contours) == len(self.closed) and all(map(is_, contours, self.closed))
@@ -144,14 +161,17 @@ def drawn_contours(job: Job) -> DrawnContours:
     )
     closed = [contour for contour in chaining.contours if contour.closed] + _point_holes(job, layers)
     lines = [contour for contour in chaining.contours if not contour.closed]
-    doubts = chaining_findings(entities, chaining, job.join_tolerance)
-    clamps, about = clamps_of(job)
+    clamps, about_clamps = clamps_of(job)
     meet = _copies_meet(closed, job)
     crossing = bool(meet) or _crosses(chaining.findings)
     shifts = job.copies.shifts
     copies = _copied(closed, shifts)
-    findings = (*chaining.findings, *doubts, *about, *meet, *_under_clamps(copies, clamps), *about_strokes)
-    return DrawnContours(copies, _copied([*lines, *strokes], shifts), crossing, clamps, findings)
+
+    def about() -> tuple[Finding, ...]:
+        doubts = chaining_findings(entities, chaining, job.join_tolerance)
+        return (*chaining.findings, *doubts, *about_clamps, *meet, *_under_clamps(copies, clamps), *about_strokes)
+
+    return DrawnContours(copies, _copied([*lines, *strokes], shifts), crossing, clamps, about)
 
 
 def _point_holes(job: Job, layers: frozenset[str]) -> list[Contour]:

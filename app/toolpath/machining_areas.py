@@ -5,7 +5,7 @@ the clamps.
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -163,16 +163,17 @@ class _AreaKey:
 
 @dataclass
 class MachiningAreas:
-    """The areas of a job's operations; operations alike share one.
-
-    Attributes:
-        findings: of those that were made so far, where their areas are not what was drawn.
-    """
+    """The areas of a job's operations; operations alike share one."""
 
     job: Job
     drawn: DrawnContours
-    findings: list[Finding] = field(default_factory=list)
+    _about: list[Callable[[], Iterable[Finding]]] = field(default_factory=list)
     _made: dict[_AreaKey, MachiningArea | None] = field(default_factory=dict)
+
+    @property
+    def findings(self) -> list[Finding]:
+        """Of the areas that were made so far, where they are not what was drawn."""
+        return [finding for told in self._about for finding in told()]
 
     def of(self, operation: Operation) -> MachiningArea | None:
         """Return the area of an operation; None where it has nothing to machine."""
@@ -255,8 +256,9 @@ class MachiningAreas:
         clamps = tuple(clamp.boundary for clamp in self.drawn.clamps)
         free = without_outlines(grown, clamps)
         nesting = nested(free.contours)
-        self.findings += [*grown_findings(lines, key.width / 2, grown), *free.findings]
-        self.findings += region_findings(grown, clamps, nesting)
+        about = [*grown_findings(lines, key.width / 2, grown), *free.findings]
+        about += region_findings(grown, clamps, nesting)
+        self._about.append(lambda: about)
         if not nesting.regions:
             return None
         primitives = pack(nesting.regions)
@@ -267,7 +269,7 @@ class MachiningAreas:
     def _beside_lines(self, key: _AreaKey, strip: SideStrip) -> MachiningArea | None:
         """Return what lies on one side of open lines, without what clamps hold."""
         found = strips(selected(self.drawn, tuple(key.curves)).open, strip)
-        self.findings += found.findings
+        self._about.append(lambda: found.findings)
         regions = self._regions(found.contours)
         if not regions:
             return None
@@ -285,7 +287,8 @@ class MachiningAreas:
         outlines = [clamp.boundary for clamp in self.drawn.clamps]
         free = without_outlines(past.contours, outlines)
         nesting = nested(free.contours)
-        self.findings += [*past.findings, *free.findings, *region_findings(past.contours, outlines, nesting)]
+        about = [*past.findings, *free.findings, *region_findings(past.contours, outlines, nesting)]
+        self._about.append(lambda: about)
         return nesting.regions
 
     def _regions(self, contours: Sequence[Contour]) -> tuple[Region, ...]:
@@ -293,7 +296,7 @@ class MachiningAreas:
         them.
         """
         made = self.drawn.regions_of(contours)
-        self.findings += made.findings
+        self._about.append(lambda: made.findings)
         return made.regions
 
     @cached_property

@@ -23,7 +23,8 @@ from ..core.pool import in_bands
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.distance import DistanceField
 from ..geometry.kernels import build_tree
-from ..geometry.primitives import CX, TURN, Primitives, R, lengths, points_at, signed_area, sweeps
+from ..geometry.outlines import Outlines
+from ..geometry.primitives import CX, TURN, Primitives, R, lengths, points_at, sweeps
 from . import carved_kernels as kernels
 
 Floats = NDArray[np.float64]
@@ -149,14 +150,15 @@ def _alike(walls: Primitives) -> list[_AlikeRegions]:
     """
     order = np.argsort(walls.region, kind="stable")
     numbers, begins = np.unique(walls.region[order], return_index=True)
+    areas = Outlines(walls.rows[order], np.append(begins, len(order))).areas.tolist()
     place = np.empty(len(order), np.int64)
     first: dict[Hashable, list[tuple[int, Floats]]] = {}
     shifts: dict[int, list[Floats]] = {}
-    for number, here in zip(numbers.tolist(), np.split(order, begins[1:]), strict=True):
+    for number, here, area in zip(numbers.tolist(), np.split(order, begins[1:]), areas, strict=True):
         place[here] = np.arange(len(here))
         rows, previous = walls.rows[here], place[walls.previous[here]]
         shifts[number] = [np.zeros(2)]
-        if (rows[previous, 2:4] != rows[:, :2]).any() or signed_area(rows) <= 0:
+        if (rows[previous, 2:4] != rows[:, :2]).any() or area <= 0:
             continue
         at = rows[0, :2].copy()
         rows[:, :CX] -= np.tile(at, 2)

@@ -1,10 +1,11 @@
-"""Drawings of a kind that grow: circles, a plate with holes, scattered islands, one long outline."""
+"""Drawings of a kind that grow: circles, a plate with holes, scattered islands, one long outline, a page of letters."""
 
 from __future__ import annotations
 
 import io
 import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import ezdxf
 import numpy as np
@@ -50,6 +51,42 @@ def spline(space: Modelspace, count: int) -> None:
     """One closed spline of about so many control points, along the same comb."""
     points = _comb(count)
     space.add_spline().set_closed([(x, y, 0.0) for x, y in points.tolist()])
+
+
+def letters(space: Modelspace, count: int) -> None:
+    """A page of letters (o, D, l and T in turn), each as an outline font has it: lines and quadratic splines."""
+    side = math.isqrt(count)
+    for k in range(side * side):
+        middle = GRID * np.array([k % side, k // side]) + 5
+        if k % 4 < 2:
+            for width, height in ((3.0, 4.0), (1.8, 2.9)):
+                _bowl(space, middle, np.array([width, height]), closed_by_stem=k % 4 == 1)
+        else:
+            corners = _STEM if k % 4 == 2 else _T
+            _lines(space, np.array([*corners, corners[0]]) + middle)
+
+
+_STEM = ((-0.6, -4.0), (0.6, -4.0), (0.6, 4.0), (-0.6, 4.0))
+
+_T = ((-0.6, -4.0), (0.6, -4.0), (0.6, 3.0), (3.0, 3.0), (3.0, 4.0), (-3.0, 4.0), (-3.0, 3.0), (-0.6, 3.0))
+
+
+def _bowl(space: Modelspace, middle: np.ndarray, size: np.ndarray, closed_by_stem: bool) -> None:
+    """Draw an ellipse of quadratic splines, or its right half and the line from its upper to its lower end."""
+    count = 4 if closed_by_stem else 8
+    angles = -math.pi / 2 + math.pi / 4 * np.arange(count + 1)
+    on = middle + size * np.column_stack([np.cos(angles), np.sin(angles)])
+    between = angles[:-1] + math.pi / 8
+    off = middle + size / math.cos(math.pi / 8) * np.column_stack([np.cos(between), np.sin(between)])
+    for first, handle, last in zip(on[:-1], off, on[1:], strict=True):
+        space.add_open_spline([(x, y, 0.0) for x, y in np.array([first, handle, last]).tolist()], degree=2)
+    if closed_by_stem:
+        _lines(space, on[[-1, 0]])
+
+
+def _lines(space: Modelspace, points: np.ndarray) -> None:
+    for start, end in pairwise(points.tolist()):
+        space.add_line(start, end)
 
 
 def _comb(count: int) -> np.ndarray:

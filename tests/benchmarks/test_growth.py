@@ -6,6 +6,7 @@ logarithms. `HITOFUDE_GROWTH_MOST` sets another end.
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections.abc import Callable
@@ -17,10 +18,16 @@ from ezdxf.layouts import Modelspace
 from app.cli.timings import StageTimes
 from app.core.beside import one_after_another
 from app.core.progress import Progress
+from app.model.job import Job, Stock
+from app.model.operation import CutParameters
+from app.model.part import Part
+from app.model.tool import Tool
+from app.model.tool_kind import ToolKind
+from app.model.vcarve_operation import VcarveOperation
 from app.usecases.job.options import MakeOptions
 from app.usecases.making.make import make
 
-from .growing_drawings import circles, drawing, islands, outline, plate, spline
+from .growing_drawings import circles, drawing, islands, letters, outline, plate, spline
 
 pytestmark = pytest.mark.benchmark
 MOST_CURVES = int(os.environ.get("HITOFUDE_GROWTH_MOST", "10000"))
@@ -31,21 +38,33 @@ TOLD_S = 0.5
 """A stage that takes less at the largest size is not judged: what it takes once is more than what grows."""
 
 
-def stages(data: bytes) -> dict[str, float]:
+FLAT = MakeOptions(contour_diameter=2.0, pocket_diameter=2.0)
+CARVED = MakeOptions(
+    Job(
+        Part(),
+        tools=(Tool(1, 12.0, ToolKind.V, tip_angle=math.radians(90)),),
+        operations=(VcarveOperation(CutParameters(1, depth=4.0, stepdown=4.0)),),
+        stock=Stock(thickness=10.0),
+    )
+)
+
+
+def stages(data: bytes, options: MakeOptions) -> dict[str, float]:
     """Seconds of the processor by stage."""
     times = StageTimes(time.process_time)
     with one_after_another():
-        made = make("growth.dxf", data, MakeOptions(contour_diameter=2.0, pocket_diameter=2.0), times.watch(Progress()))
+        made = make("growth.dxf", data, options, times.watch(Progress()))
     assert made.coverage.reachable_left_mm2 == 0
     return times.seconds()
 
 
-@pytest.mark.parametrize("kind", [circles, plate, islands, outline, spline])
+@pytest.mark.parametrize("kind", [circles, plate, islands, outline, spline, letters])
 def test_no_stage_grows_faster_than_n_log_n(
     kind: Callable[[Modelspace, int], None], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    stages(drawing(kind, 36))  # so that no kernel is loaded on the way
-    found = [stages(drawing(kind, size)) for size in SIZES]
+    options = CARVED if kind is letters else FLAT
+    stages(drawing(kind, 36), options)  # so that no kernel is loaded on the way
+    found = [stages(drawing(kind, size), options) for size in SIZES]
     table, slow = [], {}
     for stage in sorted(found[-1], key=lambda each: -found[-1][each]):
         spent = [max(each.get(stage, 0.0), 1e-4) for each in found]

@@ -10,7 +10,15 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from app.geometry import near_points, triangulation
-from app.geometry.near_points import all_within, groups, groups_within, nearest, pairs_meeting, pairs_within
+from app.geometry.near_points import (
+    all_within,
+    groups,
+    groups_within,
+    nearest,
+    pairs_meeting,
+    pairs_within,
+    places_of_each,
+)
 from app.geometry.triangulation import neighbours
 from tests.examples import examples
 
@@ -120,7 +128,34 @@ def test_groups_are_numbered_by_their_first(given_pairs) -> None:
 def test_things_are_grouped_by_points_of_theirs_that_are_near(points, owners: int, reach: float) -> None:
     owner = np.arange(len(points)) * 7 % owners
     expected = groups(owners, owner[pairs_within(points, reach)])
-    assert groups_within(points, owner, owners, reach).tolist() == expected.tolist()
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        for found in both(monkeypatch, lambda: groups_within(points, owner, owners, reach)):
+            assert found.tolist() == expected.tolist()
+
+
+@pytest.mark.parametrize("apart", [1e-6, 9e-7, 1.1e-6])
+@pytest.mark.parametrize("size", [1.0, 1e3, 1e6])
+def test_points_as_near_as_the_reach_are_one_however_wide_the_drawing(
+    monkeypatch: pytest.MonkeyPatch, size: float, apart: float
+) -> None:
+    """Where cells as wide as the reach could not be numbered, or their edges not be told, there is no grid."""
+    random = np.random.default_rng(7)
+    points = np.repeat(random.uniform(0, size, (40, 2)), 2, axis=0)
+    points[1::2, 0] += apart
+    points[0], points[-1] = (0.0, 0.0), (size, size)
+    expected = groups(80, pairs_within(points, 1e-6))
+    monkeypatch.setattr(near_points, "FEW", 0)
+    assert groups_within(points, np.arange(80), 80, 1e-6).tolist() == expected.tolist()
+
+
+@SOME
+@given(values=st.lists(st.integers(0, 6), max_size=30))
+def test_places_of_each_number(values: list[int]) -> None:
+    numbers = np.array([1, 3, 4, 9])
+    found = places_of_each(np.array(values, np.int64), numbers)
+    assert [each.tolist() for each in found] == [
+        [k for k, value in enumerate(values) if value == number] for number in numbers
+    ]
 
 
 @pytest.mark.parametrize("offset", [0.0, 3000.0])

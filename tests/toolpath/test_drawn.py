@@ -150,3 +150,11 @@ def test_diagonal_copies_that_meet_are_told() -> None:
     bar = polygon_contour([(0, 0), (2, 0), (22, 20), (20, 20)])
     parts = drawn_contours(Job(layered_part({"a": [bar]}), copies=Copies(2, 2, 10.0, 10.0)))
     assert "10.000 mm apart along X and 10.000 mm along Y meet" in text_of(parts, FindingKind.OVERLAP)
+
+
+def test_the_witness_measures_for_whoever_looks_at_what_it_says() -> None:
+    parts = drawn_contours(Job(layered_part({"a": [square(40), circle(5, 20, 20)]})))
+    made = parts.regions
+    assert "findings" not in vars(parts) and "findings" not in vars(made)
+    assert parts.findings == made.findings == ()
+    assert "findings" in vars(parts) and "findings" in vars(made)

@@ -516,16 +516,18 @@ _UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 _SAVE = "save it as plain text, ASCII or UTF-8 without a mark, with line feeds."
 
-_OF_LINUXCNC: tuple[tuple[re.Pattern[bytes], str], ...] = (
+_OF_LINUXCNC: tuple[tuple[bytes, re.Pattern[bytes], str], ...] = (
     (
+        b"\r",
         re.compile(rb"\r(?!\r*(?:\n|\Z))"),
         "a carriage return alone ends no line for LinuxCNC, which obeys what stands on both sides of it as one line",
     ),
     (
+        b"\0",
         re.compile(rb"\0(?![ \t\r\0]*(?:\n|\Z))"),
         "LinuxCNC reads a line as far as its first NUL byte, and leaves out what stands behind it",
     ),
-    (re.compile(rb"[\v\f]"), "LinuxCNC refuses form feeds and vertical tabs"),
+    (b"\v\f", re.compile(rb"[\v\f]"), "LinuxCNC refuses form feeds and vertical tabs"),
 )
 
 
@@ -555,5 +557,7 @@ def _odd(file: bytes, dialect: Dialect) -> Iterator[tuple[int, str]]:
     if file.startswith(codecs.BOM_UTF8) and dialect in (Dialect.LINUXCNC, Dialect.GRBL):
         yield 0, "the file begins with a byte order mark, which the control refuses"
     if dialect is Dialect.LINUXCNC:
-        found = ((pattern.search(file), what) for pattern, what in _OF_LINUXCNC)
+        # single bytes are looked for far more quickly, and hardly any file holds one of these
+        there = ((pattern, what) for signs, pattern, what in _OF_LINUXCNC if any(sign in file for sign in signs))
+        found = ((pattern.search(file), what) for pattern, what in there)
         yield from ((match.start(), what) for match, what in found if match)

@@ -6,11 +6,14 @@ import math
 from collections.abc import Hashable, Sequence
 from itertools import chain
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ...core import tolerances
 from ...core.errors import GeometryError
 from ...core.pool import in_bands
 from ...model.curves import Arc, Circle, Ellipse, Line, Point, Primitive, Spline
-from .arcs import LinesAndArcs, equally_far, lines_and_arcs
+from .arcs import LinesAndArcs, lines_and_arcs
 
 _DIGITS = 9
 """Of mm, to which control points are alike: far below what curves are drawn with, far above what a sum rounds off."""
@@ -24,6 +27,8 @@ _WORTH_TWO_CORES = 64
 
 Bent = Ellipse | Spline
 
+Floats = NDArray[np.float64]
+
 
 def arcs_of_all(curves: Sequence[Bent]) -> list[LinesAndArcs | GeometryError]:
     """Return for each curve lines and arcs near it, and how near, or why there are none; see `lines_and_arcs`.
@@ -35,7 +40,18 @@ def arcs_of_all(curves: Sequence[Bent]) -> list[LinesAndArcs | GeometryError]:
     alone = list(first.values())
     bands = in_bands(lambda band: [_made(curves[k]) for k in alone[band]], len(alone), _WORTH_TWO_CORES)
     made = dict(zip(alone, chain.from_iterable(bands), strict=True))
-    return [made[k] if k == mine else _like(curves[k], made[k], curves[mine]) for mine, k in enumerate(like)]
+    for k, others in _followers(like).items():
+        made.update(zip(others, _like(curves[k], made[k], [curves[mine] for mine in others]), strict=True))
+    return [made[k] for k in range(len(curves))]
+
+
+def _followers(like: Sequence[int]) -> dict[int, list[int]]:
+    """Return which others are like each curve that some are like, by their numbers."""
+    found: dict[int, list[int]] = {}
+    for mine, k in enumerate(like):
+        if k != mine:
+            found.setdefault(k, []).append(mine)
+    return found
 
 
 def _shape(curve: Bent, number: int) -> Hashable:
@@ -54,28 +70,48 @@ def _made(curve: Bent) -> LinesAndArcs | GeometryError:
         return error
 
 
-def _like(first: Bent, made: LinesAndArcs | GeometryError, curve: Bent) -> LinesAndArcs | GeometryError:
-    """Return what was made of one spline for another that is alike; an error speaks of its own curve."""
-    if isinstance(made, GeometryError) or isinstance(curve, Ellipse):
-        return _made(curve)
-    return _moved(first.start, made, curve)
+def _like(
+    first: Bent, made: LinesAndArcs | GeometryError, curves: Sequence[Bent]
+) -> Sequence[LinesAndArcs | GeometryError]:
+    """Return what was made of one spline for others that are alike; an error speaks of its own curve."""
+    if isinstance(made, GeometryError):
+        return [_made(curve) for curve in curves]
+    return _moved(first.start, made, curves)
 
 
-def _moved(begin: Point, first: LinesAndArcs, curve: Spline) -> LinesAndArcs:
-    """Return what was made of one spline where another one is, with the ends that this one has."""
-    dx, dy = curve.start[0] - begin[0], curve.start[1] - begin[1]
-    closed = math.dist(curve.start, curve.end) < tolerances.WELD
-    last = curve.start if closed else curve.end
-    made, at = list[Primitive](), curve.start
-    for k, each in enumerate(first.primitives):
-        if isinstance(each, Circle):
-            made.append(Circle((each.centre[0] + dx, each.centre[1] + dy), each.radius, each.ccw))
-            continue
-        end = last if k == len(first.primitives) - 1 else (each.end[0] + dx, each.end[1] + dy)
-        if isinstance(each, Arc):
-            centre = equally_far(at, end, (each.centre[0] + dx, each.centre[1] + dy))
-            made.append(Arc(at, end, centre, each.ccw))
-        else:
-            made.append(Line(at, end))
-        at = end
-    return LinesAndArcs(tuple(made), first.deviation + _APART)
+def _moved(begin: Point, first: LinesAndArcs, curves: Sequence[Bent]) -> list[LinesAndArcs]:
+    """Return what was made of one spline where others are, with the ends that these have."""
+    starts = np.array([curve.start for curve in curves])
+    shift = (starts - np.array(begin))[:, None]
+    ends = np.array([each.end for each in first.primitives]) + shift
+    ends[:, -1] = [
+        curve.start if math.dist(curve.start, curve.end) < tolerances.WELD else curve.end for curve in curves
+    ]
+    begins = np.concatenate([starts[:, None], ends[:, :-1]], axis=1)
+    centres = np.array([each.start if isinstance(each, Line) else each.centre for each in first.primitives]) + shift
+    between = [isinstance(each, Arc) for each in first.primitives]
+    centres[:, between] = _equally_far(begins[:, between], ends[:, between], centres[:, between])
+    deviation = first.deviation + _APART
+    return [
+        LinesAndArcs(tuple(map(_between, first.primitives, *places)), deviation)
+        for places in zip(begins.tolist(), ends.tolist(), centres.tolist(), strict=True)
+    ]
+
+
+def _equally_far(starts: Floats, ends: Floats, centres: Floats) -> Floats:
+    """Return `equally_far` of many places (..., 2) at once, to the last digit."""
+    chord, off = ends - starts, centres - (starts + ends) / 2
+    dx, dy = chord[..., 0], chord[..., 1]
+    along = (off[..., 0] * dx + off[..., 1] * dy) / (dx * dx + dy * dy)
+    moved: Floats = centres - along[..., None] * chord
+    return moved
+
+
+def _between(each: Primitive, start: list[float], end: list[float], centre: list[float]) -> Primitive:
+    """Return a primitive from one place to another, about a centre where it is no line."""
+    (ax, ay), (bx, by), (x, y) = start, end, centre
+    if isinstance(each, Line):
+        return Line((ax, ay), (bx, by))
+    if isinstance(each, Circle):
+        return Circle((x, y), each.radius, each.ccw)
+    return Arc((ax, ay), (bx, by), (x, y), each.ccw)

@@ -15,7 +15,7 @@ from ...model.curves import Arc, Point
 from ...model.finding import Finding, FindingKind
 from ...model.part import Contour, Entity
 from ..arcs.arcs import equally_far
-from ..primitives import CX, TURN, X1, R, Rows, contour_rows, distances
+from ..primitives import CX, TURN, X1, R, Rows, distances, rows_of_each
 from .findings import (
     LIMIT,
     SharedPiece,
@@ -298,7 +298,7 @@ def _cell(place: Point) -> tuple[int, int]:
 
 
 def _table(contours: Sequence[Contour]) -> _Table:
-    rows = [np.zeros((0, 8)), *(contour_rows(each) for each in contours)]
+    rows = [np.zeros((0, 8)), *rows_of_each(contours)]
     counts = np.array([len(each) for each in rows[1:]], np.int64)
     number, first = np.repeat(np.arange(len(contours)), counts), np.cumsum(counts) - counts
     before, after = np.arange(len(number)) - 1, np.arange(len(number)) + 1

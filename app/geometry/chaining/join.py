@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import chain
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...model.curves import Arc, Line, Point
-from ..near_points import all_within, groups, pairs_within
+from ..near_points import all_within, groups, groups_within, pairs_within
 from .findings import ClosedGap
 from .pieces import ChainPiece, length_of, repeated, same, with_ends
 
@@ -26,7 +28,7 @@ def nodes_of(pieces: Sequence[ChainPiece], join_tolerance: float) -> Nodes:
     partner is joined to the nearest point within the tolerance. A curve drawn twice, be it a
     little apart, does not connect its own copy.
     """
-    ends = np.array([(*p.start, *p.end) for p in pieces], dtype=np.float64).reshape(-1, 2)
+    ends = _ends_of(pieces).reshape(-1, 2)
     nodes, reach = _welded(ends), reach_of(join_tolerance)
     nodes[np.repeat(np.array([p.is_circle for p in pieces], dtype=bool), 2)] = -1
     nodes = merge_near_duplicates(pieces, ends, nodes, reach)
@@ -42,11 +44,20 @@ def nodes_of(pieces: Sequence[ChainPiece], join_tolerance: float) -> Nodes:
     return nodes.reshape(-1, 2)
 
 
+def _ends_of(pieces: Sequence[ChainPiece]) -> NDArray[np.float64]:
+    """Return (n, 4) x and y of where each piece starts and ends, mm."""
+    numbers = chain.from_iterable(chain.from_iterable(map(attrgetter("start", "end"), pieces)))
+    return np.fromiter(numbers, np.float64, 4 * len(pieces)).reshape(-1, 4)
+
+
 def _welded(ends: NDArray[np.float64]) -> Nodes:
     if len(ends) == 0:
         return np.zeros(0, np.int64)
-    points, nodes = np.unique(ends, axis=0, return_inverse=True)
-    return groups(len(points), pairs_within(points, tolerances.WELD))[nodes.ravel()]
+    order = np.lexsort((ends[:, 1], ends[:, 0]))
+    new = np.append(True, (ends[order[1:]] != ends[order[:-1]]).any(axis=1))
+    points, nodes = ends[order[new]], np.empty(len(ends), np.int64)
+    nodes[order] = np.cumsum(new) - 1
+    return groups_within(points, np.arange(len(points)), len(points), tolerances.WELD)[nodes]
 
 
 class _JoinedEnds(NamedTuple):
@@ -126,11 +137,12 @@ def join_ends(pieces: Sequence[ChainPiece], nodes: Nodes) -> JoinedPieces:
     Pieces that shrink to nothing are left out. Lines give way to arcs: the point where ends meet is the mean of the
     arcs' ends there, or of all ends when there are only lines.
     """
+    apart = _apart(pieces, nodes)
     ends: dict[int, list[_PieceEnd]] = {}
-    for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True):
-        if a >= 0:
-            ends.setdefault(a, []).append(_PieceEnd(piece.start, isinstance(piece.primitives[0], Arc)))
-            ends.setdefault(b, []).append(_PieceEnd(piece.end, isinstance(piece.primitives[-1], Arc)))
+    for k in apart:
+        piece, (a, b) = pieces[k], nodes[k].tolist()
+        ends.setdefault(a, []).append(_PieceEnd(piece.start, isinstance(piece.primitives[0], Arc)))
+        ends.setdefault(b, []).append(_PieceEnd(piece.end, isinstance(piece.primitives[-1], Arc)))
     target: dict[int, Point] = {}
     gaps: list[ClosedGap] = []
     for node, members in ends.items():
@@ -142,12 +154,28 @@ def join_ends(pieces: Sequence[ChainPiece], nodes: Nodes) -> JoinedPieces:
         gap = max(math.dist(p, q) for p in points for q in points)
         if gap > tolerances.CURVE:
             gaps.append(ClosedGap(gap, target[node]))
-    moved = [
-        piece if a < 0 else with_ends(piece, target[a], target[b])
-        for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True)
-    ]
+    moved = list(pieces)
+    for k in apart:
+        a, b = nodes[k].tolist()
+        moved[k] = with_ends(pieces[k], target[a], target[b])
     kept = [k for k, piece in enumerate(moved) if piece.primitives]
     return JoinedPieces([moved[k] for k in kept], nodes[kept] if len(nodes) else nodes, gaps)
+
+
+def _apart(pieces: Sequence[ChainPiece], nodes: Nodes) -> list[int]:
+    """Return the pieces, by their indices, one of whose ends is at a point whose ends are not all the same: all that
+    may have to move.
+    """
+    if not len(nodes):
+        return []
+    places, at = _ends_of(pieces).reshape(-1, 2), nodes.ravel()
+    first = np.zeros(int(at.max()) + 2, np.int64)
+    first[at] = np.arange(len(at))
+    uneven = np.zeros(len(first), np.bool_)
+    uneven[at[(places != places[first[at]]).any(axis=1)]] = True
+    uneven[-1] = False  # circles, which have no ends
+    found: list[int] = np.flatnonzero(uneven[nodes].any(axis=1)).tolist()
+    return found
 
 
 def _mean(points: list[Point]) -> Point:

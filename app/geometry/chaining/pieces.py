@@ -22,7 +22,7 @@ from ...model.part import Contour, Entity
 from ..arcs.alike import arcs_of_all
 from ..arcs.arcs import equally_far
 from ..near_points import pairs_meeting, pairs_within
-from ..primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, curve_rows, distances, points_at, sweeps
+from ..primitives import CX, TURN, X0, X1, R, Rows, boxes, curve_rows, distances, points_at, rows_of_each, sweeps
 from ..primitives import lengths as row_lengths
 from ..primitives import rows_of as primitive_rows
 
@@ -133,7 +133,7 @@ def within_reach(curve: Curve) -> bool:
         (x0, y0), (x1, y1) = curve.start, curve.end
         return abs(x0) <= FARTHEST and abs(y0) <= FARTHEST and abs(x1) <= FARTHEST and abs(y1) <= FARTHEST
     if isinstance(curve, Spline):
-        return bool(np.all(np.abs(np.array(curve.control_points)) <= FARTHEST))
+        return all(abs(x) <= FARTHEST and abs(y) <= FARTHEST for x, y in curve.control_points)
     if isinstance(curve, Arc):
         return _arc_within_reach(curve)
     size = curve.radius if isinstance(curve, Circle) else math.hypot(*curve.major)
@@ -290,8 +290,9 @@ def repeated(pieces: Sequence[ChainPiece], nodes: Nodes, reach: float) -> list[O
     repeat was a wall of two outlines, and comes back.
     """
     groups: dict[tuple[object, ...], list[int]] = {}
-    for k, (piece, (a, b)) in enumerate(zip(pieces, nodes.tolist(), strict=True)):
-        groups.setdefault(_key(piece, (a, b), reach), []).append(k)
+    for k in _perhaps_alike(pieces, nodes):
+        a, b = nodes[k].tolist()
+        groups.setdefault(_key(pieces[k], (a, b), reach), []).append(k)
     found: list[tuple[int, int]] = []
     for group in groups.values():
         kept: list[int] = []
@@ -315,6 +316,17 @@ def repeated(pieces: Sequence[ChainPiece], nodes: Nodes, reach: float) -> list[O
         length = sum(map(length_of, pieces[k].primitives))
         overlaps.append(Overlap(j, k, length, pieces[k].start, pieces[k].end, not wall))
     return overlaps
+
+
+def _perhaps_alike(pieces: Sequence[ChainPiece], nodes: Nodes) -> list[int]:
+    """Return the pieces, by their indices, that are circles or end at the same points as another."""
+    if not len(pieces):
+        return []
+    ends = np.sort(nodes, axis=1)
+    _, which, count = np.unique(ends @ (int(nodes.max()) + 2, 1), return_inverse=True, return_counts=True)
+    round_ones = np.array([piece.is_circle for piece in pieces], np.bool_)
+    found: list[int] = np.flatnonzero(round_ones | (count[which] > 1)).tolist()
+    return found
 
 
 def _key(piece: ChainPiece, ends: tuple[int, int], reach: float) -> tuple[object, ...]:
@@ -469,7 +481,7 @@ def twin_contours(contours: Sequence[Contour], reach: float) -> dict[int, int]:
     closed = [k for k, contour in enumerate(contours) if contour.closed]
     if len(closed) < 2:
         return {}
-    rows = {k: contour_rows(contours[k]) for k in closed}
+    rows = dict(zip(closed, rows_of_each([contours[k] for k in closed]), strict=True))
     every = boxes(np.concatenate([rows[k] for k in closed]))
     first = np.cumsum([0, *(len(rows[k]) for k in closed[:-1])])
     around = np.hstack([np.minimum.reduceat(every[:, :2], first), np.maximum.reduceat(every[:, 2:], first)])

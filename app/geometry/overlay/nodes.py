@@ -18,7 +18,7 @@ from ...core import tolerances
 from ..chaining.chain import contacts
 from ..chaining.pieces import near_pairs
 from ..distance import DistanceField
-from ..near_points import groups, nearest, pairs_within
+from ..near_points import groups, groups_within, nearest, pairs_within
 from ..primitives import CX, CY, TURN, X0, Y0, R, Rows, distances, lengths, points_at, reversed_rows, sweeps
 from . import overlay_kernels
 
@@ -111,7 +111,7 @@ def _nodes(points: Floats) -> tuple[Indices, Floats]:
     Points that hang together from one to the next over more than REACH have several nodes, each more than REACH from
     the others.
     """
-    number = groups(len(points), pairs_within(points, REACH))
+    number = groups_within(points, np.arange(len(points)), len(points), REACH)
     first = np.unique(number, return_index=True)[1]
     far = np.hypot(*(points - points[first[number]]).T) > REACH
     for long in np.unique(number[far]).tolist():

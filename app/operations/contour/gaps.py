@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 
 from ...geometry.distance import DistanceField
-from ...geometry.near_points import all_within
+from ...geometry.near_points import all_within, places_of_each
 from ...geometry.offset.offset import OffsetLevel
 from ...geometry.outlines import Outlines
 from ...geometry.primitives import (
@@ -165,9 +165,10 @@ def _touched(points: Floats, region: Indices, area: MachiningArea) -> Indices:
     """
     row: Indices = area.distances.nearest(points)[1].copy()
     owner = area.primitives.region
-    for each in np.unique(region[owner[row] != region]).tolist():
-        own = np.flatnonzero(owner == each)
-        requested = np.flatnonzero((region == each) & (owner[row] != each))
+    strange = np.flatnonzero(owner[row] != region)
+    numbers = np.unique(region[strange])
+    asking = (strange[each] for each in places_of_each(region[strange], numbers))
+    for own, requested in zip(places_of_each(owner, numbers), asking, strict=True):
         if len(own):
             off, which = DistanceField.of(area.distances.rows[own]).nearest(points[requested])[:2]
             row[requested[off < _SAME]] = own[which[off < _SAME]]

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,10 +38,10 @@ class AxisBranch:
 
     discs: Floats
 
-    @cached_property
+    @property
     def length(self) -> float:
         """Seen from above, mm."""
-        return float(np.hypot(*np.diff(self.discs[:, :2], axis=0).T).sum())
+        return float(lengths_along(*joined([self]))[0])
 
     def backwards(self) -> AxisBranch:
         """Return it from its end to its beginning."""
@@ -63,13 +62,33 @@ class AxisBranch:
         return [*found, AxisBranch(np.array(points))] if len(points) > 1 else found
 
 
+def joined(branches: Sequence[AxisBranch]) -> tuple[Floats, NDArray[np.int64]]:
+    """Return the discs (n, 3) of branches, one after the other, and the number (m + 1,) of the first one of each."""
+    discs = np.concatenate([np.zeros((0, 3)), *[branch.discs for branch in branches]])
+    return discs, np.cumsum([0, *[len(branch.discs) for branch in branches]], dtype=np.int64)
+
+
+def lengths_along(discs: Floats, upto: NDArray[np.int64]) -> Floats:
+    """Return the length (m,) of each of some branches that are joined, seen from above, mm.
+
+    Those of as many chords are summed together, each as it would be alone: of branches as long the first counts, and
+    where they stand must not tell.
+    """
+    chords = np.hypot(*np.diff(discs[:, :2], axis=0).T)
+    counts = np.diff(upto) - 1
+    found = np.zeros(len(counts))
+    for count in np.unique(counts).tolist():
+        same = np.flatnonzero(counts == count)
+        found[same] = chords[upto[same, None] + np.arange(count)].sum(axis=1)
+    return found
+
+
 def between(branches: Sequence[AxisBranch], low: float, high: float) -> list[AxisBranch]:
     """Return the parts of branches whose radius is within limits, mm; they end at the limit."""
     if not branches:
         return []
-    radii = np.concatenate([branch.discs[:, 2] for branch in branches])
-    begins = np.cumsum([0, *(len(branch.discs) for branch in branches[:-1])])
-    least, most = np.minimum.reduceat(radii, begins), np.maximum.reduceat(radii, begins)
+    discs, upto = joined(branches)
+    least, most = np.minimum.reduceat(discs[:, 2], upto[:-1]), np.maximum.reduceat(discs[:, 2], upto[:-1])
     inside = ((low <= least) & (most <= high)).tolist()
     outside = ((most < low) | (least > high)).tolist()
     found: list[AxisBranch] = []

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import chain, pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...geometry.near_points import groups_within
-from .branches import AxisBranch, Floats
+from .branches import AxisBranch, Floats, joined, lengths_along
 
 _SAME = 1e-5
 """mm; ends that are as near are one node."""
@@ -27,12 +29,15 @@ class BranchGraph:
         discs: (n, 3) x, y and radius of each node, mm: of the end that made it.
         ends: from node and to node of each branch.
         at: numbers of the branches at each node.
+        joined: the discs (k, 3) of all branches, one branch after the other, and the number (m + 1,) of the first one
+            of each.
     """
 
     branches: list[AxisBranch]
     discs: Floats
     ends: list[tuple[int, int]]
     at: list[list[int]]
+    joined: tuple[Floats, NDArray[np.int64]]
 
     def remove(self, number: int) -> None:
         """Take out a branch."""
@@ -44,16 +49,12 @@ class BranchGraph:
         a, b = self.ends[number]
         return b if node == a else a
 
-    def from_node(self, number: int, node: int) -> Floats:
-        """Return the discs (n, 3) of a branch as it goes on from a node."""
-        discs = self.branches[number].discs
-        return discs if self.ends[number][0] == node else discs[::-1]
-
 
 def graph_of(branches: Iterable[AxisBranch]) -> BranchGraph:
     """Return branches as a graph."""
     branches = list(branches)
-    discs = end_discs(branches)
+    whole = joined(branches)
+    discs = _ends(*whole)
     number = groups_within(discs[:, :2], np.arange(len(discs)), len(discs), _SAME)
     _, first = np.unique(number, return_index=True)
     ends = [(a, b) for a, b in number.reshape(-1, 2).tolist()]
@@ -61,14 +62,16 @@ def graph_of(branches: Iterable[AxisBranch]) -> BranchGraph:
     for k, pair in enumerate(ends):
         for node in pair:
             at[node].append(k)
-    return BranchGraph(branches, discs[first], ends, at)
+    return BranchGraph(branches, discs[first], ends, at, whole)
 
 
 def end_discs(branches: Sequence[AxisBranch]) -> Floats:
     """Return the discs (2 n, 3) at which branches begin and end, one branch after the other."""
-    all_discs = np.concatenate([np.zeros((0, 3)), *(branch.discs for branch in branches)])
-    upto = np.cumsum([len(branch.discs) for branch in branches], dtype=np.int64)
-    ends: Floats = all_discs[np.stack([np.append(0, upto[:-1])[: len(upto)], upto - 1], axis=1).ravel()]
+    return _ends(*joined(branches))
+
+
+def _ends(discs: Floats, upto: NDArray[np.int64]) -> Floats:
+    ends: Floats = discs[np.stack([upto[:-1], upto[1:] - 1], axis=1).ravel()]
     return ends
 
 
@@ -107,38 +110,41 @@ def _beyond(branch: AxisBranch, disc: Floats) -> float:
 
 def trails(graph: BranchGraph) -> list[AxisBranch]:
     """Return ways that go along every branch once, each as far as it can: from a dead end, the shallowest, where there
-    is one.
+    is one; from each node along the branch that leads on to the most others, of those the longest one.
     """
-    left = [list(own) for own in graph.at]
-    deep = graph.discs[:, 2].tolist()
-    # the shallowest last; none is ever added, since ways end where nothing is left, so no node becomes an odd one
-    odd = sorted(((deep[node], node) for node, own in enumerate(left) if len(own) % 2), reverse=True)
-    some = sorted(((deep[node], node) for node, own in enumerate(left) if own), reverse=True)
+    if not any(graph.at):
+        return []
+    from .order_kernels import walked  # compiled code: loaded where it is used
 
-    def next_from(node: int) -> int:
-        """Return the branch that leads on to the most others, of those the longest one."""
-        if len(left[node]) == 1:
-            return left[node][0]
-        onward = [len(left[graph.other(number, node)]) for number in left[node]]
-        most = max(onward)
-        best = [number for number, count in zip(left[node], onward, strict=True) if count == most]
-        return best[0] if len(best) == 1 else max(best, key=lambda number: graph.branches[number].length)
+    degree = np.array([len(own) for own in graph.at], np.int64)
+    at = np.fromiter(chain.from_iterable(graph.at), np.int64, int(degree.sum()))
+    shallowest = np.argsort(graph.discs[:, 2], kind="stable")
+    steps = np.empty((len(at) // 2, 3), np.int64)
+    walked(
+        np.array(graph.ends),
+        np.append(0, np.cumsum(degree)),
+        at,
+        lengths_along(*graph.joined),
+        shallowest[degree[shallowest] % 2 == 1],
+        shallowest[degree[shallowest] > 0],
+        steps,
+    )
+    return _along(*graph.joined, steps)
 
-    found: list[AxisBranch] = []
-    while some:
-        while odd and not len(left[odd[-1][1]]) % 2:
-            odd.pop()
-        if not odd and not left[some[-1][1]]:
-            some.pop()
-            continue
-        node = (odd or some)[-1][1]
-        parts: list[Floats] = []
-        while left[node]:
-            number = next_from(node)  # dead ends last
-            discs, end = graph.from_node(number, node), graph.other(number, node)
-            left[node].remove(number)
-            left[end].remove(number)
-            parts.append(discs[1:] if parts else discs)
-            node = end
-        found.append(AxisBranch(np.concatenate(parts)))
-    return found
+
+def _along(discs: Floats, upto: NDArray[np.int64], steps: NDArray[np.int64]) -> list[AxisBranch]:
+    """Return the ways that go along branches one after the other.
+
+    Args:
+        discs, upto: of the branches, see `joined`.
+        steps: (k, 3) number of a branch, 1 where it is gone along backwards, and 1 where a way begins with it.
+    """
+    branch, back, begins = steps.T
+    skipped = 1 - begins  # the disc at which the branch before ended
+    first, last = upto[branch] + np.where(back, 0, skipped), upto[branch + 1] - 1 - np.where(back, skipped, 0)
+    count = last - first + 1
+    after = np.cumsum(count)
+    along = np.arange(int(count.sum())) - np.repeat(after - count, count)
+    gone = discs[np.repeat(np.where(back, last, first), count) + np.repeat(1 - 2 * back, count) * along]
+    ends = [*(after - count)[np.flatnonzero(begins)].tolist(), len(gone)]
+    return [AxisBranch(gone[a:b]) for a, b in pairwise(ends)]

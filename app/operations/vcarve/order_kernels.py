@@ -1,4 +1,4 @@
-"""Compiled: in which order ways are gone along, when the one with the nearest end always comes next."""
+"""Compiled: in which order branches make ways, and ways are gone along, the one with the nearest end always next."""
 
 from __future__ import annotations
 
@@ -80,3 +80,52 @@ def nearest_order(ends, order, nodes, x, y, out):
         _take(waiting, leaf[end], -1)
         _take(waiting, leaf[other], -1)
         x, y = ends[other, 0], ends[other, 1]
+
+
+@kernel(
+    "int64(int64[:, ::1], int64[::1], int64[::1], float64[::1], int64[::1], boolean[::1], int64)",
+    counts=False,
+)
+def _leading_on(ends, first, at, lengths, left, gone, node):
+    """Return which branch at a node leads on to the most others, of those the longest one, of these the first."""
+    found, most = -1, -1
+    for place in range(first[node], first[node + 1]):
+        k = at[place]
+        if gone[k]:
+            continue
+        onward = left[ends[k, 0] + ends[k, 1] - node]
+        if onward > most or (onward == most and lengths[k] > lengths[found]):
+            found, most = k, onward
+    return found
+
+
+@kernel("void(int64[:, ::1], int64[::1], int64[::1], float64[::1], int64[::1], int64[::1], int64[:, ::1])")
+def walked(ends, first, at, lengths, odd, some, steps):
+    """Write how ways go along every branch once, each as far as it can: along dead ends last.
+
+    No node becomes an odd one, since ways end where nothing is left.
+
+    Args:
+        ends: (m, 2) nodes at which each branch begins and ends.
+        first, at: the branches at node k are those from `at[first[k]]` up to `at[first[k + 1]]`, which is left out.
+        lengths: (m,) of the branches, mm.
+        odd, some: the nodes with an odd number of branches, and those with any, in the order in which ways begin there.
+        steps: (m, 3) branch, 1 where it is gone along backwards, 1 where a way begins with it.
+    """
+    left, gone = first[1:] - first[:-1], np.zeros(len(ends), np.bool_)
+    i, j, count = 0, 0, 0
+    while j < len(some):
+        while i < len(odd) and left[odd[i]] % 2 == 0:
+            i += 1
+        if i == len(odd) and left[some[j]] == 0:
+            j += 1
+            continue
+        node, begins = odd[i] if i < len(odd) else some[j], 1
+        while left[node] > 0:
+            k = _leading_on(ends, first, at, lengths, left, gone, node)
+            steps[count, 0], steps[count, 1], steps[count, 2] = k, ends[k, 0] != node, begins
+            gone[k] = True
+            left[ends[k, 0]] -= 1
+            left[ends[k, 1]] -= 1
+            node = ends[k, 0] + ends[k, 1] - node
+            count, begins = count + 1, 0

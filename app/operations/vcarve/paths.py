@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
@@ -26,7 +28,7 @@ from ...toolpath.build import MovesBuilder, Stroke, StrokeLabel
 from ...toolpath.depth import DepthLevels
 from ...toolpath.operation_context import OperationContext, check_depth, levels_of
 from ..engrave.open_line import clear_parts, runs_of_parts
-from .branches import AxisBranch, Floats, between, branches
+from .branches import AxisBranch, Floats, between, branches, joined
 from .graph import end_discs, graph_of, prune, trails
 
 _TOLD = 20
@@ -150,17 +152,18 @@ def _followed(axes: Sequence[MedialAxis]) -> tuple[list[AxisBranch], list[Floats
     """
     whole: list[AxisBranch] = []
     lone: list[Floats] = []
-    known: dict[int, tuple[list[AxisBranch], list[Floats]]] = {}
+    known: dict[int, tuple[tuple[Floats, NDArray[np.int64]], list[Floats]]] = {}
     for axis in axes:
         # the axes keep their pieces alive, so that no other ones get the same id
         if id(axis.pieces) not in known:
             graph = graph_of(branches(replace(axis, middle=np.zeros(2))))
             single = prune(graph)
             kept = sorted({k for own in graph.at for k in own})
-            known[id(axis.pieces)] = [graph.branches[k] for k in kept], single
-        ways, single = known[id(axis.pieces)]
+            known[id(axis.pieces)] = joined([graph.branches[k] for k in kept]), single
+        (discs, upto), single = known[id(axis.pieces)]
         there = np.append(axis.middle, 0.0)
-        whole += [AxisBranch(way.discs + there) for way in ways]
+        discs = discs + there
+        whole += [AxisBranch(discs[a:b]) for a, b in pairwise(upto.tolist())]
         lone += [disc + there for disc in single]
     return whole, lone
 
@@ -247,34 +250,40 @@ class PassWriter:
         """Append a pass: whichever way begins nearest comes next, from its nearer end."""
         x, y, _ = self.builder.at
         at = at if x != x else (x, y)
-        for way in nearest_next(each.trails, at):
-            self._trail(way, each.z)
+        self._trails(list(nearest_next(each.trails, at)), each.z)
         for ring in each.rings:
             self._ring(ring, each.z)
 
-    def _trail(self, way: AxisBranch, z: float) -> None:
-        discs = way.discs
+    def _trails(self, ways: Sequence[AxisBranch], z: float) -> None:
+        discs, upto = joined(ways)
         heights = np.maximum(-self.cone.depth(discs[:, 2]), z)
-        self._down(float(discs[0, 0]), float(discs[0, 1]), float(heights[0]))
-        if len(discs) > 1:
-            rows = np.zeros((len(discs) - 1, 8))
-            rows[:, :2], rows[:, 2:4] = discs[:-1, :2], discs[1:, :2]
-            self._along(rows, heights[1:])
-        self._up()
+        # from each disc to the next, also from the last one of a way to the next way, where nothing goes along
+        rows = np.zeros((max(len(discs) - 1, 0), 8))
+        rows[:, :2], rows[:, 2:4] = discs[:-1, :2], discs[1:, :2]
+        feed = self._feeds(rows, heights)
+        purpose = np.full(len(rows), Purpose.CONTOUR, np.uint8)
+        for first, stop in pairwise(upto.tolist()):
+            x, y = discs[first, :2].tolist()
+            self._down(x, y, float(heights[first]))
+            if stop - first > 1:
+                own = slice(first, stop - 1)
+                self.builder.along(Stroke(rows[own], purpose[own], 0), heights[first + 1 : stop], self.label, feed[own])
+            self._up()
 
     def _ring(self, ring: Ring, z: float) -> None:
         self._down(float(ring.rows[0, 0]), float(ring.rows[0, 1]), z)
-        self._along(ring.rows, np.full(len(ring.rows), z))
+        stroke = Stroke(ring.rows, np.full(len(ring.rows), Purpose.CONTOUR, np.uint8), 0)
+        heights = np.full(len(ring.rows) + 1, z)
+        self.builder.along(stroke, heights[1:], self.label, self._feeds(ring.rows, heights))
         self._up()
 
-    def _along(self, rows: Rows, heights: Floats) -> None:
-        """Go along rows that end at heights, down no faster than a plunge."""
-        stroke = Stroke(rows, np.full(len(rows), Purpose.CONTOUR, np.uint8), 0)
-        fall = -np.diff(heights, prepend=self.builder.at[2])
+    def _feeds(self, rows: Rows, heights: Floats) -> Floats:
+        """Return the feed rate (n,) along rows between heights (n + 1,), down no faster than a plunge, mm/min."""
+        fall = heights[:-1] - heights[1:]
         size = np.hypot(np.hypot(*(rows[:, 2:4] - rows[:, :2]).T), fall)
         steep = np.maximum(fall, 0.0) / np.maximum(size, 1e-12)
         feed = np.minimum(self.label.feed, self.label.plunge_rate / np.maximum(steep, 1e-9))
-        self.builder.along(stroke, heights, self.label, np.maximum(feed, min(self.label.feed, self.label.plunge_rate)))
+        return np.maximum(feed, min(self.label.feed, self.label.plunge_rate))
 
     def _down(self, x: float, y: float, z: float) -> None:
         for height in self.levels.over(x, y):

@@ -14,7 +14,8 @@ from shapely import Geometry as Shape
 from ...core.errors import ParameterError
 from ...core.progress import NO_PROGRESS, Progress
 from ...core.wording import minutes_words
-from ...geometry.primitives import TURN, R, pack, points_at, signed_area
+from ...geometry.near_points import places_of_each
+from ...geometry.primitives import TURN, Indices, R, pack, points_at, signed_area
 from ...model.entry import Entry, EntryKind
 from ...model.part import Region
 from ...model.tool import Tool
@@ -159,7 +160,8 @@ def advise(
     }
     where = centres(pack(regions), sorted(requested), progress.part(0.3, 0.6))
     shapes = [shapely.union_all(region_shapes([region], _CHORD)) for region in regions]
-    bare = [_region(walls, found, k, number) for k, number in enumerate(numbers)]
+    own = places_of_each(walls.region, np.array(numbers))
+    bare = [_region(walls, found, k, number, rows) for k, (number, rows) in enumerate(zip(numbers, own, strict=True))]
     advised = _with_reaches(
         bare, shapes, [_ToolCentres(tool, where[tool.radius - FITS]) for tool in usable], progress.part(0.6, 0.9)
     )
@@ -199,9 +201,8 @@ def _with_reaches(
     return tuple(replace(region, reaches=tuple(row)) for region, row in zip(regions, found, strict=True))
 
 
-def _region(walls: Walls, found: RegionWidths, k: int, number: int) -> RegionAdvice:
-    """Return what the k-th region asks of its tools."""
-    rows = np.flatnonzero(walls.region == number)
+def _region(walls: Walls, found: RegionWidths, k: int, number: int, rows: Indices) -> RegionAdvice:
+    """Return what the k-th region, of some rows of the walls, asks of its tools."""
     sharpest, corner = rows[np.argmax(walls.turn[rows])], None
     if walls.turn[sharpest] > KINK:
         corner = _spot(walls.rows[sharpest, :2], math.pi - walls.turn[sharpest])
