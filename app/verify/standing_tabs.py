@@ -56,7 +56,7 @@ def cut_off_tabs(
     """
     if not part.tabs:
         return
-    across, waste = _Walls.of(part).beside(part.tabs)
+    across, waste = _TabWalls.of(part).beside(part.tabs)
     points = across - np.array(part.origin[:2])
     found = lowest(points.reshape(-1, 2))
     heights, motions = (each.reshape(len(part.tabs), _ACROSS) for each in found)
@@ -94,7 +94,7 @@ class _CutOff(NamedTuple):
         return Finding(FindingKind.TAB, text, x, y, counts, amount=self.top - self.height)
 
 
-class _BesideWalls(NamedTuple):
+class _TabPlaces(NamedTuple):
     """Of each tab places across the cut that it stands in, from one side to the other, (tabs, _ACROSS, 2) mm, part
     coordinates, and whether what it holds is waste.
     """
@@ -103,14 +103,14 @@ class _BesideWalls(NamedTuple):
     waste: NDArray[np.bool_]
 
 
-class _Walls(NamedTuple):
+class _TabWalls(NamedTuple):
     """The walls beside which tabs may be: rows (n, 8), and (n,) whether they lie round what is cut out as waste."""
 
     rows: Rows
     around: NDArray[np.bool_]
 
     @staticmethod
-    def of(part: FlatPart) -> _Walls:
+    def of(part: FlatPart) -> _TabWalls:
         """Return the walls along which operations of a part go; where nobody knows which, all of them."""
         followed = [
             area
@@ -121,16 +121,16 @@ class _Walls(NamedTuple):
         sides += [(each, False) for area in followed for region in area.regions for each in region.islands]
         sides += [(each, False) for area in followed for each in area.lines]
         rows = [within_half_turn(contour_rows(contour)) for contour, _ in sides]
-        return _Walls(np.concatenate(rows), np.repeat([around for _, around in sides], [len(each) for each in rows]))
+        return _TabWalls(np.concatenate(rows), np.repeat([around for _, around in sides], [len(each) for each in rows]))
 
-    def beside(self, tabs: Sequence[Tab]) -> _BesideWalls:
+    def beside(self, tabs: Sequence[Tab]) -> _TabPlaces:
         """Return which walls tabs are beside."""
         middles = np.array([(tab.x, tab.y) for tab in tabs])
         distances, nearest = DistanceField.of(self.rows).nearest(middles)
         rows = self.rows[nearest]
         normals = np.array([_normal(*each) for each in zip(rows, middles, distances.tolist(), strict=True)])
         along = np.linspace(-_WITHIN, _WITHIN, _ACROSS) * np.array([tab.diameter / 2 for tab in tabs])[:, None]
-        return _BesideWalls(middles[:, None] + along[:, :, None] * normals[:, None], self.around[nearest])
+        return _TabPlaces(middles[:, None] + along[:, :, None] * normals[:, None], self.around[nearest])
 
 
 def _normal(row: Floats, middle: Floats, distance: float) -> Floats:
