@@ -75,12 +75,12 @@ def curvature(rows, e, s, px, py, nx, ny):
 @kernel("boolean(float64[:, ::1], int64, float64, float64, float64)", counts=False)
 def spans(rows, s, x, y, crack):
     """Return whether the foot of a point on row s, taken as an endless curve, lies within the row, or beyond its ends
-    by no more than `crack`, mm: discs slip through cracks between rows.
+    by no more than `crack`, mm.
     """
     if rows[s, 7] == 0.0:
         dx, dy = rows[s, 2] - rows[s, 0], rows[s, 3] - rows[s, 1]
         along, square = (x - rows[s, 0]) * dx + (y - rows[s, 1]) * dy, dx * dx + dy * dy
-        slack = 1e-13 * square + crack * math.sqrt(square)
+        slack = 1e-13 * square + crack * math.sqrt(square)  # discs slip through cracks between rows
         return -slack <= along <= square + slack
     turn, vx, vy = rows[s, 7], x - rows[s, 4], y - rows[s, 5]
     ax, ay, bx, by = rows[s, 0] - rows[s, 4], rows[s, 1] - rows[s, 5], rows[s, 2] - rows[s, 4], rows[s, 3] - rows[s, 5]
