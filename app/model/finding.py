@@ -59,6 +59,7 @@ class FindingKind(Enum):
     SIZE = "size", "doubtful size"
     FEED = "feed", "plunge at full feed"
     SPINDLE = "spindle", "cut with a standing spindle"
+    TAB = "tab", "tab cut off"
     RIDGE = "ridge", "ridges between passes"
     PROGRAM = "program", "error in the program"
 

@@ -128,7 +128,7 @@ class ProofInput:
     """What an operation is proven on.
 
     Attributes:
-        program: that was written; of it only what was drawn counts. job: what was asked.
+        program: that was written; of it what was drawn counts, and what other operations cut. job: what was asked.
         index: of the operation in the job. motions: that the control makes for it, part coordinates.
     """
 

@@ -18,6 +18,7 @@ from app.geometry.outlines import nest, polygon_contour
 from app.geometry.primitives import Primitives, pack
 from app.model.curves import Arc, Circle, Line, Primitive
 from app.model.part import Contour
+from tests.part_shapes import bulged
 
 Floats = NDArray[np.float64]
 Points = list[tuple[float, float]]
@@ -210,6 +211,24 @@ def test_an_axis_without_one_piece_has_less_area() -> None:
 
 def test_an_island_between_two_walls_that_are_the_same_from_end_to_end() -> None:
     fills(packed(slot(), ring(3, 2, 0.5)))
+
+
+def rounded(width: float, height: float, short: float, angle: float) -> Contour:
+    """A rectangle, turned by an angle, whose corners are rounded but for so much of half its width."""
+    r, bulge = width / 2 - short, math.tan(math.pi / 8)
+    x, y, c, s = width / 2, height / 2, math.cos(angle), math.sin(angle)
+    quarter = [(x - r, -y, bulge), (x, r - y, 0.0), (x, y - r, bulge), (x - r, y, 0.0)]
+    points = quarter + [(-u, -v, b) for u, v, b in quarter]
+    return bulged([(c * u - s * v, s * u + c * v, b) for u, v, b in points])
+
+
+@pytest.mark.parametrize("width", [5.0, 6.35, 10.0])
+@pytest.mark.parametrize("angle", [0.3, 1.0])
+@pytest.mark.parametrize("short", [1e-4, 1e-5])
+def test_a_slot_with_a_trace_of_a_straight_end_has_its_axis(width: float, angle: float, short: float) -> None:
+    """Rows that go on smoothly are rounded, and so apart by less than anybody sees: nothing slips through between."""
+    axis = axis_of(rounded(width, 20.0, short, angle))
+    assert greatest(axis) == pytest.approx(width / 2, abs=1e-6)
 
 
 def test_a_letter_whose_last_pieces_are_tiny_is_added_up_in_no_time() -> None:

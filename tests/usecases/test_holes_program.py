@@ -267,6 +267,36 @@ def test_a_tap_that_stays_short_of_its_depth_or_of_its_way_through_is_found(thro
     assert report_of(short)["operations"][1]["cut_thread"]["bare_mm"] == pytest.approx(0.25)
 
 
+BORED = '[[operation]]\nkind = "bore"\ntool = 1\nleast = 6\nmost = 6\n'
+
+
+@pytest.mark.parametrize(("thread", "operation"), [(THREAD, 1), (TAP, 1)], ids=["milled", "tapped"])
+@pytest.mark.parametrize(
+    ("other", "left", "counts"),
+    [("diameter = 10\ndepth = 3\n", 3.0, False), ("diameter = 7\ndepth = 10\n", 0.0, True)],
+    ids=["counterbored", "bored away"],
+)
+def test_what_other_operations_take_of_a_thread_is_told(
+    thread: str, operation: int, other: str, left: float, counts: bool
+) -> None:
+    """Behind it, where nothing that is looked at before it is threaded could tell."""
+    made = made_of(thread + BORED + other)
+    (told,) = [each for each in made.findings if each.text.startswith("Of the ")]
+    depth = made.job.operations[operation].cut.depth
+    assert told.counts == counts and "the worst of 2 threads" in told.text
+    assert f"{depth - left if not counts else 0:.3f} mm stand" in told.text
+    assert report_of(made)["operations"][operation]["cut_thread"]["cut_away_mm"] == pytest.approx(left or depth)
+
+
+def test_a_slot_that_crosses_a_thread_is_told_and_a_countersink_is_not() -> None:
+    slot = '[[operation]]\nkind = "slot"\ntool = 1\ndepth = 4\ncurves = ["open"]\n'
+    made = made_of(THREAD + slot, PLATE + "line 15,24 15,34\n")
+    (told,) = [each for each in made.findings if each.text.startswith("Of the ")]
+    assert not told.counts and "take 4.000 mm on a part of the way round" in told.text
+    sunk = made_of(THREAD + '[[operation]]\nkind = "countersink"\ntool = 4\ndiameter = 6.6\nleast = 6\nmost = 6\n')
+    assert sunk.clean and not [each for each in sunk.findings if each.text.startswith("Of the ")]
+
+
 def test_a_thread_on_a_boss() -> None:
     pocket = '[[operation]]\nkind = "pocket"\ntool = 1\ndepth = 9\n'
     thread = '[[operation]]\nkind = "thread"\ntool = 6\ndepth = 8\nthread = "M16"\nexternal = true\n'

@@ -231,6 +231,13 @@ def test_it_stops_short_of_the_metal_behind_the_end_of_a_line() -> None:
     assert np.hypot(short.x - begin[0], short.y - begin[1]) < 0.1
 
 
+def test_it_stops_short_of_the_metal_behind_another_line_that_is_near_its_end() -> None:
+    """At an end the chamfer takes off some of the metal behind its own line: of that behind another one nothing."""
+    made = made_of("polyline 7.79,7.35 3.32,7.16 -2.1,11.61\nline -4.6,9.75 -1.46,10.74\n", "right")
+    assert not [each for each in made.findings if each.kind is FindingKind.GOUGE]
+    assert [each for each in made.findings if each.kind is FindingKind.LEFT_OUT and "stops short" in each.text]
+
+
 def test_of_a_way_into_a_corner_the_part_that_keeps_off_is_cut() -> None:
     """In a wedge that is 0.5 mm wide at the end of its short edge the cone goes as far as that lets it."""
     made = made_of("polyline 20,0 0,0 8,0.5\n", "right")

@@ -40,6 +40,12 @@ _AREA = 1e-6
 _FIELD = 1e-6
 """mm; what the distance field may differ by from a radius, a thousandth of what a path may."""
 
+_CRACKS = (0.0, 1e-8, 1e-6)
+"""mm by which rows are taken as longer at both ends, tried in turn until the axis is proven right: where rows that were
+rounded go on smoothly, a disc that touches both, as an arc's own does, slips through between them. As much as a radius
+may be off.
+"""
+
 _PROBES = np.array([0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98])
 """Shares of a piece of the axis at which its discs are held against the walls."""
 
@@ -149,14 +155,27 @@ def _axis_of(region: _RegionRows, number: int, alike: dict[Hashable, list[_Known
 
 
 def _found(region: _RegionRows, number: int) -> MedialAxis:
+    """Return the axis of a region by the narrowest cracks with which it is proven.
+
+    Raises:
+        GeometryError: it is with none; names a place.
+    """
+    for crack in _CRACKS[:-1]:
+        try:
+            return _by_cells(region, number, crack)
+        except GeometryError:
+            continue
+    return _by_cells(region, number, _CRACKS[-1])
+
+
+def _by_cells(region: _RegionRows, number: int, crack: float) -> MedialAxis:
     rows, links, middle = region
     angles, turns = np.empty((2 * len(rows), 2)), np.empty(len(rows))
     offset_kernels.element_angles(rows, links[0], angles)
     cell_kernels.vertex_turns(rows, links, turns)
     contours, firsts = _contours(links[1])
-    pieces, failed = cell_kernels.cells(
-        rows, np.ascontiguousarray(boxes(rows)), angles, turns, links, contours, np.ascontiguousarray(rows[firsts, :2])
-    )
+    around, places = np.ascontiguousarray(boxes(rows)), np.ascontiguousarray(rows[firsts, :2])
+    pieces, failed = cell_kernels.cells(rows, around, angles, turns, links, crack, contours, places)
     axis = MedialAxis(number, rows, angles, pieces, middle)
     if failed or not _adds_up(axis):
         raise _unproven(axis)

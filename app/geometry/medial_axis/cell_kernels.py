@@ -28,8 +28,8 @@ def vertex_turns(rows, links, turns):
         turns[i] = vertex_turn(rows, links[0, i], i)
 
 
-@kernel(f"Tuple((int64, float64))({_GIVEN}, int64, float64, int64, int64)", counts=False)
-def largest_disc(rows, boxes, angles, turns, links, e, u, hint, other):
+@kernel(f"Tuple((int64, float64))({_GIVEN}, float64, int64, float64, int64, int64)", counts=False)
+def largest_disc(rows, boxes, angles, turns, links, crack, e, u, hint, other):
     """Return (site, curvature) of the largest empty disc that touches element e at u; site -1 where nothing bounds it.
 
     All discs at a foot lie one in the other, so rows that are clear of one can never matter again; two hints (or -1)
@@ -57,7 +57,7 @@ def largest_disc(rows, boxes, angles, turns, links, e, u, hint, other):
             own_joint = e < n and (
                 (k == links[0, e] and turns[e] <= 0.0) or (k == links[1, e] and turns[links[1, e]] <= 0.0)
             )
-            if v > best and not (v > 1e10 and own_joint) and spans(rows, k, px + nx / v, py + ny / v):
+            if v > best and not (v > 1e10 and own_joint) and spans(rows, k, px + nx / v, py + ny / v, crack):
                 best, site = v, k
                 x, y, radius = px + nx / v, py + ny / v, 1.0 / v
         for i in (k, links[1, k]):
@@ -130,8 +130,8 @@ def _change(rows, angles, e, a, b, vertex, low, high, at_low, at_high):
     return low, high, 0.5 * (low + high)
 
 
-@kernel(f"UniTuple(float64, 3)({_GIVEN}, int64, int64, int64, float64, float64)", counts=False)
-def _divide(rows, boxes, angles, turns, links, e, a, b, low, high):
+@kernel(f"UniTuple(float64, 3)({_GIVEN}, float64, int64, int64, int64, float64, float64)", counts=False)
+def _divide(rows, boxes, angles, turns, links, crack, e, a, b, low, high):
     """Return (fraction, site before it, site behind it) at which a part with different sites at its ends is divided."""
     vertex = common_vertex(links, len(rows), a, b)
     if vertex >= 0 and turns[vertex] >= SMOOTH:
@@ -145,7 +145,7 @@ def _divide(rows, boxes, angles, turns, links, e, a, b, low, high):
     changes = first >= 0.0 and last <= 0.0 and first - last > 0.0
     if changes:
         lower, upper, middle = _change(rows, angles, e, a, b, vertex, low, high, first, last)
-    site, k = largest_disc(rows, boxes, angles, turns, links, e, middle, a, b)
+    site, k = largest_disc(rows, boxes, angles, turns, links, crack, e, middle, a, b)
     if changes and upper - lower < 1e-9:
         px, py, nx, ny = foot(rows, angles, e, middle)
         known = max(curvature(rows, e, a, px, py, nx, ny), curvature(rows, e, b, px, py, nx, ny))
@@ -155,14 +155,14 @@ def _divide(rows, boxes, angles, turns, links, e, a, b, low, high):
             middle = low  # curves as they are extended meet there, they themselves do not
     if middle <= low or middle >= high:
         middle = 0.5 * (low + high)
-        site, k = largest_disc(rows, boxes, angles, turns, links, e, middle, a, b)
+        site, k = largest_disc(rows, boxes, angles, turns, links, crack, e, middle, a, b)
     return middle, site, site
 
 
-@kernel(f"Tuple((float64[:, ::1], int64))({_GIVEN}, int64[::1], float64[:, ::1])")
-def cells(rows, boxes, angles, turns, links, contours, places):
+@kernel(f"Tuple((float64[:, ::1], int64))({_GIVEN}, float64, int64[::1], float64[:, ::1])")
+def cells(rows, boxes, angles, turns, links, crack, contours, places):
     """Return the pieces (m, 4) of all cells: element, site, from and to as fractions of the element; and how many
-    elements could not be done.
+    elements could not be done. Rows are taken as longer by a `crack`, mm, at both ends.
     """
     n, count, failed = len(rows), 0, 0
     pieces, waiting = np.empty((16 * n + 64, 4)), np.empty((_DEEPEST + 2, 4))
@@ -172,11 +172,11 @@ def cells(rows, boxes, angles, turns, links, contours, places):
         if e < n and turns[e] >= SMOOTH:
             a = links[0, e]
         else:
-            a, _ = largest_disc(rows, boxes, angles, turns, links, e, _EDGE, -1, -1)
+            a, _ = largest_disc(rows, boxes, angles, turns, links, crack, e, _EDGE, -1, -1)
         if e < n and turns[links[1, e]] >= SMOOTH:
             b = links[1, e]
         else:
-            b, _ = largest_disc(rows, boxes, angles, turns, links, e, 1.0 - _EDGE, a, -1)
+            b, _ = largest_disc(rows, boxes, angles, turns, links, crack, e, 1.0 - _EDGE, a, -1)
         waiting[0, 0], waiting[0, 1], waiting[0, 2], waiting[0, 3] = 0.0, a, 1.0, b
         top = 1
         while top > 0:
@@ -196,10 +196,10 @@ def cells(rows, boxes, angles, turns, links, contours, places):
                     pieces[count, 0], pieces[count, 1], pieces[count, 2], pieces[count, 3] = e, a, low, high
                     count += 1
                     continue
-                before, _ = largest_disc(rows, boxes, angles, turns, links, e, middle, a, -1)
+                before, _ = largest_disc(rows, boxes, angles, turns, links, crack, e, middle, a, -1)
                 behind = before
             else:
-                middle, p, q = _divide(rows, boxes, angles, turns, links, e, a, b, low, high)
+                middle, p, q = _divide(rows, boxes, angles, turns, links, crack, e, a, b, low, high)
                 before, behind = int(p), int(q)
             if middle < high:
                 waiting[top, 0], waiting[top, 1], waiting[top, 2], waiting[top, 3] = middle, behind, high, b

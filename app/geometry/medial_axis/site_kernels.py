@@ -72,16 +72,19 @@ def curvature(rows, e, s, px, py, nx, ny):
     return over / under
 
 
-@kernel("boolean(float64[:, ::1], int64, float64, float64)", counts=False)
-def spans(rows, s, x, y):
-    """Return whether the foot of a point on row s, taken as an endless curve, lies within the row."""
+@kernel("boolean(float64[:, ::1], int64, float64, float64, float64)", counts=False)
+def spans(rows, s, x, y, crack):
+    """Return whether the foot of a point on row s, taken as an endless curve, lies within the row, or beyond its ends
+    by no more than `crack`, mm.
+    """
     if rows[s, 7] == 0.0:
         dx, dy = rows[s, 2] - rows[s, 0], rows[s, 3] - rows[s, 1]
         along, square = (x - rows[s, 0]) * dx + (y - rows[s, 1]) * dy, dx * dx + dy * dy
-        return -1e-13 * square <= along <= square * (1.0 + 1e-13)  # discs slip through cracks between rows
+        slack = 1e-13 * square + crack * math.sqrt(square)  # discs slip through cracks between rows
+        return -slack <= along <= square + slack
     turn, vx, vy = rows[s, 7], x - rows[s, 4], y - rows[s, 5]
     ax, ay, bx, by = rows[s, 0] - rows[s, 4], rows[s, 1] - rows[s, 5], rows[s, 2] - rows[s, 4], rows[s, 3] - rows[s, 5]
-    slack = -1e-13 * rows[s, 6] * (abs(vx) + abs(vy))
+    slack = -(1e-13 * rows[s, 6] + crack) * (abs(vx) + abs(vy))
     return turn * (ax * vy - ay * vx) >= slack and turn * (vx * by - vy * bx) >= slack
 
 
@@ -95,7 +98,7 @@ def touches(rows, angles, e, s, u):
     if k <= 0.0:
         return False
     x, y = px + nx / k, py + ny / k
-    if spans(rows, s, x, y):
+    if spans(rows, s, x, y, 0.0):
         return True
     if rows[s, 7] == 0.0:
         dx, dy = rows[s, 2] - rows[s, 0], rows[s, 3] - rows[s, 1]

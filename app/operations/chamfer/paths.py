@@ -17,7 +17,6 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
@@ -49,6 +48,8 @@ _SAME = 1e-9
 _BEYOND = 1e-3
 """mm of the metal behind the end of a line, more than the chamfer is wide, that the cutter need not keep off: more than
 a circle of 64 chords a quarter lacks."""
+_STRAIGHT = 1e-6
+"""Radians by which rows of one straight edge may turn."""
 _DENSE = 0.01
 """mm between the cones of a way into a corner, of which a part is left out: between two of them a wall comes nearer by
 less than 0.1 um.
@@ -215,17 +216,44 @@ def _behind_lines(area: MachiningArea, operation: ChamferOperation) -> Rows:
     """Return the straight rows that bound the metal behind open lines, but for what a chamfer takes off at their ends.
 
     A cutter that keeps off the rest by as much as it is wide on the top takes no more off there than the chamfer does,
-    by the triangle's inequality.
+    by the triangle's inequality. Only the edge that begins at an end is its own: what else is as near is the metal
+    behind another line.
     """
     if not operation.takes_open:
         return _rows([])
     rows, before = area.primitives.rows, area.primitives.previous
-    ends = shapely.multipoints(rows[area.bare != area.bare[before], :2])
-    straight = rows[area.bare & (rows[:, TURN] == 0)]
-    lines = shapely.linestrings(straight[:, :4].reshape(-1, 2, 2))
-    left = shapely.get_parts(shapely.difference(lines, shapely.buffer(ends, operation.width + _BEYOND, quad_segs=64)))
-    kept = [shapely.get_coordinates(each).tolist() for each in left.tolist() if each.length > _WELD]
-    return _rows([Contour((Line(tuple(a), tuple(b)),), False) for a, b in kept])
+    lengths_of, straight = lengths(rows), area.bare & (rows[:, TURN] == 0)
+    taken = np.zeros((len(rows), 2))  # of each row, mm, at its beginning and at its end
+    following = np.argsort(before)
+    for k in np.flatnonzero(area.bare != area.bare[before]).tolist():
+        ahead = bool(area.bare[k])
+        for row, much in _edge_at(
+            k if ahead else int(before[k]), following if ahead else before, rows, operation.width
+        ):
+            taken[row, 0 if ahead else 1] = much
+    shares = taken / np.maximum(lengths_of, _WELD)[:, None]
+    left = np.flatnonzero(straight & (lengths_of - taken.sum(axis=1) > _WELD))
+    starts, ends = points_at(rows[left], shares[left, 0]), points_at(rows[left], 1 - shares[left, 1])
+    return _rows(
+        [Contour((Line(tuple(a), tuple(b)),), False) for a, b in zip(starts.tolist(), ends.tolist(), strict=True)]
+    )
+
+
+def _edge_at(row: int, links: NDArray[np.int64], rows: Rows, width: float) -> Iterator[tuple[int, float]]:
+    """Yield the straight rows of the edge that begins with one, and how much of each, mm, a chamfer of a width takes
+    off.
+
+    Args:
+        links: from each row to the next one on the edge.
+    """
+    first, left = rows[row, 2:4] - rows[row, :2], width + _BEYOND
+    while left > 0 and rows[row, TURN] == 0:
+        way = rows[row, 2:4] - rows[row, :2]
+        long = float(np.hypot(*way))
+        if abs(first[0] * way[1] - first[1] * way[0]) > _STRAIGHT * long * np.hypot(*first):
+            return
+        yield row, min(long, left)
+        row, left = int(links[row]), left - long
 
 
 def _beside(

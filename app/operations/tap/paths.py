@@ -27,7 +27,7 @@ from ..holes import (
     thread_findings,
 )
 from ..registry import ProofInput
-from ..thread_proof import ThreadProof
+from ..thread_proof import ThreadProof, thread_loss
 
 VERB = HoleVerb("tap", "taps", "tapped", "tap", "narrower than the thread's core")
 
@@ -105,4 +105,6 @@ def tapped_proof(evidence: ProofInput) -> ThreadProof | None:
     start, end = motions.start[:, 2], motions.end[:, 2]
     bottoms = end[own & (end < start)]
     bare = max(0.0, float((bottoms + floor).max(initial=-np.inf)))
-    return ThreadProof(operation.thread, len(bottoms), float(off.max(initial=0.0)), bare_mm=bare)
+    axes = sorted(set(map(tuple, motions.end[own & (end < start), :2].tolist())))
+    loss = thread_loss(evidence, axes, operation.thread) if axes else None
+    return ThreadProof(operation.thread, len(bottoms), float(off.max(initial=0.0)), bare_mm=bare, others=loss)

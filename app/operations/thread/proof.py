@@ -16,7 +16,7 @@ from ...model.hole_operations import ThreadOperation
 from ...model.motion import Floats, MotionKind
 from ...model.thread_sizes import ThreadSize
 from ..registry import ProofInput
-from ..thread_proof import ThreadProof
+from ..thread_proof import ThreadProof, thread_loss
 
 _ABOUT = 5e-3
 """mm; an arc whose centre is this near to a hole's axis goes round it."""
@@ -53,7 +53,7 @@ def milled_proof(evidence: ProofInput) -> ThreadProof | None:
                 diameter, place = off, (x, y)
         teeth = max(1, math.floor(tool.flute_length / thread.pitch + 1e-9))
         bare = max(bare, _bare(np.sort([a[:, 2], b[:, 2]], axis=0), operation.cut.depth, thread.pitch, teeth))
-    return ThreadProof(thread, len(axes), lead, diameter, bare, *place)
+    return ThreadProof(thread, len(axes), lead, diameter, bare, *place, thread_loss(evidence, axes, thread))
 
 
 def _pitch_diameter_off(thread: ThreadSize, radius: float, way: float, external: bool) -> float:

@@ -29,6 +29,7 @@ _RED = (
     FindingKind.START_IN_STOCK,
     FindingKind.PLUNGE,
     FindingKind.SPINDLE,
+    FindingKind.TAB,
     FindingKind.HOLDER_CONTACT,
     FindingKind.SHANK_CONTACT,
     FindingKind.BELOW_TABLE,

@@ -33,6 +33,7 @@ from ...verify.judge import HeightBounds, JudgementInput, bounded, certify, judg
 from ...verify.judgement import Judgement, findings_of
 from ...verify.parts import FlatPart, SolidPart, beyond, doubtful_size
 from ...verify.standing_spindle import fed_standing, standing_cut
+from ...verify.standing_tabs import cut_off_tabs
 from ...verify.wall_probe import WallProbe, unseen_walls
 from .setup import CELLS, CutOptions, CutSetup
 
@@ -117,6 +118,8 @@ def _findings(context: CutContext, done: CutOutcome, judgement: Judgement | None
         yield from doubtful_size(setup.part, _fed_box(context))
     if judgement is not None:
         yield from findings_of(judgement, setup.where)
+    if isinstance(setup.part, FlatPart) and options.judge:
+        yield from cut_off_tabs(setup.part, context.lowest, setup.where)
     if isinstance(setup.part, SolidPart) and context.closely:
         yield from unseen_walls(setup.part, context.workpiece.grid.pitch)
     yield from _fallen_back(done.engine_report, options.engine)

@@ -1,0 +1,68 @@
+"""Tabs that one operation leaves and another one cuts off are told."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from app.api import (
+    ContourOperation,
+    CutParameters,
+    Job,
+    OriginXY,
+    OriginZ,
+    PocketOperation,
+    Side,
+    Stock,
+    Tool,
+    make,
+    read_selectors,
+)
+from app.model.entry import Tabs
+from app.model.finding import Finding, FindingKind
+from app.model.operation import Operation
+from app.model.part import Contour
+from tests.part_shapes import circle, layered_part, square
+
+TOOLS = (Tool(1, 6.0), Tool(2, 3.0))
+OUTER = ContourOperation(CutParameters(1, 4.0, 4.0), Side.OUTSIDE, tabs=Tabs(3, 5.0, 1.0))
+FINISH = replace(OUTER, cut=CutParameters(2, 4.0, 4.0), tabs=Tabs())
+
+
+def cut_off(contours: list[Contour], operations: tuple[Operation, ...]) -> list[Finding]:
+    """What is said of tabs that do not stand."""
+    made = make(Job(layered_part({"a": contours}), TOOLS, operations, Stock(margin=12.0, thickness=4.0)))
+    return [each for each in made.findings if each.kind is FindingKind.TAB]
+
+
+@pytest.mark.parametrize(("first", "then"), [(OUTER, FINISH), (FINISH, OUTER)], ids=["after", "before"])
+def test_another_contour_without_tabs_cuts_them_off(first: Operation, then: Operation) -> None:
+    (told,) = cut_off([square(40.0)], (first, then))
+    assert told.counts and told.amount == pytest.approx(1.0)
+    assert told.text.startswith("3 tabs do not stand") and "its top is at Z -3.000" in told.text
+    assert "cuts down to Z -4.000 across it" in told.text
+
+
+def test_what_goes_over_the_same_tabs_leaves_them() -> None:
+    places = replace(OUTER, tabs=Tabs(0, 5.0, 1.0, ((20.0, 0.0), (20.0, 40.0))))
+    assert not cut_off([square(40.0)], (OUTER,))
+    assert not cut_off([square(40.0)], (places, replace(places, cut=FINISH.cut)))
+
+
+def test_a_pocket_that_crosses_a_tab_cuts_it_off_wherever_the_zero_is() -> None:
+    part, notch = read_selectors(["layer:a"]), read_selectors(["layer:b"])
+    contour = replace(OUTER, tabs=Tabs(0, 5.0, 1.0, ((20.0, 0.0),)), cut=replace(OUTER.cut, curves=part))
+    pocket = PocketOperation(CutParameters(2, 3.5, 3.5, curves=notch))
+    stock = Stock(margin=12.0, thickness=4.0)
+    drawn = layered_part({"a": [square(40.0)], "b": [square(12.0, 14.0, -10.0)]})
+    job = Job(drawn, TOOLS, (contour, pocket), stock, OriginXY.CENTRE, OriginZ.BOTTOM)
+    (told,) = [each for each in make(job).findings if each.kind is FindingKind.TAB]
+    assert told.counts and (told.x, told.y) == pytest.approx((20.0, -3.0))
+    assert "its top is at Z 1.000" in told.text and "cuts down to Z 0.500" in told.text
+
+
+def test_what_tabs_within_a_contour_hold_is_waste() -> None:
+    inner = replace(OUTER, side=Side.INSIDE)
+    (told,) = cut_off([circle(20.0)], (inner, PocketOperation(CutParameters(1, 4.0, 4.0))))
+    assert not told.counts
