@@ -26,6 +26,7 @@ from .foreign_codes import (
     obey_macro,
     stop_at_alarm,
     warn_behind_percent,
+    warn_of_dwells,
     warn_of_numbers,
     warn_of_uncalled,
 )
@@ -153,6 +154,7 @@ class InterpreterRun:
             control.compensation.spill(control.columns)
         self._warn_of_start()
         self._warn_of_tools()
+        warn_of_dwells(control)
         warnings = [
             ProgramProblem(line, 0, letter.upper(), text, Severity.WARNING)
             for text, (letter, line) in control.warnings.items()
