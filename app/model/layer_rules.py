@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from ..core.errors import ParameterError
+from .layer_names import typed_name
 from .operation import Operation
 from .part import Layer
 from .told_length import UNIT, size_of
@@ -71,7 +72,8 @@ class LayerRule:
     def takes(self, layer: Layer) -> bool:
         """Tell whether it is of a layer."""
         colour = COLOURS.get(self.colour.lower(), self.colour.lower())
-        return fnmatchcase(layer.name.casefold(), self.name.casefold()) and colour in ("", layer.colour.lower())
+        named = any(fnmatchcase(layer.name.casefold(), name.casefold()) for name in (self.name, typed_name(self.name)))
+        return named and colour in ("", layer.colour.lower())
 
 
 def depth_in(name: str) -> float | None:
