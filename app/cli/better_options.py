@@ -10,6 +10,7 @@ from ..gcode.posts import load_post, post_names
 from ..usecases.better.result import BetterOptions
 from ..usecases.examine import CONTROLS
 from ..usecases.smoothing.result import OutputForm
+from .check_options import add_program_units, program_units
 from .command import OptionParser, number
 from .setup_options import add_setup_options
 
@@ -59,6 +60,7 @@ def add_better_options(parser: OptionParser) -> None:
     add_setup_options(parser)
     parser.add_argument("--post", metavar="NAME", choices=post_names(), help="whose words the new program has")
     parser.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
+    add_program_units(parser)
     parser.add_argument("--scene", metavar="OUT.toml", type=Path, help="the smooth surface and its passes as a scene")
     parser.add_argument(
         "--image", metavar="OUT.png", type=Path, help="both cuts beside one another in a low light that shows facets"
@@ -78,4 +80,5 @@ def better_options(arguments: argparse.Namespace) -> BetterOptions:
         OutputForm(arguments.form),
         post=arguments.post,
         dialect=Dialect(arguments.dialect) if arguments.dialect else None,
+        units=program_units(arguments),
     )

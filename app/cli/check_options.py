@@ -9,6 +9,7 @@ from pathlib import Path
 from ..core.errors import InputError
 from ..core.input_file import read_input
 from ..gcode.interpreter.dialect import Dialect
+from ..gcode.interpreter.foreign_codes import names_units
 from ..gcode.interpreter.options import ToolOffset
 from ..model.part import Units
 from ..usecases.examine import CONTROLS, ExamineOptions
@@ -25,6 +26,25 @@ taken off.
 _UNITS = {"mm": Units.MM, "in": Units.INCH}
 
 
+def add_program_units(parser: OptionParser) -> None:
+    """Add `--units`, of a program that names none."""
+    parser.add_argument(
+        "--units", choices=list(_UNITS), help="of the lengths in a program that names none, by G20 or G21 (default mm)"
+    )
+
+
+def program_units(arguments: argparse.Namespace) -> Units | None:
+    """Return what `--units` says; None where it is not given."""
+    return _UNITS.get(arguments.units)
+
+
+def units_taken(arguments: argparse.Namespace, data: bytes) -> list[str]:
+    """Return a line about the units of a program, where neither it nor anybody says them."""
+    if arguments.units or names_units(data):
+        return []
+    return ["  it names no units (G20, G21), and mm are taken; say --units in if it is in inches"]
+
+
 def add_check_options(parser: OptionParser) -> None:
     """Add the options of `hitofude check`."""
     parser.add_argument("program", metavar="PROGRAM.ngc", type=Path, help="the NC program")
@@ -39,9 +59,7 @@ def add_check_options(parser: OptionParser) -> None:
         default="on",
         help="leave out the blocks that begin with a slash, or do them (default on)",
     )
-    parser.add_argument(
-        "--units", choices=list(_UNITS), help="of the lengths in a program that names none, by G20 or G21 (default mm)"
-    )
+    add_program_units(parser)
     parser.add_argument("--machine", metavar="NAME|FILE", type=typed(machine_named), help=MACHINE_HELP)
     parser.add_argument("--compare", metavar="OTHER.ngc", type=Path, help="another program: where its motion differs")
     parser.add_argument(
@@ -78,9 +96,7 @@ def examine_options(arguments: argparse.Namespace) -> ExamineOptions:
     """Return how the program is to be looked at, the control's tool table read."""
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
     offsets = _offsets(arguments.tools, arguments.tool_units)
-    return ExamineOptions(
-        dialect, offsets, arguments.machine, arguments.block_delete == "on", _UNITS.get(arguments.units)
-    )
+    return ExamineOptions(dialect, offsets, arguments.machine, arguments.block_delete == "on", program_units(arguments))
 
 
 def _offsets(path: Path | None, units: str) -> Mapping[int, ToolOffset]:

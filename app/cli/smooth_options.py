@@ -12,6 +12,7 @@ from ..fitting.point_curves.region_profile import RegionProfile, profile_of_form
 from ..gcode.interpreter.dialect import Dialect
 from ..gcode.posts import Post, load_post
 from ..usecases.smoothing.result import OutputForm, SmoothOptions
+from .check_options import add_program_units, program_units
 from .command import OptionParser, number, typed
 from .effective_options import add_effective_options, effective_method
 
@@ -96,7 +97,7 @@ def _bend_options(parser: OptionParser) -> None:
 
 
 def _control_options(parser: OptionParser) -> None:
-    """Add which control the program is for, and which one the new program."""
+    """Add which control the program is for, and which one the new program, and what units it has."""
     parser.add_argument(
         "--post",
         metavar="NAME",
@@ -108,6 +109,7 @@ def _control_options(parser: OptionParser) -> None:
         choices=[dialect.value for dialect in Dialect],
         help="the control that the program is for (default: as the text looks)",
     )
+    add_program_units(parser)
 
 
 def _region(text: str) -> float | RegionProfile | None:
@@ -163,6 +165,7 @@ def smooth_options(arguments: argparse.Namespace) -> SmoothOptions:
         arguments.bend,
         arguments.insist,
         profile,
+        program_units(arguments),
     )
 
 

@@ -318,7 +318,7 @@ def _alike(parts: tuple[Any, ...], values: list[Any]) -> bool:
         return all(type(value) is int for value in values)
     if parts == (float, ...):
         return all(type(value) in (int, float) for value in values)
-    return len(parts) == len(values) and all(type(value) in (int, float) for value in values)
+    return parts[1:] != (...,) and len(parts) == len(values) and all(type(value) in (int, float) for value in values)
 
 
 def _in_range(value: float, at: _KeyPlace, ranges: Mapping[str, Range]) -> float:

@@ -19,6 +19,7 @@ from ..geometry.chaining.pieces import FARTHEST, straightened, within_reach
 from ..geometry.sample import bounds, bounds_of_all
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from ..model.finding import Finding, FindingKind
+from ..model.layer_names import known_layer, known_layers
 from ..model.notes import Mark
 from ..model.part import Entity, Part, Units
 from ..model.reading import ReadingOptions
@@ -158,7 +159,7 @@ def size_of(part: Part, layers: tuple[str, ...] = ()) -> Size:
     """Return width and height of what is machined of a part, mm: what is on some layers, or else on all that are
     shown.
     """
-    requested = {layer.casefold() for layer in layers} or {
+    requested = known_layers(layers, [layer.name for layer in part.layers]) or {
         layer.name.casefold() for layer in part.layers if layer.visible
     }
     box = bounds_of_all(entity.curve for entity in part.entities if entity.layer.casefold() in requested)
@@ -249,13 +250,13 @@ def on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:
     """
     if not layers:
         return part
-    known = {layer.name.casefold() for layer in part.layers}
-    missing = [layer for layer in layers if layer.casefold() not in known]
+    known = [layer.name for layer in part.layers]
+    missing = [layer for layer in layers if known_layer(layer, known) is None]
     if missing:
         raise InputError(
             f"{name}: there is no layer {missing[0]}; the drawing has {', '.join(layer.name for layer in part.layers)}."
         )
-    requested = {layer.casefold() for layer in layers}
+    requested = known_layers(layers, known)
     kept = tuple(entity for entity in part.entities if entity.layer.casefold() in requested)
     notes = tuple(note for note in part.notes if note.layer.casefold() in requested)
     if not kept and not any(isinstance(each.shape, Mark) for each in notes):

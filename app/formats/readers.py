@@ -8,6 +8,7 @@ from pathlib import PurePath
 from ..core.errors import InputError
 from ..core.options import option
 from ..core.wording import together
+from ..model.layer_names import known_layer, known_layers
 from ..model.part import Units
 from ..model.read_options import AS_DRAWN, OPTION_OF, DrawingOptions
 from ..model.reading import ReadingOptions
@@ -122,9 +123,10 @@ def _without_layers(drawing: Drawing, how: DrawingOptions, name: str) -> Drawing
     layers = how.without_layers
     if not layers:
         return drawing
-    part, gone = drawing.part, {layer.casefold() for layer in layers}
-    there = {layer.name.casefold() for layer in part.layers}
-    missing = [layer for layer in layers if layer.casefold() not in there]
+    part = drawing.part
+    there = [layer.name for layer in part.layers]
+    missing = [layer for layer in layers if known_layer(layer, there) is None]
+    gone = known_layers(layers, there)
     if missing and not how.lenient:
         raise InputError(
             f"{name}: there is no layer {missing[0]} to leave out; the drawing has "

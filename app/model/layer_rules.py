@@ -8,6 +8,7 @@ from fnmatch import fnmatchcase
 
 from ..core.errors import ParameterError
 from .drawn_depths import UNIT, size_of
+from .layer_names import typed_name
 from .operation import Operation
 from .part import Layer
 
@@ -68,7 +69,8 @@ class LayerRule:
     def takes(self, layer: Layer) -> bool:
         """Tell whether it is of a layer."""
         colour = COLOURS.get(self.colour.lower(), self.colour.lower())
-        return fnmatchcase(layer.name.casefold(), self.name.casefold()) and colour in ("", layer.colour.lower())
+        named = any(fnmatchcase(layer.name.casefold(), name.casefold()) for name in (self.name, typed_name(self.name)))
+        return named and colour in ("", layer.colour.lower())
 
 
 def depth_in(name: str) -> float | None:

@@ -17,6 +17,7 @@ from app.gcode.interpreter.program import EventKind, NcProgram
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind
 from app.model.motion_path import arc_paths
+from app.model.part import Units
 from tests.fitting.test_tube import off_chords
 
 HEAD = "G21 G90 G17 G94 G40 G49 G80\nT1 M6\nS8000 M3\nG0 X50 Y0\nG0 Z2\nG1 Z-1 F200\n"
@@ -48,6 +49,17 @@ def assert_paths_near(before: NcProgram, after: NcProgram, limit: float) -> None
     new = np.vstack([old[:1], *places])
     assert off_chords(new, old).max() <= limit + 1e-9
     assert off_chords(old, new).max() <= limit + 50 * (1 - math.cos(2 * math.pi / 64 / 2))
+
+
+def test_a_program_that_names_no_units_is_in_inches_as_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    unnamed = (HEAD + ring(radius=2.0)).replace("G21 ", "").replace("X50", "X2") + TAIL
+    text, report = smoothed(tmp_path, unnamed, "--tolerance", "0.01", "--units", "in")
+    assert report["tolerance"]["proven_mm"] <= 0.01  # type: ignore[index]
+    after = read_program(text.encode(), ReadOptions(units=Units.INCH))
+    inch = read_program(("G20\n" + unnamed).encode())
+    assert_paths_near(inch, after, 0.01)
+    assert main(["smooth", str(tmp_path / "in.ngc"), "-o", str(tmp_path / "out.ngc")]) == 0
+    assert "it names no units (G20, G21), and mm are taken; say --units in" in capsys.readouterr().out
 
 
 def test_a_ring_of_chords_becomes_two_arcs_and_all_else_stays(tmp_path: Path) -> None:

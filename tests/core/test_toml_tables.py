@@ -117,6 +117,10 @@ def test_one_of_several_tables_is_told_by_its_kind(value: Drawer) -> None:
             r"^a\.toml:3: shape\.radii is \[1, 'a'\]; expected is a list of numbers\.$",
         ),
         (
+            "[shape]\nkind = 'ring'\nradii = []\nholes = [1, 2]",
+            r"^a\.toml:4: shape\.holes is 1; expected is a table with radius\.$",
+        ),
+        (
             "\nshape = { kind = 'disc', size = 1 }",
             r"^a\.toml:2: shape\.size is not known; expected are kind, radius\.$",
         ),

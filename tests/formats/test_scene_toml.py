@@ -272,6 +272,11 @@ MISTAKES = (
         "centre = [0, 0]",
         r"15: surface\[1\]\.shape\.centre is \[0, 0\]; expected is a list of 3 numbers\.$",
     ),
+    (
+        "[[0, 0], [1, 0]]",
+        "[1, 2]",
+        r"23: surface\[2\]\.shape\.sections\[1\]\.points is 1; expected is a list of numbers\.$",
+    ),
     ("[[0, 0], [1, 0]]", "[[0, 0]]", r"23: An open section curve has 1 points; it needs 2 or more\.$"),
     (
         "y_axis = [0, 0, 1]",

@@ -2,11 +2,15 @@
 that were encoded, pages that a style sheet sizes.
 """
 
+from typing import Any
+
 import pytest
 
 from app.core.errors import InputError
 from app.formats.drawing_account import size_of
+from app.formats.readers import read_drawing
 from app.formats.svg.svg import read_svg
+from app.model.read_options import DrawingOptions
 
 NS = 'xmlns="http://www.w3.org/2000/svg"'
 RECT = '<rect width="5" height="4"/>'
@@ -62,6 +66,24 @@ def test_a_prefix_that_cannot_be_declared_is_refused_in_one_line() -> None:
 def test_encoded_names_of_layers_are_as_they_were_typed(name: str, meant: str) -> None:
     (layer,) = read_svg(f'<svg {NS} {PAGE}><g id="{name}">{RECT}</g></svg>'.encode()).part.layers
     assert layer.name == meant
+
+
+@pytest.mark.parametrize("name", ["L_x0020_1", "l_x0020_1", "L 1", "l 1"])
+def test_a_layer_is_found_as_the_file_has_it_and_as_it_was_typed(name: str) -> None:
+    data = f'<svg {NS} {PAGE}><g id="L_x0020_1">{RECT}</g><g id="other"><circle r="1"/></g></svg>'.encode()
+
+    def layers(asked: tuple[str, ...], **how: Any) -> list[str]:
+        return [each.layer for each in read_drawing("x.svg", data, None, asked, DrawingOptions(**how)).part.entities]
+
+    assert set(layers((name,))) == set(layers((name,), to_zero=True)) == {"L 1"}
+    assert layers((), without_layers=(name,)) == ["other"]
+
+
+def test_a_layer_whose_name_only_looks_encoded_is_itself() -> None:
+    groups = "".join(f'<g data-name="{name}">{RECT}</g>' for name in ("a_x0020_b", "a b"))
+    data = f"<svg {NS} {PAGE}>{groups}</svg>".encode()
+    for name in ("a_x0020_b", "a b"):
+        assert {each.layer for each in read_drawing("x.svg", data, None, (name,)).part.entities} == {name}
 
 
 @pytest.mark.parametrize(

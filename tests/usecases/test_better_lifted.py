@@ -7,6 +7,7 @@ alone or under a plane that it comes up through.
 from __future__ import annotations
 
 import math
+import re
 from functools import cache
 from itertools import pairwise
 
@@ -19,7 +20,11 @@ from app.fitting.point_surfaces.surface_pieces import NO_PIECE, surface_pieces
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import Floats
+from app.model.part import Units
+from app.model.stock_box import StockBox
+from app.model.tool import Tool
 from app.simulation.cutter import Cutter
+from app.simulation.field.workpiece import BoxStock
 from app.usecases.better.area import PassArea
 from app.usecases.better.comparison import compared
 from app.usecases.better.improve import better
@@ -27,6 +32,8 @@ from app.usecases.better.pieces import PassLifter, SmoothedPieces, touched
 from app.usecases.better.report import findings, lines, report
 from app.usecases.better.result import BetterOptions, BetterProgram
 from app.usecases.better.tracks import tracks_of
+from app.usecases.cutting.ready_setup import SetupRequest
+from app.usecases.cutting.setup_tools import ToolSource
 from app.usecases.tolerance_budget import Evidence
 from tests import raster_program as made
 from tests.usecases.test_better import driven
@@ -94,6 +101,20 @@ def test_the_sample_is_what_it_says() -> None:
     assert resource("samples", "valley.ngc").read_text() == sample()
     done = valley()
     assert done.new.blocks < 0.05 * done.old.blocks and done.new.bend < 0.01 * done.old.bend
+
+
+@pytest.mark.exhaustive
+def test_a_program_that_names_no_units_is_made_better_in_the_ones_told() -> None:
+    def inches(word: re.Match[str]) -> str:
+        return f"{word[1]}{float(word[2]) / 25.4:.6f}"
+
+    blocks = [line for line in sample().replace("G21 ", "").splitlines() if not line.startswith("(")]
+    text = "\n".join(re.sub(r"([XYZF])(-?\d+\.?\d*)", inches, line) for line in blocks) + "\n"
+    tools = ToolSource("--tool", {1: Tool(1, diameter=4.0)})
+    setup = SetupRequest((tools,), stock=BoxStock(StockBox(-4, -4, -14, 18, 12, 1)))
+    done = better("in.ngc", text.encode(), BetterOptions(cells=200, units=Units.INCH), setup)
+    assert done.new.length_mm == pytest.approx(valley().new.length_mm, rel=0.001)
+    assert done.new.blocks == valley().new.blocks and b"G21" not in done.data
 
 
 @pytest.mark.exhaustive

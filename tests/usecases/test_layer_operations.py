@@ -177,3 +177,18 @@ def test_the_command_the_job_that_it_writes_and_what_it_refuses(
         capsys.readouterr()
         assert main([*told, *more]) == 2
         assert words in capsys.readouterr().err
+
+
+ESCAPED = b"""<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="40mm" viewBox="0 0 40 40"><g id="L_x0020_1">
+<rect x="5" y="5" width="30" height="30"/></g><g id="K"><circle cx="20" cy="20" r="4"/></g></svg>"""
+"""A drawing whose editor wrote the layer "L 1" as no blank could stand in its name."""
+
+
+@pytest.mark.parametrize("name", ["L_x0020_1", "L 1"])
+def test_rules_and_jobs_find_a_layer_as_the_file_has_it_and_as_it_was_typed(name: str) -> None:
+    tool = "[[tool]]\nnumber = 1\ndiameter = 3\n"
+    rules = template(f"{tool}[[layer]]\nname = '{name}'\nkind = 'contour'\ntool = 1\ndepth = 2\n")
+    job = template(f"{tool}[drawing]\nlayers = ['{name}']\n[[operation]]\nkind = 'pocket'\ntool = 1\ndepth = 2\n")
+    by_rules, by_job = (make("part.svg", ESCAPED, MakeOptions(job=file.job, rules=file.rules)) for file in (rules, job))
+    assert by_rules.ruled == ("  layer 'L 1': contour T1, 2 mm deep",)
+    assert by_job.job.layer_names == ("L 1",)

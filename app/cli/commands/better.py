@@ -11,6 +11,7 @@ from ...usecases.better.improve import better
 from ...usecases.better.picture import stock_picture
 from ...usecases.better.report import findings, lines, report_text
 from ..better_options import EPILOG, add_better_options, better_options
+from ..check_options import units_taken
 from ..command import CliCommand
 from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome
@@ -25,7 +26,8 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     check_outputs(outputs, [arguments.program])
     progress = shown_progress(arguments.quiet, stopped)
     asked, setup = better_options(arguments), setup_request(arguments)
-    done = better(arguments.program.name, read_input(arguments.program), asked, setup, progress)
+    data = read_input(arguments.program)
+    done = better(arguments.program.name, data, asked, setup, progress)
     files = {outputs["output"]: done.data}
     if "scene" in outputs:
         if done.scene is None:
@@ -40,7 +42,8 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
         files[outputs["report"]] = report_text(done).encode()
     found = findings(done)
     counts = any(finding.counts for finding in found)
-    return CommandOutcome(files, [*lines(done), *finding_lines(found)], counts).delivered(arguments, progress)
+    said = [*lines(done), *units_taken(arguments, data), *finding_lines(found)]
+    return CommandOutcome(files, said, counts).delivered(arguments, progress)
 
 
 COMMAND = CliCommand(

@@ -8,6 +8,7 @@ from ...core.input_file import read_input
 from ...gcode.interpreter.dialect import DIALECT_RULES
 from ...usecases.smoothing.report import certificate, findings, report_text
 from ...usecases.smoothing.result import SmoothedProgram
+from ..check_options import units_taken
 from ..command import CliCommand
 from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome
@@ -23,11 +24,13 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     outputs = named_files(arguments, "output", "report")
     check_outputs(outputs, [arguments.program])
     progress = shown_progress(arguments.quiet, stopped)
-    done = smooth(arguments.program.name, read_input(arguments.program), smooth_options(arguments), progress)
+    data = read_input(arguments.program)
+    done = smooth(arguments.program.name, data, smooth_options(arguments), progress)
     files = {outputs["output"]: done.data}
     if "report" in outputs:
         files[outputs["report"]] = report_text(done).encode()
-    return CommandOutcome(files, _lines(done), bool(findings(done))).delivered(arguments, progress)
+    said = [*_lines(done), *units_taken(arguments, data)]
+    return CommandOutcome(files, said, bool(findings(done))).delivered(arguments, progress)
 
 
 def _lines(done: SmoothedProgram) -> list[str]:

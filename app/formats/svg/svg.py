@@ -13,6 +13,7 @@ from ...core.errors import InputError
 from ...core.options import option
 from ...geometry.affine import Affine
 from ...model.finding import Finding, FindingKind
+from ...model.layer_names import known_layers
 from ...model.part import Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
@@ -197,10 +198,11 @@ def _about_pixels(
 
 def _anchors(content: SvgContent, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
-    wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
+    there = {*content.layers, *(each.layer for each in content.curves)}
+    wanted, gone = (known_layers(names, there) for names in (layers, without))
     hidden = {layer for layer, note in content.layers.items() if not note.visible}
     return lambda layer: (
-        layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer not in hidden)
+        layer.casefold() not in gone and (layer.casefold() in wanted if layers else layer not in hidden)
     )
 
 

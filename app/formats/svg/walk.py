@@ -16,6 +16,7 @@ from ...core.errors import InputError
 from ...geometry.affine import IDENTITY, Affine, transformed
 from ...geometry.sample import Box, bounds_of_all
 from ...model.curves import Circle, Curve, Ellipse, Line, Point, Spline
+from ...model.layer_names import typed_name
 from ...model.part import Layer
 from ..drawing import LeftOutReason, LeftOutSort
 from ..drawing_account import MOST_CURVES, LayeredCurve
@@ -41,11 +42,9 @@ _GROUND = 1e-3
 """By so much of a page its ground may be too small."""
 _TOO_MUCH = f"the drawing unfolds to more than {MOST_CURVES} curves; use fewer copies, or save it in parts"
 _ENGLISH = re.compile(r"(?:^|,)\s*en\b", re.IGNORECASE)
-_SIGN = re.compile(r"_x([0-9A-Fa-f]{2}|[0-9A-Fa-f]{4})_")
 _SHADE = re.compile(r"\s*url\(\s*[\"']?#([^)\"']+?)[\"']?\s*\)(.*)", re.DOTALL)
 """A paint of this file, and what is taken where there is none of that name."""
 _BREAK = re.compile(r"[\x00-\x1f]+")
-_NO_LETTER = re.compile(r"[\x00-\x1f\x7f-\x9f\ufffd]")
 
 
 @dataclass
@@ -297,7 +296,7 @@ class SvgWalker:
         if node.tag != "g" or (not _is_layer(node) if self._named_layers else depth > 0):
             return ""
         own = (node.attributes.get(key, "") for key in (f"{INKSCAPE} label", "data-name"))
-        labels = (_BREAK.sub(" ", each) for each in (*own, _decoded(node.attributes.get("id", ""))))
+        labels = (_BREAK.sub(" ", each) for each in (*own, typed_name(node.attributes.get("id", ""))))
         return next((label for label in labels if label.strip()), "layer" if self._named_layers else "")
 
     def _use(self, node: Node, state: InheritedState) -> None:
@@ -479,15 +478,6 @@ def _moves(written: str) -> bool:
 def _of_font(node: Node) -> bool:
     """True where a place or size of a shape that is read depends on what a font is like."""
     return any(FONT_LENGTH.search(node.attributes.get(key, "")) for key in LENGTHS)
-
-
-def _decoded(name: str) -> str:
-    """Return the name of an element as it was typed: some editors write what no name may have as _x0020_, a letter of
-    two such numbers as both; one that gives no letter was typed as it stands.
-    """
-    units = _SIGN.sub(lambda sign: chr(int(sign[1], 16)), name).encode("utf-16", "surrogatepass")
-    typed = units.decode("utf-16", "replace")
-    return name if _NO_LETTER.search(typed) else typed
 
 
 def _is_layer(node: Node) -> bool:

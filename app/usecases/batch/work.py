@@ -121,7 +121,8 @@ def _smoothed(task: BatchTask, options: SmoothOptions, progress: Progress) -> Ba
     from ..smoothing.smooth import smooth
 
     done = smooth(_file_name(task), task.data, options, progress.part(0.0, 0.9))
-    after = examine(_file_name(task), done.data, ExamineOptions(dialect=done.dialects[1]), progress.part(0.9, 1.0))
+    reading = ExamineOptions(dialect=done.dialects[1], units=options.units)
+    after = examine(_file_name(task), done.data, reading, progress.part(0.9, 1.0))
     sentences, counting = _told(smooth_findings(done))
     files = {path.as_posix(): report_text(done).encode() for path in _beside(task).values()}
     return BatchResult(_row_of(task, after, sentences, counting), {**files, task.output: done.data})

@@ -103,7 +103,7 @@ def resolved(
     name: str, data: bytes, options: BetterOptions, request: SetupRequest, progress: Progress
 ) -> BetterContext:
     """Return what a better program is made with."""
-    examined = examine(name, data, ExamineOptions(options.dialect), progress.part(0.0, 0.3))
+    examined = examine(name, data, ExamineOptions(options.dialect, units=options.units), progress.part(0.0, 0.3))
     ready = setup_of((examined,), request, progress.part(0.3, 0.5))
     tool = _only_tool(name, ready)
     dialect = options.dialect or guess_dialect(data)

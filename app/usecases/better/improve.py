@@ -18,6 +18,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...fitting.point_curves.smoothness import of_points
 from ...formats.scene.toml import sources_of
 from ...gcode.interpreter.dialect import Dialect
+from ...gcode.interpreter.options import PATIENT, ReadOptions
 from ...gcode.interpreter.program import NcProgram
 from ...model.motion import MotionKind
 from ...model.motion_path import lengths
@@ -136,7 +137,8 @@ def _over_one_surface(
 
 def _lifted(context: BetterContext, smoothed: SmoothedPieces, progress: Progress) -> _NewPasses:
     """Return the program's own passes, lifted onto the smooth surfaces; all else stays as it was."""
-    lifted = lifted_text(context.data, context.dialect, smoothed, context.shares.chords, progress)
+    reading = ReadOptions(context.dialect, limits=PATIENT, units=context.options.units)
+    lifted = lifted_text(context.data, reading, smoothed, context.shares.chords, progress)
     share = BudgetShare(
         "chords",
         context.shares.chords,
@@ -152,7 +154,10 @@ def _lifted(context: BetterContext, smoothed: SmoothedPieces, progress: Progress
 
 def _curves(context: BetterContext, made: _NewPasses, progress: Progress) -> SmoothedProgram:
     """Return the new passes as curves, proven on their own text."""
-    options = SmoothOptions(context.shares.smoothing, context.options.form, post=context.post, dialect=made.dialect)
+    asked = context.options
+    options = SmoothOptions(
+        context.shares.smoothing, asked.form, post=context.post, dialect=made.dialect, units=asked.units
+    )
     return smooth(context.name, made.text, options, progress)
 
 
@@ -171,7 +176,7 @@ class _NewCut:
 
 def _cut_again(context: BetterContext, curves: SmoothedProgram, progress: Progress) -> _NewCut:
     """Read the new text back, and cut it out of the old one's stock with the old one's tool, whatever its number."""
-    examined = examine(context.name, curves.data, ExamineOptions(context.post.dialect))
+    examined = examine(context.name, curves.data, ExamineOptions(context.post.dialect, units=context.options.units))
     ready = setup_of((examined,), replace(context.request, stock=context.ready.setup.stock))
     tools = {number: replace(context.tool, number=each.number) for number, each in ready.setup.tools.items()}
     return _NewCut(examined, cut(replace(ready.setup, tools=tools), context.look, progress))

@@ -9,8 +9,7 @@ import numpy as np
 from ...core.errors import GeometryError
 from ...core.progress import Progress
 from ...fitting.fitted import lines_between
-from ...gcode.interpreter.dialect import Dialect
-from ...gcode.interpreter.options import PATIENT, ReadOptions
+from ...gcode.interpreter.options import ReadOptions
 from ...gcode.interpreter.reader import read_program
 from ...gcode.interpreter.text import ProgramBuffer
 from ...gcode.posts import load_post
@@ -38,20 +37,20 @@ class LiftedText:
 
 
 def lifted_text(
-    data: bytes, dialect: Dialect, smoothed: SmoothedPieces, chord: float, progress: Progress
+    data: bytes, reading: ReadOptions, smoothed: SmoothedPieces, chord: float, progress: Progress
 ) -> LiftedText:
     """Return a program whose passes lie on smooth surfaces.
 
     Args:
-        data: of the program. dialect: of its control. smoothed: the surfaces of the tip.
+        data: of the program. reading: how it is read. smoothed: the surfaces of the tip.
         chord: how far chords may be from them, mm.
         progress: told of how much is done.
 
     Raises:
         GeometryError: what was written cannot be read. Cancelled: the job was asked to stop.
     """
-    post = load_post(usual_post(dialect))
-    program = read_program(data, ReadOptions(dialect, limits=PATIENT), progress.part(0.0, 0.2))
+    post = load_post(usual_post(reading.dialect))
+    program = read_program(data, reading, progress.part(0.0, 0.2))
     found = find_stretches(program, ProgramBuffer(data), progress.part(0.2, 0.3))
     lifter, blocks, made = PassLifter(smoothed, chord), {}, []
     for k, stretch in enumerate(found.stretches):
@@ -62,7 +61,7 @@ def lifted_text(
         blocks[k] = curve_blocks(lines_between(each.points), spelling)
         made.append(each)
     text = rewrite(data, found.stretches, blocks, ()).data
-    again = read_program(text, ReadOptions(dialect, limits=PATIENT), progress.part(0.8, 1.0))
+    again = read_program(text, reading, progress.part(0.8, 1.0))
     if again.error is not None:
         raise GeometryError(f"the lifted passes cannot be read back: {again.error.text}")
     return LiftedText(

@@ -8,6 +8,7 @@ from typing import Protocol
 from ...core.errors import InputError
 from ...gcode.interpreter.dialect import Dialect
 from ...model.motion import Floats
+from ...model.part import Units
 from ...model.scene import Scene
 from ..cutting.cut import CELLS, CutProgram
 from ..cutting.ready_setup import ReadySetup
@@ -36,7 +37,7 @@ class BetterOptions:
         pitch: from pass to pass, mm; None: as the old passes.
         form: what curves are written as. cells: that cuts are compared on, along the longer side.
         post: by its name, in whose words the new program is; None: those of the old one's control.
-        dialect: of the old program; None: as it looks.
+        dialect: of the old program; None: as it looks. units: of one that names none; None: mm.
     """
 
     tolerance: float = 0.05
@@ -46,6 +47,7 @@ class BetterOptions:
     cells: int = CELLS
     post: str | None = None
     dialect: Dialect | None = None
+    units: Units | None = None
 
     def __post_init__(self) -> None:
         if not TOLERANCES[0] <= self.tolerance <= TOLERANCES[1]:

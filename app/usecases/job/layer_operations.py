@@ -9,6 +9,7 @@ from ...core.errors import InputError
 from ...core.options import option
 from ...model.curve_selectors import OnLayer
 from ...model.finding import Finding, FindingKind
+from ...model.layer_names import known_layers
 from ...model.layer_rules import LayerRule, depth_in
 from ...model.operation import Operation
 from ...model.part import Layer, Part
@@ -64,15 +65,17 @@ def _layers(part: Part, options: MakeOptions) -> list[Layer]:
     """Return the layers that hold something, and may be machined."""
     assert options.job is not None
     held = {each.layer for each in part.entities}
-    kept_out = {name.casefold() for name in (*options.machining.keep_out, *options.job.keep_out_layers)}
-    chosen = {name.casefold() for name in options.layers or options.job.layer_names}
+    known = [layer.name for layer in part.layers]
+    kept_out = known_layers((*options.machining.keep_out, *options.job.keep_out_layers), known)
+    asked = options.layers or options.job.layer_names
+    chosen = known_layers(asked, known)
     return [
         layer
         for layer in part.layers
         if layer.name in held
         and layer.visible
         and layer.name.casefold() not in kept_out
-        and (not chosen or layer.name.casefold() in chosen)
+        and (not asked or layer.name.casefold() in chosen)
     ]
 
 

@@ -13,6 +13,7 @@ from ...formats.tools.materials import stock_material
 from ...model.curve_selectors import OnLayer, Selector, layer_names
 from ...model.fields import parameters_of, with_values
 from ...model.job import Job, OriginXY, OriginZ, Stock
+from ...model.layer_names import known_layer
 from ...model.layer_rules import LayerRule
 from ...model.machine import Machine
 from ...model.operation import LEAST_LENGTH, Operation, Order, Side
@@ -313,14 +314,13 @@ def _curves_spelled(curves: Iterable[Selector], part: Part) -> tuple[Selector, .
 
 
 def _spelled(names: Iterable[str], part: Part) -> tuple[str, ...]:
-    known = {layer.name.casefold(): layer.name for layer in part.layers}
+    known = [layer.name for layer in part.layers]
     found: dict[str, None] = {}
     for name in names:
-        if name.casefold() not in known:
-            raise InputError(
-                f"{part.name}: there is no layer '{name}'; the drawing has {', '.join(known.values()) or 'none'}."
-            )
-        found[known[name.casefold()]] = None
+        layer = known_layer(name, known)
+        if layer is None:
+            raise InputError(f"{part.name}: there is no layer '{name}'; the drawing has {', '.join(known) or 'none'}.")
+        found[layer] = None
     return tuple(found)
 
 
