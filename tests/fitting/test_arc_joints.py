@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.fitting.point_curves.arc_joints import arc_joints, joint_between
-from app.fitting.point_curves.through_points import through_points
+from app.fitting.point_curves.through_points import SplineLimits, through_points
 from app.model.motion import Floats
 from tests.fitting.test_line_joints import turned
 
@@ -66,7 +66,7 @@ def test_a_joint_at_the_end_of_a_facet_is_told_once() -> None:
 @pytest.mark.parametrize("share", [0.0, 0.4])
 def test_splines_on_both_sides_of_a_joint_keep_to_their_arcs(share: float) -> None:
     points = two_arcs(share, 30.0, -20.0, 3.0)
-    filled = through_points(points, np.array([0, len(points) - 1]), 1e-5, 1.0)
+    filled = through_points(points, np.array([0, len(points) - 1]), SplineLimits(1e-5, 1.0))
     middle = np.where(filled[:, :1] < 0, [[0.0, 30.0]], [[0.0, -20.0]])
     radius = np.where(filled[:, 0] < 0, 30.0, 20.0)
     off = np.abs(np.hypot(*(filled[:, :2] - middle).T) - radius)
