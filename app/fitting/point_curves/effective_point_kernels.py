@@ -207,15 +207,6 @@ def _straightest(points, i, e, k, epsilon, least):
     return at
 
 
-@kernel("boolean(float64[:, ::1], int64, int64, float64)", counts=False)
-def _all_near(points, i, k, square):
-    """Return whether no point between is farther off the segment than the root of a square, mm²."""
-    for j in range(i + 1, k):
-        if _off(points, i, j, k) ** 2 > square:
-            return False
-    return True
-
-
 @kernel("float64(float64[:, ::1], int64[::1], float64)", counts=False)
 def _scatter(points, ends, epsilon):
     """Return the mean square of how far the points between ends of ranges are off their segments."""
@@ -233,7 +224,7 @@ def settle(points, epsilon, stop, ends):
 
     Of few points some are straight by chance: one range is as straight, too, where it is as straight as all are.
     """
-    count, least = len(ends), np.empty(1)
+    count, least, off = len(ends), np.empty(1), np.empty(1)
     for _ in range(_ROUNDS):
         kept, changed, scatter = 1, False, _scatter(points, ends[:count], epsilon)
         for m in range(1, count - 1):
@@ -241,8 +232,10 @@ def settle(points, epsilon, stop, ends):
             if not stop[e]:
                 at = _straightest(points, i, e, k, epsilon, least)
                 chance = max(least[0], scatter * (k - i - 1))
-                straight = _bent(points, i, k, epsilon) <= _CLEARLY * chance
-                if k - i >= _EVIDENCE and (straight or _all_near(points, i, k, _CHANCE * scatter)):
+                _farthest(points, i, k, off)
+                rounded = off[0] ** 2 <= _CHANCE * scatter and off[0] <= epsilon
+                straight = rounded or _bent(points, i, k, epsilon) <= _CLEARLY * chance
+                if k - i >= _EVIDENCE and straight:
                     changed = True
                     continue
                 if _bent(points, i, e, epsilon) + _bent(points, e, k, epsilon) > _CLEARLY * least[0]:
