@@ -245,6 +245,25 @@ def test_a_ring_that_is_one_facet_has_no_points_to_go_by(tmp_path: Path, capsys:
     assert "one facet" in capsys.readouterr().err and not out.exists()
 
 
+def test_points_that_are_one_in_the_other_control_s_digits_keep_no_stretch_from_being_smoothed(tmp_path: Path) -> None:
+    """Of 720 points one has a neighbour 0.0003 mm beside it: for Fanuc, whose words have three decimals, no move."""
+    first, *rest = ring().splitlines()
+    x, y = (float(word[1:]) for word in rest[400].split()[:2])
+    rest.insert(401, f"X{x + 0.0003:.4f} Y{y:.4f}")
+    source = HEAD + "\n".join([first, *rest, ""]) + TAIL
+    text, report = smoothed(tmp_path, source, "--tolerance", "0.02", "--post", "fanuc")
+    assert report["blocks"]["after"] <= 5 and report["stretches"]["changed"] == 1  # type: ignore[index]
+    after = read_program(text.encode(), ReadOptions(Dialect.FANUC))
+    assert_paths_near(read_program(source.encode()), after, 0.02 + 1e-6)
+
+
+def test_why_a_stretch_is_as_before_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source = tmp_path / "in.ngc"
+    source.write_text(HEAD + "G1 X50 Y10 F600\nX40 Y10\nX40 Y30\nX0 Y30\n" + TAIL)
+    assert main(["smooth", str(source), "-o", str(tmp_path / "out.ngc")]) == 0
+    assert "- 1 stretch as before: it would not take fewer blocks" in capsys.readouterr().out
+
+
 def test_for_another_control_every_number_is_in_its_words(tmp_path: Path) -> None:
     """`G0 X50` beside `G3 X-50.` would be 0.050 mm on a Fanuc."""
     source = HEAD + ring() + "G0 Z5\nG4 P1.5\nG83 X20 Y5 Z-3 R1 Q2 F80\nG80\n" + TAIL

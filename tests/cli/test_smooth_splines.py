@@ -102,6 +102,27 @@ def test_what_rises_is_told_where_the_control_has_splines_at_one_height_only(tmp
     assert report["written"]["splines"] == 0 and "AT ONE HEIGHT ONLY" in text.upper()  # type: ignore[index]
 
 
+def test_where_a_path_rises_on_its_way_the_rest_of_it_is_splines(tmp_path: Path) -> None:
+    """A ramp into a level contour: what is at one height has its splines, what rises has arcs and lines, and both are
+    told.
+    """
+    ramp = np.column_stack([np.full(11, 40.0), np.linspace(-20, 0, 11), np.linspace(0, -1, 11)])
+    text, report = smoothed(
+        tmp_path, program(np.vstack([ramp, ELLIPSE[1:]])), *options("linuxcnc", "--insist"), status=1
+    )
+    kinds, splines = cutting(text, "linuxcnc")
+    assert len(splines) > 20 and np.sum(kinds == MotionKind.SPLINE) == len(splines)
+    assert [each["reason"] for each in report["not_splines"]] == ["the control knows splines at one height only"]  # type: ignore[attr-defined]
+    assert min(spline.points[0, 1] for spline in splines) >= 0
+
+
+def test_lines_are_told_where_nothing_bends(tmp_path: Path) -> None:
+    zigzag = np.column_stack([np.arange(9) * 4.0, np.arange(9) % 2 * 10.0, np.full(9, -1.0)])
+    text, report = smoothed(tmp_path, program(zigzag), *options("linuxcnc", "--insist"))
+    assert report["written"]["splines"] == 0  # type: ignore[index]
+    assert "8 LINES WHERE A SPLINE IS STRAIGHT TO THE LAST DECIMAL" in text.upper()
+
+
 @pytest.mark.parametrize(
     ("more", "told"),
     [

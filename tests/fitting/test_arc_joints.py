@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.fitting.point_curves.arc_joints import arc_joints, joint_between
-from app.fitting.point_curves.through_points import through_points
+from app.fitting.point_curves.through_points import SplineLimits, through_points
 from app.model.motion import Floats
 from tests.fitting.test_line_joints import turned
 
@@ -56,6 +56,15 @@ def test_what_bends_evenly_or_twists_has_no_joint() -> None:
         assert arc_joints(some, np.zeros(len(some) - 1, np.bool_), 4e-4)[0] == []
 
 
+@pytest.mark.parametrize("begin", [-3.5, -1.0])
+def test_over_a_facet_much_longer_than_its_neighbours_an_even_curvature_has_no_joint(begin: float) -> None:
+    """About an inflection several facets are one range: 7 mm beside chords of 1.5 mm, on a cubic."""
+    steps = 1.48 * np.arange(10)
+    x = np.concatenate([begin - steps[::-1], begin + 7.1 + steps])
+    points = np.column_stack([x, 1.25e-4 * x**3, 0 * x]).round(4)
+    assert arc_joints(points, np.zeros(len(points) - 1, np.bool_), 4e-3)[0] == []
+
+
 def test_a_joint_at_the_end_of_a_facet_is_told_once() -> None:
     points = two_arcs(0.0, 30.0, -20.0)
     joints, chords = arc_joints(points, np.zeros(len(points) - 1, np.bool_), 1e-3)
@@ -66,7 +75,7 @@ def test_a_joint_at_the_end_of_a_facet_is_told_once() -> None:
 @pytest.mark.parametrize("share", [0.0, 0.4])
 def test_splines_on_both_sides_of_a_joint_keep_to_their_arcs(share: float) -> None:
     points = two_arcs(share, 30.0, -20.0, 3.0)
-    filled = through_points(points, np.array([0, len(points) - 1]), 1e-5, 1.0)
+    filled = through_points(points, np.array([0, len(points) - 1]), SplineLimits(1e-5, 1.0))
     middle = np.where(filled[:, :1] < 0, [[0.0, 30.0]], [[0.0, -20.0]])
     radius = np.where(filled[:, 0] < 0, 30.0, 20.0)
     off = np.abs(np.hypot(*(filled[:, :2] - middle).T) - radius)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.fitting.point_curves.line_joints import joint_behind
-from app.fitting.point_curves.through_points import joints_beside, sides_among, through_points
+from app.fitting.point_curves.through_points import SplineLimits, joints_beside, sides_among, through_points
 from app.model.motion import Floats
 
 
@@ -62,7 +62,7 @@ def test_of_a_path_every_side_is_looked_at_both_ways() -> None:
     points = np.vstack([half[:-1], [[-20 * 0.5 * math.pi / 40, 40, 0], [-30, 40, 0]]])
     joints = joints_beside(points, sides_among(points), 1e-5)
     assert np.allclose(joints.places, [[0, 0, 0], [0, 40, 0]], atol=1e-5)
-    made = through_points(points, np.array([0, len(points) - 1]), 1e-5, 0.05)
+    made = through_points(points, np.array([0, len(points) - 1]), SplineLimits(1e-5, 0.05))
     off = np.where(
         made[:, 0] > 0, np.abs(np.hypot(made[:, 0], made[:, 1] - 20) - 20), np.abs(np.abs(made[:, 1] - 20) - 20)
     )

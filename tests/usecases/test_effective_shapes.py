@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from scipy.spatial import cKDTree
 from scipy.special import fresnel
 
 from app.core.errors import InputError
-from app.fitting.point_curves.correction import CorrectionOptions
+from app.fitting.point_curves.correction import CorrectionOptions, CorrectionScope
 from app.fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
 from app.fitting.point_curves.effective_points import EffectiveOptions, effective_points
 from app.usecases.smoothing.report import report
@@ -245,6 +246,45 @@ def test_corrected_points_lead_nearer_to_the_shape_than_all_points(shape: str, s
     assert nearness is not None
     assert corrected <= max(by_all / (5 if (shape, sag) in SIXFOLD else 10), 2 * DIGIT + nearness)
     assert corrected <= 2 * plain_spline(shape, sag) + nearness
+
+
+def irregular(shape: str, sag: float, height: str = "-1") -> bytes:
+    """A program along facets with two to six points in each, wherever they happen to lie."""
+    random, ends = np.random.default_rng(109), facet_ends(shape, sag)
+    points = []
+    for a, b in pairwise(ends):
+        share = np.append(np.sort(random.uniform(0.08, 0.92, random.integers(2, 7))), 1.0)
+        points.append(a + (b - a) * share[:, None])
+    first = f"G21 G90 G17 G94\nG0 X{ends[0, 0]:.4f} Y{ends[0, 1]:.4f} Z5\nG1 Z{height} F200\nF900\n"
+    return (first + "".join(f"G1 X{x:.4f} Y{y:.4f}\n" for x, y in np.vstack(points)) + "G0 Z5\nM2\n").encode()
+
+
+@pytest.mark.parametrize("shape", ["ellipse", pytest.param("torus", marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize(
+    "correct",
+    [
+        None,
+        second_embodiment(),
+        pytest.param(second_embodiment((CorrectionScope.RATIO, 0.25)), marks=pytest.mark.exhaustive),
+        pytest.param(second_embodiment((CorrectionScope.DISTANCE, 0.004)), marks=pytest.mark.exhaustive),
+    ],
+    ids=["effective", "corrected", "near ends", "by little"],
+)
+def test_points_may_lie_in_their_facets_anywhere(shape: str, correct: CorrectionOptions | None) -> None:
+    """Two far apart between two near ones are no side of the shape: its facets tell sides, not the points in them."""
+    sag = 0.01
+    method = EffectiveMethod(EffectiveOptions(sag / 10), correct)
+    done = smooth("a.ngc", irregular(shape, sag), SmoothOptions(0.0255, OutputForm.ARCS, effective=method))
+    assert done.nearness is not None
+    assert off(shape, cut(done)) <= 2 * plain_spline(shape, sag) + done.nearness < sag / 10
+
+
+def test_what_is_level_stays_level_where_points_are_corrected() -> None:
+    """To the last bit, at any height: LinuxCNC has splines at one height only."""
+    method = EffectiveMethod(EffectiveOptions(0.001), second_embodiment())
+    options = SmoothOptions(0.0255, OutputForm.NURBS, effective=method)
+    done = smooth("a.ngc", irregular("ellipse", 0.01, "-1.37"), options)
+    assert done.kinds.splines > 20 and not done.refusals
 
 
 def test_a_step_to_the_next_row_stays_a_corner_however_wide_the_tolerance_is() -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from collections import Counter
 
 from ...core.input_file import read_input
+from ...core.wording import counted
 from ...gcode.interpreter.dialect import DIALECT_RULES
 from ...usecases.smoothing.report import certificate, findings, report_text
 from ...usecases.smoothing.result import SmoothedProgram
@@ -39,6 +41,8 @@ def _lines(done: SmoothedProgram) -> list[str]:
     kept = [
         f"  - {n} move{'s' if n > 1 else ''} left alone: {reason.value}" for reason, n in done.found.left.items() if n
     ]
+    stayed = Counter(piece.kept for piece in done.pieces if piece.kept)
+    kept += [f"  - {counted(n, 'stretch', 'stretches')} as before: {why}" for why, n in stayed.items()]
     found = [*finding_lines(findings(done)), *_warnings(done)]
     return [f"{done.name}: {head.partition(': ')[2]}", *(f"  {line}" for line in rest), *kept, *found]
 

@@ -23,8 +23,11 @@ _EVIDENCE = 4.0
 """Times how far points are off both arcs: by so much at least the jump must move them."""
 _FLOOR = 0.25
 """Of how far points may be off: what the jump of the curvature moves by less is left to the spline."""
-_EVEN = 0.15
-"""Of the jump: by so much the curvature may change on one side of the facet alone."""
+_EVEN, _APART = 0.15, 3.0
+"""Of the jump: by so much the curvature may change from one point to the next on one side of the facet alone, where
+both ends of the jump are so many times as far apart as these; by less where they are farther: over a facet longer than
+those beside it a curvature that changes evenly is another, too.
+"""
 _BEYOND = 0.02
 """Of the facet: a joint that is so little beyond its end is that end."""
 _END = 0.002
@@ -157,8 +160,9 @@ def _candidates(points: Floats, straight: NDArray[np.bool_], within: float) -> N
     bent = np.cross(ways[:-1], ways[1:]) / ((sizes[:-1] + sizes[1:]) / 2)[:, None]  # at points 1 to n - 2
     k = np.arange(3, len(sizes) - 3)
     jump = np.linalg.norm(bent[k + 1] - bent[k - 2], axis=1)
-    left = np.linalg.norm(bent[k - 2] - bent[k - 3], axis=1)
-    right = np.linalg.norm(bent[k + 2] - bent[k + 1], axis=1)
+    far = (sizes[k - 1] + sizes[k] + sizes[k + 1]) / _APART
+    left = np.linalg.norm(bent[k - 2] - bent[k - 3], axis=1) * np.maximum(far / sizes[k - 2], 1.0)
+    right = np.linalg.norm(bent[k + 2] - bent[k + 1], axis=1) * np.maximum(far / sizes[k + 2], 1.0)
     per_size = _JUMP * sizes[k] ** 2
     floor = _FLOOR * within
     even = np.maximum(left, right) * per_size <= _EVEN * jump * per_size + floor

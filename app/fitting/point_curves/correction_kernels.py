@@ -61,16 +61,20 @@ def spline_slopes(at, value, slope):
 
 @kernel("void(float64[::1], float64[:, ::1], float64[:, ::1])")
 def least_squares(at, value, slope):
-    """Replace values (m, 3) by those of the cubic nearest to them, and write its slopes; by orthogonal polynomials."""
+    """Replace values (m, 3) by those of the cubic nearest to them, and write its slopes; by orthogonal polynomials.
+
+    What is level stays so to the last bit: values are counted from the first.
+    """
     m = len(at)
     fitted, basis, old = np.zeros((m, 3)), np.ones(m), np.zeros(m)
     steep, old_steep = np.zeros(m), np.zeros(m)
+    fitted[:] = value[0]
     slope[:] = 0.0
     was = 1.0
     for degree in range(min(4, m)):
         size = np.dot(basis, basis)
         for axis in range(3):
-            share = (basis * value[:, axis]).sum() / size
+            share = (basis * (value[:, axis] - value[0, axis])).sum() / size
             for i in range(m):
                 fitted[i, axis] += share * basis[i]
                 slope[i, axis] += share * steep[i]

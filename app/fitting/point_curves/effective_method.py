@@ -41,6 +41,8 @@ class PointClasses:
         off: how far the points lie from the path by these places at most, mm.
         ranges: (r, 2) first and last point of each range; where one ends the next begins.
         moved: (n,) how far each point is from where it was, mm.
+        sides: (r,) which ranges are sides of the true shape, whose chords stay; None where `passed` are ends of ranges
+            alone, which tell it themselves.
     """
 
     state: NDArray[np.uint8]
@@ -48,11 +50,26 @@ class PointClasses:
     off: float
     ranges: NDArray[np.int64]
     moved: Floats
+    sides: NDArray[np.bool_] | None = None
 
     @property
     def passed(self) -> Floats:
         """The places (m, 3) that the final curve goes by, mm."""
-        return without_repeats(self.places[self.state != PointState.INVALID])
+        return np.ascontiguousarray(self.places[self._numbers])
+
+    @property
+    def passed_sides(self) -> NDArray[np.bool_] | None:
+        """Which chords (m - 1,) between the places that the curve goes by are sides, where ranges tell it."""
+        if self.sides is None:
+            return None
+        within = np.searchsorted(self.ranges[:, 0], self._numbers[1:]) - 1
+        return np.asarray(self.sides[within])
+
+    @property
+    def _numbers(self) -> NDArray[np.int64]:
+        """Numbers of the points whose places the curve goes by, none that is where the one before it is."""
+        at = np.flatnonzero(self.state != PointState.INVALID)
+        return at[moving(self.places[at])]
 
 
 @dataclass(frozen=True)
@@ -131,7 +148,8 @@ class EffectiveMethod:
             effective = EffectivePoints(np.column_stack([at[:-1], at[1:]]), known)
         if self.correct is None:
             return PointClasses(effective.state, points, self.choose.epsilon, effective.ranges, np.zeros(len(points)))
-        at = np.flatnonzero(effective.state)
+        # ends of ranges alone: points within a facet are as far apart as a program happens to have them
+        at = np.append(effective.ranges[:, 0], effective.ranges[-1, 1])
         along = sides_among(points[at])
         sides = np.flatnonzero(along)  # lines of the true shape: no facet is corrected across one
         joints = _joints_over_chords(points[at], along, self.choose.epsilon)
@@ -139,15 +157,16 @@ class EffectiveMethod:
         kept = np.unique(np.concatenate([corners, at[whole], at[whole + 1]]))
         moved = corrected(points, effective.state, replace(self.correct, stray=stray), kept.tolist())
         state = moved.state.copy()
-        for k in sides.tolist():  # as it is one chord, it is known for a side where the curve is made, too
-            state[at[k] + 1 : at[k + 1]] = PointState.INVALID
+        for k in sides.tolist():
+            inner = np.arange(at[k] + 1, at[k + 1])
+            state[inner[state[inner] == PointState.CORRECTED]] = PointState.INVALID
         places = moved.places.copy()
         for joint, k in joints:  # its correction curve has two parts
             inner = np.arange(at[k] + 1, at[k + 1])
             inner = inner[state[inner] == PointState.CORRECTED]
             places[inner] = joint.nearest(points[inner])
         far = np.linalg.norm(places - points, axis=1)
-        return PointClasses(state, places, self.choose.epsilon + float(far.max()), effective.ranges, far)
+        return PointClasses(state, places, self.choose.epsilon + float(far.max()), effective.ranges, far, along)
 
 
 def _joints_over_chords(
@@ -221,5 +240,9 @@ def second_embodiment(
 
 def without_repeats(points: Floats) -> Floats:
     """Return points (n, 3), none twice in a row."""
-    kept = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])
-    return np.ascontiguousarray(points[kept])
+    return np.ascontiguousarray(points[moving(points)])
+
+
+def moving(points: Floats) -> NDArray[np.bool_]:
+    """Tell which points (n, 3) are not where the one before is; the first always is not."""
+    return np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])

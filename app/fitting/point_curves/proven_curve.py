@@ -116,6 +116,9 @@ def _rest(
 
 def _fitted(points: Floats, options: SplineOptions, progress: Progress) -> list[FittedPath]:
     """Return what replaces the points between two corners, cut at further ones where it has to be."""
+    edges = _level_edges(points, options)
+    if len(edges) > 2:
+        return [part for a, b in pairwise(edges) for part in _fitted(points[a : b + 1], options, progress)]
     if options.level and np.ptp(points[:, 2]) > 0:
         return [_rest(points, options, progress, RefusalReason.LEVEL)]
     if len(points) <= options.degree + 1:
@@ -134,6 +137,32 @@ def _fitted(points: Floats, options: SplineOptions, progress: Progress) -> list[
             return [_rest(points, options, progress, RefusalReason.HOOKED, blocks)]
     blocks = sum(_blocks(part, options) for part in parts)
     return parts if blocks < len(points) - 1 else [_rest(points, options, progress, RefusalReason.BLOCKS, blocks)]
+
+
+def _level_edges(points: Floats, options: SplineOptions) -> list[int]:
+    """Return the numbers of the points, the outer ones among them, between which a run is at one height and bends, or
+    is not at one height, where the control knows splines at one height only.
+
+    A level run of too few points for a spline, or one that is straight, goes with what rises beside it.
+    """
+    last = len(points) - 1
+    if not options.level or np.ptp(points[:, 2]) == 0:
+        return [0, last]
+    level = np.diff(points[:, 2]) == 0
+    runs = np.concatenate([[0], np.flatnonzero(np.diff(level)) + 1, [last]]).tolist()
+    edges = {0, last}
+    for a, b in pairwise(runs):
+        if level[a] and b - a > options.degree and _bends(points[a : b + 1], options.tube.radius):
+            edges |= {a, b}
+    return sorted(edges)
+
+
+def _bends(points: Floats, within: float) -> bool:
+    """Tell whether points (n, 3) are farther than a length, mm, from the line through the outer two."""
+    way, apart = points[-1] - points[0], points - points[0]
+    square = max(float(way @ way), 1e-300)
+    off = apart - (apart @ way / square)[:, None] * way
+    return bool(np.linalg.norm(off, axis=1).max() > within)
 
 
 def _in_pieces(
@@ -170,12 +199,16 @@ def _written(made: list[SplineFit], options: SplineOptions) -> list[FittedPath]:
 
 
 def _insisted(points: Floats, options: SplineOptions, progress: Progress) -> FittedPath:
-    """Return one spline for all points between two corners, whatever it takes: smooth of the second order all along.
+    """Return one spline for all points between two corners, whatever it takes: smooth of the second order all along;
+    where the control knows splines at one height only, one for each run at one height.
 
     Where none is found, places on the chords beside the points that would need a corner are points, too, until one
     rounds them within the tube: it has room for a curve at every bend, however small. Such places lie within the
     chord's region as wide as it is at the points.
     """
+    edges = _level_edges(points, options)
+    if len(edges) > 2:
+        return chained([_insisted(points[a : b + 1], options, progress) for a, b in pairwise(edges)])
     if options.level and np.ptp(points[:, 2]) > 0:
         return _rest(points, options, progress, RefusalReason.LEVEL)
     dense, tube, own = points, options.tube, np.arange(len(points))

@@ -36,19 +36,36 @@ _LEAST = 4
 """Parts of a chord that is no side, at least: fewer would be no evidence of an arc."""
 
 
-def through_points(points: Floats, corners: NDArray[np.int64], fine: float, between: float) -> Floats:
+@dataclass(frozen=True)
+class SplineLimits:
+    """How near splines are to points and to the chords between them.
+
+    Attributes:
+        fine: how far the spline may be from the chords of what is returned, mm, > 0.
+        between: how far the spline may leave the chord of two points, mm, >= 0; else the chord stays.
+    """
+
+    fine: float
+    between: float
+
+
+def through_points(
+    points: Floats, corners: NDArray[np.int64], limits: SplineLimits, sides: Flags | None = None
+) -> Floats:
     """Return points (m, 3) of splines through points, those themselves among them, mm.
 
     Args:
         points: (n, 3) mm, n >= 2, no two in a row alike.
         corners: numbers of the points at which splines end, rising, the first and the last among them.
-        fine: how far the spline may be from the chords of what is returned, mm, > 0.
-        between: how far the spline may leave the chord of two points, mm, >= 0; else the chord stays.
+        limits: how near to points and chords.
+        sides: (n - 1,) which chords are sides of the true shape, where that is known of more than these points: those
+            within facets are as far apart as a program happens to have them. None: as the chords tell.
     """
+    sides = sides_between(points, corners) if sides is None else sides
     closed = len(corners) == 2 and len(points) > 3 and bool(np.all(points[0] == points[-1])) and _goes_on(points)
     parts = [points[:1]]
     for a, b in pairwise(corners.tolist()):
-        parts.append(_between_corners(points[a : b + 1], closed, fine, between)[1:])
+        parts.append(_between_corners(points[a : b + 1], sides[a:b], closed, limits)[1:])
     return np.concatenate(parts)
 
 
@@ -60,15 +77,15 @@ def _goes_on(points: Floats) -> bool:
     return bool(ways[-1] @ ways[0] >= cosines.min() - 1e-9)
 
 
-def _between_corners(points: Floats, closed: bool, fine: float, between: float) -> Floats:
-    sides = sides_among(points)
+def _between_corners(points: Floats, sides: Flags, closed: bool, limits: SplineLimits) -> Floats:
+    fine = limits.fine
     joints = joints_beside(points, sides, _JOINT * fine)
     points, sides = np.insert(points, joints.chords + 1, joints.places, axis=0), np.insert(sides, joints.ends, True)
     points, sides, ways = _with_arc_joints(points, sides, _JOINT * fine)
     straight = sides.copy()
     while True:
         filled, off = _filled(points, _ChordKinds(sides, straight, ways), closed, fine)
-        wide = (off > between) & ~straight
+        wide = (off > limits.between) & ~straight
         if not wide.any():
             return filled
         straight |= wide
@@ -126,6 +143,13 @@ def joints_beside(points: Floats, sides: Flags, within: float) -> SideJoints:
                 ends.append(end)
                 chords.append(end if step > 0 else end - 1)
     return SideJoints(tuple(joints), np.array(ends, np.int64), np.array(chords, np.int64))
+
+
+def sides_between(points: Floats, corners: NDArray[np.int64]) -> Flags:
+    """Tell which chords (n - 1,) between points (n, 3) are sides, each run from corner to corner on its own; corners as
+    of `through_points`.
+    """
+    return np.concatenate([sides_among(points[a : b + 1]) for a, b in pairwise(corners.tolist())])
 
 
 def sides_among(points: Floats) -> Flags:

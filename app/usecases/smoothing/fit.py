@@ -13,7 +13,7 @@ from ...fitting.fitted import FittedPath, RefusalReason, SplineRefusal
 from ...fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from ...fitting.point_curves.effective_method import EffectiveMethod, PointClasses
 from ...fitting.point_curves.proven_curve import SplineOptions, fit_splines
-from ...fitting.point_curves.through_points import through_points
+from ...fitting.point_curves.through_points import SplineLimits, through_points
 from ...fitting.point_curves.tube import ToleranceTube
 from ...gcode.posts import NurbsForm
 from ...gcode.writer.curve_blocks import BlockFormat, curve_blocks
@@ -127,7 +127,8 @@ def _goal(context: SmoothContext, k: int, given: ToleranceTube) -> _FitGoal:
     if options.effective.on_shape:
         fine = _FINE * tube.radius
         tube = ToleranceTube(tube.radius - fine)
-        points = through_points(points, context.corners(points), fine, between - tube.radius)
+        limits = SplineLimits(fine, between - tube.radius)
+        points = through_points(points, context.corners(points), limits, classes.passed_sides)
     return _FitGoal(points, tube, classes)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ...core.wording import counted
 from ...fitting.fitted import RefusalReason, SplineRefusal
 from ...fitting.line_arcs.arc_fit import BEND
 from ...fitting.point_curves.effective_points import PointState
@@ -34,6 +35,7 @@ def certificate(done: SmoothedProgram) -> tuple[str, ...]:
     return (
         f"{reported}, {came} blocks before, {left} after",
         *refused_words(done.refusals),
+        *_straight_words(done),
         f"{_region_words(done)}; proven both ways, as written: {done.bound:.6f} mm; found: curve to "
         f"moves {max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
@@ -71,6 +73,16 @@ def refused_words(refusals: tuple[SplineRefusal, ...]) -> tuple[str, ...]:
         took = f": {blocks} blocks, in place of {instead}" if blocks else ""
         told.append(f"no spline in {runs}, {reason.value}{took}")
     return tuple(told)
+
+
+def _straight_words(done: SmoothedProgram) -> tuple[str, ...]:
+    """Return how many lines stand where splines were insisted on and nothing else was: pieces that do not bend, which
+    a control that drives splines as arcs finds none for.
+    """
+    lines = sum(piece.kinds.lines for piece in _changed(done) if not piece.refusals)
+    if not done.options.insist or not lines:
+        return ()
+    return (f"{counted(lines, 'line')} where a spline is straight to the last decimal",)
 
 
 def _bend_words(done: SmoothedProgram) -> str:

@@ -21,7 +21,7 @@ from ...gcode.interpreter.reader import read_program
 from ...gcode.posts import Post, load_post
 from ...gcode.rework.stretches import FeedStretch
 from ...gcode.translate.program import translated
-from ...model.motion import Floats
+from ...model.motion import Floats, MotionKind
 from ...model.part import Units
 from ..kind_of_file import ensure_program
 
@@ -71,20 +71,27 @@ class SourceProgram:
     rows: NDArray[np.int64]
 
     def points(self, stretch: FeedStretch) -> Floats | None:
-        """Return the places of a stretch as the source has them; None where it has them not one by one."""
-        rows = self.rows[stretch.first : stretch.stop]
-        if np.any(rows < 0) or np.any(np.diff(rows) != 1):
+        """Return the places of a stretch as the source has them, those among them that are one place in the digits of
+        the new text; None where the source has something else than straight moves of one feed from its first to its
+        last.
+        """
+        first, last = self.rows[[stretch.first, stretch.stop - 1]].tolist()
+        motions = self.source.motions
+        span = slice(first, last + 1)
+        straight = motions.kind[span] == MotionKind.LINE
+        if min(first, last) < 0 or first > last or not straight.all() or np.ptp(motions.feed[span]) != 0:
             return None
-        return np.vstack([self.source.motions.start[rows[:1]], self.source.motions.end[rows]])
+        return np.vstack([motions.start[first : first + 1], motions.end[span]])
 
     def lines(self, stretch: FeedStretch) -> tuple[int, int]:
         """Return first and last line of a stretch in the text that came in; in the new text where it is not there one
         by one.
         """
-        rows = self.rows[stretch.first : stretch.stop]
+        rows = self.rows[[stretch.first, stretch.stop - 1]]
         if np.any(rows < 0):
             return stretch.first_line, stretch.last_line
-        return int(self.source.motions.line[rows[0]]), int(self.source.motions.line[rows[-1]])
+        first, last = self.source.motions.line[rows].tolist()
+        return first, last
 
 
 def usual_post(dialect: Dialect) -> str:
