@@ -11,7 +11,7 @@ from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF, Q
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from ...framework.figures import grouped
-from ...framework.theme import mixed, text_font
+from ...framework.theme import mixed
 from ...framework.themed import Themed
 from .panel import colour_of
 
@@ -158,7 +158,6 @@ class TimePlot(Themed, QWidget):
         """Draw which tool is in the spindle, in the colours that its cuts have."""
         ends = np.concatenate([[0], timeline.tool_changes, [len(timeline)]])
         known = list(dict.fromkeys(timeline.tool[ends[:-1][ends[:-1] < len(timeline)]].tolist()))
-        painter.setFont(text_font(10))
         for first, last in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True):
             if last <= first:
                 continue

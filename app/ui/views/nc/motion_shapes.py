@@ -26,6 +26,9 @@ _MOST_PIECES = 1_600
 
 _MOST_LIT = 4_000
 
+CONTOUR_INK = 1
+"""The place of contours in the theme's cycle of tools, as in the Paths view."""
+
 
 class ViewSide(Enum):
     """From where the path is looked at; the value holds the columns that go to the right and up."""
@@ -139,6 +142,20 @@ def tools_of(shapes: MotionShapes) -> list[int]:
     """Return the T numbers that feed, in the order of their first cut."""
     tools, first = np.unique(shapes.tool[shapes.look != MotionLineStyle.RAPID], return_index=True)
     return [int(tool) for tool in tools[np.argsort(first)]]
+
+
+def tool_inks(shapes: MotionShapes) -> dict[int, int]:
+    """Return the place in the theme's cycle of tools of what each tool feeds, by T number, in the order of first cuts.
+
+    Where it is known which motions go along contours, these have a place of their own, whatever tool cuts them, and the
+    others leave it free: so nothing has another colour than in the Paths view.
+    """
+    tools, along = tools_of(shapes), shapes.look == MotionLineStyle.CONTOUR
+    if not along.any():
+        return {tool: at for at, tool in enumerate(tools)}
+    others = set(np.unique(shapes.tool[~along & (shapes.look != MotionLineStyle.RAPID)]).tolist())
+    first = sorted(tools, key=lambda tool: tool not in others)
+    return {tool: at + (at >= CONTOUR_INK) for at, tool in enumerate(first)}
 
 
 def shape_motions(program: NcProgram, contour: Bools | None = None) -> MotionShapes:
