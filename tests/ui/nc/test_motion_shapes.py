@@ -146,7 +146,7 @@ def test_contours_have_the_colour_of_the_paths_view_whatever_tool_cuts_them():
     text += "T2 M6\n(Rest T2: depth 1 mm)\nG1 X3\nT3 M6\n(Contour T3: depth 1 mm)\nG1 X4\nM2\n"
     program = read_program(text.encode(), ReadOptions())
     shapes = shape_motions(program, contour_motions(text.encode(), program))
-    assert tool_inks(shapes) == {1: 0, 2: 2, 3: 3}
+    assert tool_inks(shapes) == {1: 0, 2: 2, 3: CONTOUR_INK}
     cuts = [3, 5, 8, 11]
     assert [code - CUT for code in line_marks(13, shapes).by_tool[cuts].tolist()] == [0, CONTOUR_INK, 2, CONTOUR_INK]
     assert LIGHT.tools[:3] == (LIGHT.pocket, LIGHT.contour, LIGHT.rest)

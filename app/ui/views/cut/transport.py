@@ -153,7 +153,9 @@ class Transport(QWidget):
             widget.setEnabled(ready)
         for button in self._finding_steps:
             button.setVisible(bool(player.marks))
-        self.plot.show_timeline(timeline, player.marks)
+        self.plot.show_timeline(
+            timeline, player.marks, player.shown.picture.moves if player.shown is not None else None
+        )
         self._show_speed()
         self.show_place()
 
