@@ -9,7 +9,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from .cut_picture import ColourSpan, CutPicture, Floats, Heights, Numbered
+from .cut_picture import ColourSpan, CutMoves, CutPicture, Floats, Heights, Numbered
 from .relief import Bytes
 
 Rgb8 = tuple[int, int, int]
