@@ -11,7 +11,8 @@ from PySide6.QtWidgets import QLabel
 
 from app.core.resources import resource
 from app.model.contour_operation import ContourOperation
-from app.model.operation import CutParameters
+from app.model.job import Job
+from app.model.operation import CutParameters, PocketOperation
 from app.model.tool import Tool
 from app.model.tool_kind import ToolKind
 from app.model.vcarve_operation import VcarveOperation
@@ -20,6 +21,7 @@ from app.ui.framework.figures import clock
 from app.ui.framework.view import View
 from app.ui.shell.files.nc_export_controller import ExportPlace
 from app.ui.views.surfaces.scene_computation import SceneState
+from tests.part_shapes import layered_part, square
 from tests.ui.conftest import WAIT_MS
 
 SLOT = (
@@ -215,3 +217,17 @@ def test_what_is_added_to_the_job_is_seen(wiring, name):
     wiring.window_.side.show_page("Drawing")
     wiring.window_.actions_[name].trigger()
     assert wiring.window_.side.page == "Job"
+
+
+def test_what_computing_again_cannot_help_offers_no_such_button(qtbot, wiring):
+    cut = CutParameters(1, depth=11.0)
+    wiring.document.load(Job(layered_part({"0": [square(20.0)]}), (Tool(1, 6.0),), (PocketOperation(cut),)))
+    wiring.compute()
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.FAILED, timeout=WAIT_MS)
+    window, empty = wiring.window_, wiring.window_.views.empty
+    for view in (View.PATHS, View.CUT, View.NC):
+        wiring.display_controller.show_view(view)
+        assert "could not be computed" in empty.sentence.text() and not empty.button.isVisible()
+    qtbot.mouseClick(window.status.badge, Qt.MouseButton.LeftButton)
+    told = [label.text() for label in window.findings_list.findChildren(QLabel)]
+    assert any("11 mm" in text for text in told), told

@@ -31,6 +31,9 @@ def test_window_is_usable_soon(capsys):
     assert took < WANTED_S
 
 
+MOST_COLLECTED = 100_000
+"""Objects for which a pass of the garbage collector takes some 20 ms."""
+
 COMPUTES = (
     "app.usecases.making.make",
     "app.usecases.sheet.made",
@@ -68,3 +71,28 @@ def test_the_window_loads_nothing_on_the_way_once_it_is_warm(tmp_path):
     done = subprocess.run(command, cwd=ROOT, env=own, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     assert done.stdout == ""
+
+
+@pytest.mark.exhaustive
+def test_the_collector_leaves_out_what_is_loaded_once_the_window_is_warm(tmp_path):
+    program = """
+import gc
+from PySide6.QtWidgets import QApplication
+application = QApplication([])
+from app.ui.shell.start import build, warm_up
+from tests.ui.measure_window import live_until
+window, wiring = build()
+window.show()
+warmer = warm_up(window)
+live_until(lambda: not warmer.busy)
+live_until(lambda: False, 0.2)
+print(len(gc.get_objects()), gc.isenabled())
+"""
+    own = os.environ | {"QT_QPA_PLATFORM": "offscreen", "HITOFUDE_CONFIG": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=ROOT, env=own, capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    left, enabled = done.stdout.split()
+    assert enabled == "True"
+    assert int(left) < MOST_COLLECTED, "a pass over these holds the window's thread up"

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from PySide6.QtCore import QPoint, QRectF, Qt
+from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 
 from app.drafting.document import Document
 from app.model.contour_operation import ContourOperation
@@ -144,7 +144,15 @@ def test_a_click_marks_a_place_and_escape_ends(qtbot, canvas):
     assert len(places) == 1
 
 
-def test_tabs_are_put_and_taken_away_by_clicks(qtbot, wiring):
+def drag(qtbot, canvas, start: QPoint, end: QPoint) -> None:
+    """Drag from one px to another; what is dragged is shown where the mouse is."""
+    qtbot.mousePress(canvas, Qt.MouseButton.LeftButton, pos=start)
+    qtbot.mouseMove(canvas, end)
+    assert canvas.marked_places == [pytest.approx(canvas.view.to_world(QPointF(end)))]
+    qtbot.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=end)
+
+
+def test_tabs_are_put_moved_and_taken_away_by_clicks(qtbot, wiring):
     window = wiring.window_
     document, panel, canvas = window.document, window.panel, window.canvas
     document.change_job("Part", replace(document.job, part=Part().with_entities(square(0, 0, 40, "0", 1))))
@@ -159,6 +167,12 @@ def test_tabs_are_put_and_taken_away_by_clicks(qtbot, wiring):
     (place,) = document.job.operations[index].tabs.places
     assert place == pytest.approx((20.0, 0.0), abs=0.3)
     assert document.undo_name == "Put tab"
+    aside = at + QPoint(30, 0)
+    drag(qtbot, canvas, at, aside)
+    (moved,) = document.job.operations[index].tabs.places
+    assert moved == pytest.approx(canvas.view.to_world(QPointF(aside)), abs=0.001) and document.undo_name == "Move tab"
+    document.undo()
+    assert document.job.operations[index].tabs.places == (place,)
     qtbot.mouseClick(canvas, Qt.MouseButton.LeftButton, pos=at)
     assert document.job.operations[index].tabs.places == ()
     document.undo()

@@ -39,12 +39,13 @@ def test_sentence_of_an_error_arrives(qtbot, worker):
     with qtbot.waitSignal(worker.failed) as caught:
         worker.start(fail, 1)
     assert caught.args[0].error == "gear.dxf is empty; choose another file."
+    assert not caught.args[0].again, "it will be empty the next time"
 
 
 def test_mistake_of_the_program_is_told_as_one(qtbot, worker, capsys):
     with qtbot.waitSignal(worker.failed) as caught:
         worker.start(lambda progress: 1 / 0, 1)
-    assert "Your drawing is safe" in caught.args[0].error
+    assert "Your drawing is safe" in caught.args[0].error and caught.args[0].again
     assert "ZeroDivisionError" in capsys.readouterr().err
 
 
@@ -178,6 +179,7 @@ def test_what_is_too_much_memory_is_a_sentence_without_options(qtbot, worker):
     error = caught.args[0].error
     assert error.startswith("A grid of 9 x 9 cells would take 2 GB of memory, and 50 MB may be taken; use fewer cells")
     assert "--" not in error and "\n" not in error
+    assert caught.args[0].again, "there may be more of it, or more may be allowed"
 
 
 def test_memory_that_runs_out_is_no_mistake_of_the_program(qtbot, worker, capsys):

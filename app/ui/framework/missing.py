@@ -15,3 +15,8 @@ class MissingHint:
 
 
 NOTHING = MissingHint()
+
+
+def failed_hint(error: str, again: bool, action: str) -> MissingHint:
+    """Return why something is not there, with the button that computes it again where that may help."""
+    return MissingHint(error, "Compute again", action) if again else MissingHint(error)

@@ -36,4 +36,4 @@ def dress_axes(plot: PlotWidget, theme: Theme) -> None:
         axis = plot.getAxis(name)
         axis.setPen(mkPen(theme.hairline))
         axis.setTextPen(mkPen(theme.muted))
-        axis.setStyle(tickFont=text_font(11))
+        axis.setStyle(tickFont=text_font())

@@ -39,12 +39,15 @@ class JobOutcome:
         job_id, revision: which job, and the document's revision that it was started for.
         value: what the function returned, or None.
         error: a sentence for the user, or None.
+        again: whether the same job may do better another time: it ran out of memory, or the program made a mistake.
+            What is wrong with its input is wrong every time.
     """
 
     job_id: int
     revision: int
     value: object = None
     error: str | None = None
+    again: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +153,7 @@ class _Runner(threading.Thread):
             raise Cancelled from gone
 
     def _run(self, work: _PendingJob) -> None:
-        value, error = None, None
+        value, error, again = None, None, True
         try:
             progress = Progress(
                 partial(self._tell, work.job_id), work.cancelled, remarks=partial(self._remark, work.job_id)
@@ -169,7 +172,7 @@ class _Runner(threading.Thread):
                 "or ask for less: a larger tool, fewer cells, a coarser bitmap. Your drawing is safe."
             )
         except HitofudeError as sentence:
-            error = str(sentence)
+            error, again = str(sentence), False
         except Exception as fault:
             traceback.print_exc()
             error = (
@@ -177,7 +180,7 @@ class _Runner(threading.Thread):
                 "report this."
             )
         if not work.cancelled.is_set():
-            outcome = JobOutcome(work.job_id, work.revision, value, error)
+            outcome = JobOutcome(work.job_id, work.revision, value, error, again and error is not None)
             with suppress(Cancelled):
                 self._send(lambda: self._worker.answered.emit(outcome))
 

@@ -5,14 +5,14 @@ some of them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 from PySide6.QtCore import SignalInstance
 from PySide6.QtWidgets import QPushButton, QWidget
 
-from ...model.curve_selectors import ContourKind, OnLayer
+from ...model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer, Selector
 from ...model.entry import EntryKind, LeadKind
 from ...model.fields import ParameterPlace, Unit, parameters_of
 from ...model.job import Job
@@ -20,12 +20,14 @@ from ...model.operation import Operation, Side
 from ...model.operation_kinds import parameters
 from ...model.tool import Tool
 from ..framework.fields import ListField
+from ..framework.figures import counted
 from ..framework.form import FieldGroup
 from ..framework.labels import muted
 from . import parameter_sketches
 from .parameter_fields import ParameterField
 from .sketch import SketchWidget
 
+SPAN = " \u2013 "
 BY_HAND = "Put tabs by hand"
 USE_SELECTION = "Use selection"
 _OF_WALLS = ("Walls", "Lead in and out")
@@ -112,13 +114,31 @@ def _words(placed: ParameterPlace, operation: Operation) -> str:
         case Unit.ANGLE:
             return f"{declared.shown(value):g}°"
         case Unit.CURVES:
-            return ", ".join(each.text for each in value)
+            return curve_words(value)
         case Unit.POINTS:
             return f"{len(value)} by hand"
         case Unit.COUNT:
             return f"{value} {name}"
         case _:
             return f"{name} {declared.shown(value):g}{declared.sign}"
+
+
+def curve_words(selectors: Sequence[Selector]) -> str:
+    """Return which curves an operation machines as a person says it, not as a job file does."""
+    numbers = [each for each in selectors if isinstance(each, CurveNumber)]
+    if len(numbers) > 1:
+        rest = [each for each in selectors if each not in numbers]
+        return ", ".join([*map(_selector_words, rest), counted(len(numbers), "curve")])
+    return ", ".join(map(_selector_words, selectors))
+
+
+def _selector_words(selector: Selector) -> str:
+    if isinstance(selector, CirclesOf):
+        ends = dict.fromkeys((selector.least, selector.most))
+        return f"Ø {SPAN.join(f'{each:g}' for each in ends)} mm"
+    if selector is ContourKind.OPEN:
+        return "open lines"
+    return selector.words if isinstance(selector, OnLayer) else selector.text
 
 
 def _floor(form: GroupHost) -> Show:
@@ -179,7 +199,9 @@ def _tabs(form: GroupHost) -> Show:
     picture, words = SketchWidget(parameter_sketches.tab, "A tab"), muted()
     form.add_picture(picture, words)
     form.hand = QPushButton(BY_HAND)
-    form.hand.setToolTip("Click beside a contour to put a tab, on a tab to take it away; Esc ends.")
+    form.hand.setToolTip(
+        "Click beside a contour to put a tab; drag a tab to move it, click it to take it away; Esc ends."
+    )
     form.hand.clicked.connect(form.tabs)
     form.add(form.hand)
 
@@ -215,7 +237,7 @@ def _curves(form: GroupHost) -> Show:
             *(((each,), _PLACES[each]) for each in ContourKind),
         ]
         if own not in [value for value, _ in choices]:
-            choices.append((own, ", ".join(each.text for each in own)))
+            choices.append((own, curve_words(own)))
         field.set_choices(choices)
         field.show_value(own)
 

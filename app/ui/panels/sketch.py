@@ -120,7 +120,4 @@ class SketchWidget(Themed, QWidget):
             return
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        font = painter.font()
-        font.setPixelSize(11)
-        painter.setFont(font)
         self._draw(Sketch(painter, self._theme), self._values)

@@ -19,6 +19,7 @@ NO_DRAWING = MissingHint(
 )
 NO_PART = MissingHint("Nothing is drawn yet. Draw a part, type  rect 0,0 60,40  or open a drawing.", "Open a drawing")
 NO_PATHS = MissingHint("There are no tool paths yet.", "Compute  F5", "compute")
+PATHS_FAILED = MissingHint("The paths could not be computed; the badge below tells why.")
 NO_CUT = MissingHint("There is no cut yet.", "Compute  F5", "compute")
 CUTTING = MissingHint("The program is being cut.", "Cancel  Shift+F5", "cancel")
 CUT_PREPARED = MissingHint("The cut is being made ready to be looked at.")
@@ -32,7 +33,7 @@ NO_SCENE = MissingHint(
     "scene_compound",
 )
 WRONG_SCENE = MissingHint("The scene's text is wrong; the line is marked at the right.", "Open another scene")
-SCENE_FAILED = MissingHint("The scene could not be computed; the badge below tells why.", "Compute  F5", "compute")
+SCENE_FAILED = MissingHint("The scene could not be computed; the badge below tells why.")
 SCENE_WAITS = MissingHint("The scene is not computed yet.", "Compute  F5", "compute")
 SCENE_COMPUTING = MissingHint("The scene is being computed.", "Cancel  Shift+F5", "cancel")
 SCENE_UNPROVEN = MissingHint(
@@ -218,4 +219,6 @@ def _of_job(
         return NOTHING
     if window.computation.state is ComputationState.RUNNING:
         return COMPUTING
+    if window.computation.state is ComputationState.FAILED:
+        return PATHS_FAILED
     return otherwise if window.document.part.entities else none_drawn()

@@ -1,5 +1,7 @@
 """What the colours of the metal tell."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtGui import QColor
@@ -41,6 +43,12 @@ def test_tools_and_surfaces_have_a_colour_each_and_a_name():
     assert [name for _, name in made.key.names] == ["T5", "T2"]  # in the order of their first move
     surfaces = cell_colours(picture(move=MOVE, moves=MOVES), CutColourBy.SURFACE, INKS)
     assert surfaces.values.tolist() == [[STOCK, 0], [1, 1]]
+
+
+def test_tools_have_other_places_in_the_cycle_where_contours_have_theirs():
+    made = cell_colours(picture(move=MOVE, moves=replace(MOVES, inks={5: 0, 2: 2})), CutColourBy.TOOL, INKS)
+    assert made.key.names == ((INKS.tools[0], "T5"), (INKS.tools[2], "T2"))
+    assert [tuple(made.key.palette[place, :3]) for place in (0, 1)] == [INKS.tools[0], INKS.tools[2]]
 
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])

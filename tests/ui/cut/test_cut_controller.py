@@ -85,7 +85,7 @@ def test_a_mend_is_one_step_that_is_computed_and_can_be_taken_back(qtbot: QtBot,
     qtbot.waitUntil(lambda: wiring.cut_controller.cut is not own, timeout=60_000)
     assert wiring.document.job.operations[0].cut == cut, "a preview changes nothing"
     assert wiring.cut_controller.cut.picture.lowest == pytest.approx(-3.5, abs=1e-4) != own.picture.lowest
-    assert panel.title.text() == "Preview" and "preview" in wiring.window_.file_label.text()
+    assert panel.title.text() == "Preview · Clean" and "preview" in wiring.window_.file_label.text()
     assert not any(each.kind is FindingKind.SHANK_CONTACT for each in panel.entries)
     panel.mends[1].click()
     assert wiring.cut_controller.cut is own and "preview" not in wiring.window_.file_label.text()

@@ -5,12 +5,16 @@ import math
 import numpy as np
 import pytest
 
+from app.gcode.interpreter.notes_operation import contour_motions
+from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import ModalState, NcProgram
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind, Nurbs, Plane
+from app.ui.framework.theme import LIGHT
 from app.ui.views.canvas.painting.curve_path import ELEMENT
+from app.ui.views.nc.line_marks import CUT, line_marks
 from app.ui.views.nc.motion_hover import describe_motion, nearest_motion, outline
-from app.ui.views.nc.motion_shapes import MotionLineStyle, ViewSide, shape_motions
+from app.ui.views.nc.motion_shapes import CONTOUR_INK, MotionLineStyle, ViewSide, shape_motions, tool_inks
 from app.ui.views.nc.painting.motion_layer import MotionLayer
 from tests.ui.nc.hand_made import motions_of, program_of
 
@@ -135,3 +139,19 @@ def test_picture_of_a_read_program_reaches_as_far_as_its_arcs():
 def test_a_program_without_motions_has_a_picture():
     picture = MotionLayer(shape_motions(read_program(b"(nothing)\n")), ViewSide.YZ)
     assert picture.box is None
+
+
+def test_contours_have_the_colour_of_the_paths_view_whatever_tool_cuts_them():
+    text = "G21 G90\nT1 M6\n(Pocket T1: depth 1 mm)\nG1 X1 F100\n(Contour T1: depth 1 mm)\nG1 X2\n"
+    text += "T2 M6\n(Rest T2: depth 1 mm)\nG1 X3\nT3 M6\n(Contour T3: depth 1 mm)\nG1 X4\nM2\n"
+    program = read_program(text.encode(), ReadOptions())
+    shapes = shape_motions(program, contour_motions(text.encode(), program))
+    assert tool_inks(shapes) == {1: 0, 2: 2, 3: CONTOUR_INK}
+    cuts = [3, 5, 8, 11]
+    assert [code - CUT for code in line_marks(13, shapes).by_tool[cuts].tolist()] == [0, CONTOUR_INK, 2, CONTOUR_INK]
+    assert LIGHT.tools[:3] == (LIGHT.pocket, LIGHT.contour, LIGHT.rest)
+
+
+def test_a_program_that_does_not_tell_its_contours_has_the_cycle_of_tools():
+    text = b"G21 G90\nT4 M6\nG1 X1 F100\nT2 M6\nG1 X2\nM2\n"
+    assert tool_inks(shape_motions(read_program(text, ReadOptions()))) == {4: 0, 2: 1}

@@ -8,6 +8,7 @@ from app.drafting.document import Document
 from app.model import operation_kinds as operations
 from app.model.chamfer_operation import ChamferOperation
 from app.model.contour_operation import ContourOperation
+from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer
 from app.model.fields import parameters_of
 from app.model.job import Job
 from app.model.operation import CutParameters, Side
@@ -16,6 +17,7 @@ from app.model.part import Part
 from app.ui.framework.fields import ChoiceField, ListField, NumberField
 from app.ui.framework.form import SwitchField
 from app.ui.panels.operation_form import OperationForm
+from app.ui.panels.operation_groups import SPAN, curve_words
 from tests.model.test_fields import ASKED, EngraveOperation, Grain
 
 
@@ -85,3 +87,10 @@ def test_what_a_kind_refuses_is_not_offered(form):
 
     assert offered(ChamferOperation) == [Side.INSIDE, Side.OUTSIDE]
     assert offered(ContourOperation) == [Side.INSIDE, Side.OUTSIDE, Side.ON]
+
+
+def test_curves_of_an_operation_are_told_as_a_person_says_them():
+    curves = (CirclesOf(6.0, 6.0), CirclesOf(5.9, 6.1), OnLayer("holes"), ContourKind.OPEN, CurveNumber(12))
+    words = ["Ø 6 mm", f"Ø 5.9{SPAN}6.1 mm", "layer holes", "open lines", "#12"]
+    assert [curve_words([each]) for each in curves] == words
+    assert curve_words([CurveNumber(3), CurveNumber(4), ContourKind.OUTER]) == "outer, 2 curves"

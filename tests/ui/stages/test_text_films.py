@@ -73,6 +73,7 @@ def test_a_film_is_made_of_ones_own_program_or_says_what_is_missing(qtbot, wirin
     assert stages.films.film.source == "facets.ngc"
     QTest.mouseClick(panel.source.buttons[True], LEFT)
     assert stages.films.film is None and "Open one in NC" in wiring.window_.views.empty.sentence.text()
+    assert not wiring.window_.views.empty.button.isVisible(), "computing again does not open a program"
     open_file(qtbot, wiring, resource("samples", "points.ngc"))
     wiring.display_controller.show_view(View.STAGES)
     qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)

@@ -1,5 +1,5 @@
-"""Tabs by hand: clicks beside contours put them, clicks on them take them away; each is an undoable change of the
-operation.
+"""Tabs by hand: clicks beside contours put them, drags move them, clicks on them take them away; each is an undoable
+change of the operation.
 """
 
 from __future__ import annotations
@@ -15,10 +15,12 @@ from ...panels.changes import with_operation
 from ...panels.operation_groups import BY_HAND
 from ...panels.side_panel import SidePanel
 from ...views.canvas.canvas import Canvas
-from ...views.canvas.marker_mode import MarkerMode
+from ...views.canvas.marker_mode import MarkerMode, place_near
 
 _PLACES = "tab_places"
 """Key of the parameter that says where tabs are."""
+
+_PROMPT = "Tabs: click beside a contour; drag a tab to move it, click it to take it away; Esc ends"
 
 
 class TabController:
@@ -41,8 +43,7 @@ class TabController:
             return
         self._index = self._panel.operation_form.index
         if self._operation is not None:
-            prompt = "Tabs: click beside a contour, or on a tab to take it away; Esc ends"
-            canvas.mark(MarkerMode(prompt, self._places, self._click))
+            canvas.mark(MarkerMode(_PROMPT, self._places, self._click, move=self._move))
             canvas.setFocus()
 
     @property
@@ -57,18 +58,34 @@ class TabController:
         return parameters_of(type(operation))[_PLACES].of(operation) if operation is not None else ()
 
     def _click(self, at: Point, reach: float) -> None:
+        places = self._places()
+        near = [place for place in places if math.dist(place, at) <= reach]
+        if near:
+            self._keep("Remove tab", tuple(place for place in places if place not in near))
+        else:
+            self._keep("Put tab", (*places, _rounded(at)))
+
+    def _move(self, start: Point, end: Point, reach: float) -> None:
+        """Move the tab that a drag began on; a drag from elsewhere is a click."""
+        places = self._places()
+        near = place_near(places, start, reach)
+        if near is None:
+            self._click(start, reach)
+        else:
+            self._keep("Move tab", tuple(_rounded(end) if place == near else place for place in places))
+
+    def _keep(self, change: str, places: tuple[Point, ...]) -> None:
+        """Give the operation other places of tabs, as one step that can be undone."""
         operation = self._operation
         if operation is None:
             return
-        places = self._places()
-        near = [place for place in places if math.dist(place, at) <= reach]
-        kept = (
-            tuple(place for place in places if place not in near)
-            if near
-            else (*places, (round(at[0], 3), round(at[1], 3)))
-        )
 
         def make(job: Job) -> Job:
-            return with_operation(job, self._index, with_values(operation, {_PLACES: kept}))
+            return with_operation(job, self._index, with_values(operation, {_PLACES: places}))
 
-        self._panel.change("Remove tab" if near else "Put tab", make)
+        self._panel.change(change, make)
+
+
+def _rounded(at: Point) -> Point:
+    """Return a place to 0.001 mm."""
+    return (round(at[0], 3), round(at[1], 3))

@@ -81,7 +81,7 @@ class FileCard(Themed, QAbstractButton):
         painter.drawLine(top.bottomLeft(), top.bottomRight())
         painter.setPen(QPen(theme.accent_text if self.hasFocus() or self.underMouse() else theme.hairline, 1))
         painter.drawPath(outline)
-        rows = ((self.text(), text_font(semibold=True), theme.ink), (tr(self.words), text_font(12), theme.muted))
+        rows = ((self.text(), text_font(semibold=True), theme.ink), (tr(self.words), text_font(), theme.muted))
         for row, (text, font, colour) in enumerate(rows):
             painter.setFont(font)
             painter.setPen(colour)

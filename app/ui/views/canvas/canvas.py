@@ -372,7 +372,7 @@ class Canvas(InteractiveViewport):
     def _paint_marks(self, painter: QPainter) -> None:
         """Paint the places that are being marked by hand."""
         if self.marker_mode is not None:
-            overlay.paint_points(painter, self.view, list(self.marker_mode.places()), self._look.theme)
+            overlay.paint_points(painter, self.view, self.marked_places, self._look.theme)
 
     def set_unit(self, unit: float) -> None:
         """Count in another unit, of so many mm; typed lengths, too."""

@@ -17,7 +17,7 @@ from ....model.curves import Point
 from ....model.notes import Note
 from ....model.part import Entity
 from .grips import GRIP_PX, DragTool, Grips, SelectionDragTool, pull_tool
-from .marker_mode import MarkerMode
+from .marker_mode import MarkerMode, place_near
 from .modes import CanvasTool
 from .painting.grid import grid_steps
 from .painting.part_layer import PartLayer
@@ -91,6 +91,7 @@ class InteractiveViewport(Viewport):
         self.snap_state.changed.connect(self._aim_again)
         self._space = False
         self._held_from: QPointF | None = None
+        self._marks_from: QPointF | None = None
         self._carried: Point | None = None
         self._told = (self.runner.prompt, CanvasTool.SELECT)
         self.setMouseTracking(True)
@@ -127,8 +128,34 @@ class InteractiveViewport(Viewport):
         """Let clicks mark places, until Esc or another tool; None ends that."""
         if marking is not None:
             self.runner.start(CanvasTool.SELECT)
-        self.marker_mode = marking
+        self.marker_mode, self._marks_from = marking, None
         self._tell()
+
+    @property
+    def marked_places(self) -> list[Point]:
+        """The places that are being marked, mm, one that is dragged where it is dragged to."""
+        mode = self.marker_mode
+        if mode is None:
+            return []
+        places = list(mode.places())
+        if mode.move is not None and self._marks_from is not None and _apart(self._marks_from, self.mouse):
+            carried = place_near(places, self.view.to_world(self._marks_from), PICK_PX / self.view.scale)
+            if carried is not None and self.mouse is not None:
+                places[places.index(carried)] = self.view.to_world(self.mouse)
+        return places
+
+    def _let_mark(self, position: QPointF) -> None:
+        """Mark where the button was pressed, or move what was dragged from there."""
+        begun, self._marks_from = self._marks_from, None
+        mode, reach = self.marker_mode, PICK_PX / self.view.scale
+        if mode is None or begun is None:
+            return
+        start = self.view.to_world(begun)
+        if mode.move is not None and _apart(begun, position):
+            mode.move(start, self.view.to_world(position), reach)
+        else:
+            mode.click(start, reach)
+        self.update()
 
     def set_tool(self, tool: CanvasTool) -> None:
         """Begin a tool."""
@@ -233,8 +260,7 @@ class InteractiveViewport(Viewport):
         elif button is Qt.MouseButton.LeftButton and self.area.contains(event.position()):
             self._move_to(event)
             if self.marker_mode is not None:
-                self.marker_mode.click(self.view.to_world(event.position()), PICK_PX / self.view.scale)
-                self.update()
+                self._marks_from = event.position()
             elif self.aim is None:
                 self._take_hold(event.position(), self._adds(event))
             else:
@@ -258,11 +284,15 @@ class InteractiveViewport(Viewport):
         if isinstance(self.runner.tool, SelectionDragTool):
             self.runner.tool.keep = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
         self._move_to(event)
+        if self._marks_from is not None:
+            self.update()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Select, or let the drawing go."""
         if self.end_pan():
             self._show_cursor()
+        elif event.button() is Qt.MouseButton.LeftButton and self._marks_from is not None:
+            self._let_mark(event.position())
         elif event.button() is Qt.MouseButton.LeftButton and self._held_from is not None:
             self._let_go(event.position())
         elif event.button() is Qt.MouseButton.LeftButton and self.band_from is not None:

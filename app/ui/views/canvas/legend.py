@@ -35,9 +35,6 @@ class EngagementScale(Themed, QWidget):
         painter = QPainter(self)
         shown = colours(self._theme)
         wide = self.width() / len(shown)
-        font = painter.font()
-        font.setPixelSize(10)
-        painter.setFont(font)
         for k, colour in enumerate(shown):
             painter.fillRect(QRectF(k * wide, 6, wide, 6), colour)
         painter.setPen(self._theme.muted)

@@ -25,7 +25,6 @@ _EDGE = 4.0
 
 _MARGIN, _ROW, _FIELD, _SPACE = 8.0, 26.0, 22.0, 8.0
 _LEAST_FIELD, _MOST_FIELD = 74.0, 220.0
-_TEXT_PX, _SMALL_PX = 13, 11
 _MOST_WORDS = 280.0
 _SHADOW = ((3.0, 10), (2.0, 16), (1.0, 22))
 """How far rings of a soft shadow reach, px, and how dark they are."""
@@ -111,13 +110,11 @@ def paint_values(painter: QPainter, sheet: ValueSheet, place: SheetPlace, theme:
 
 
 class _Type:
-    """The three fonts of the sheet, measured once: they are asked for at every move of the mouse."""
+    """The two fonts of the sheet, measured once: they are asked for at every move of the mouse."""
 
     def __init__(self) -> None:
-        self.plain, self.small = text_font(_TEXT_PX), text_font(_SMALL_PX)
-        self.strong = text_font(_TEXT_PX, semibold=True)
-        self.of_plain, self.of_small = QFontMetricsF(self.plain), QFontMetricsF(self.small)
-        self.of_strong = QFontMetricsF(self.strong)
+        self.plain, self.strong = text_font(), text_font(semibold=True)
+        self.of_plain, self.of_strong = QFontMetricsF(self.plain), QFontMetricsF(self.strong)
 
 
 @cache
@@ -153,17 +150,17 @@ class _Painting:
     def __init__(self, painter: QPainter, sheet: ValueSheet, theme: Theme) -> None:
         self._painter, self._sheet, self._theme = painter, sheet, theme
         self._type = _type()
-        plain, small, strong = self._type.of_plain, self._type.of_small, self._type.of_strong
+        plain, strong = self._type.of_plain, self._type.of_strong
         rows = sheet.rows
-        self._name = max((small.horizontalAdvance(tr(row.name)) for row in rows), default=0.0)
-        self._unit = max((small.horizontalAdvance(row.unit) for row in rows), default=0.0)
+        self._name = max((plain.horizontalAdvance(tr(row.name)) for row in rows), default=0.0)
+        self._unit = max((plain.horizontalAdvance(row.unit) for row in rows), default=0.0)
         wide = max((max(f.horizontalAdvance(row.text) for f in (plain, strong)) for row in rows), default=0.0) + 16
         self._field = min(max(wide, _LEAST_FIELD), _MOST_FIELD)
         boxes = self._name + self._field + self._unit + 2 * _SPACE if rows else 0.0
         room = max(boxes, _MOST_WORDS)
         flags = int(Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextWordWrap)
         self._lines = [
-            (words, small.boundingRect(QRectF(0, 0, room, 1000), flags, words.text)) for words in sheet.words
+            (words, plain.boundingRect(QRectF(0, 0, room, 1000), flags, words.text)) for words in sheet.words
         ]
         self._width = max([boxes, *(rect.width() for _, rect in self._lines)]) + 2 * _MARGIN
         self._height = len(rows) * _ROW + sum(rect.height() + 2 for _, rect in self._lines) + _MARGIN
@@ -183,7 +180,7 @@ class _Painting:
             self._paint_row(row, QRectF(sheet.left() + _MARGIN, y, sheet.width() - 2 * _MARGIN, _ROW))
             y += _ROW
         y += 2 if self._sheet.rows else 0
-        painter.setFont(self._type.small)
+        painter.setFont(self._type.plain)
         for words, rect in self._lines:
             painter.setPen(theme.error if words.wrong else theme.warning if words.doubtful else theme.muted)
             painter.drawText(
@@ -196,7 +193,7 @@ class _Painting:
 
     def _paint_row(self, row: RowShown, area: QRectF) -> None:
         painter, theme = self._painter, self._theme
-        painter.setFont(self._type.small)
+        painter.setFont(self._type.plain)
         painter.setPen(theme.muted)
         middle = int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft)
         painter.drawText(area, middle, tr(row.name))

@@ -9,7 +9,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from .cut_picture import ColourSpan, CutPicture, Floats, Heights, Numbered
+from .cut_picture import ColourSpan, CutMoves, CutPicture, Floats, Heights, Numbered
 from .relief import Bytes
 
 Rgb8 = tuple[int, int, int]
@@ -143,7 +143,9 @@ def key_of(picture: CutPicture, colour: CutColourBy, inks: Colormap, span: Colou
         CutColourBy.DEPTH: lambda: _depth_key(picture.top, inks, span),
         CutColourBy.DEVIATION: lambda: _deviation_key(picture.tolerance, inks, span),
         CutColourBy.MOVE: lambda: _move_key(moves.line if moves is not None else None, inks, span),
-        CutColourBy.TOOL: lambda: _numbered_key(moves.tools[0] if moves is not None else None, "T{}", inks, inks.tools),
+        CutColourBy.TOOL: lambda: _numbered_key(
+            moves.tools[0] if moves is not None else None, "T{}", inks, _tool_cycle(moves, inks.tools)
+        ),
         CutColourBy.SURFACE: lambda: _numbered_key(
             moves.surfaces[0] if moves is not None else None, "Surface {}", inks, inks.surfaces
         ),
@@ -215,6 +217,13 @@ def _numbered_key(known: NDArray[np.int32] | None, name: str, inks: Colormap, cy
     numbers = known.tolist() if known is not None else []
     names = tuple((cycle[k % CYCLE % len(cycle)], name.format(number)) for k, number in enumerate(numbers))
     return ColourKey(_palette(np.array([cycle[k % len(cycle)] for k in range(CYCLE)], float), inks), names=names)
+
+
+def _tool_cycle(moves: CutMoves | None, cycle: tuple[Rgb8, ...]) -> tuple[Rgb8, ...]:
+    """Return the colours of the tools in the order of their first move, and the cycle where there are none."""
+    if moves is None or not len(moves.tools[0]):
+        return cycle
+    return tuple(cycle[moves.ink_of(number) % len(cycle)] for number in moves.tools[0].tolist())
 
 
 def _move_values(picture: CutPicture, span: ColourSpan) -> Bytes:

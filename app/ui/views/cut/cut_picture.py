@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
@@ -29,11 +30,13 @@ class CutMoves:
         line: (n,) 1-based line of the NC program.
         tool: (n,) T number.
         surface: (n,) index of the surface or operation that the move belongs to; empty where nobody knows.
+        inks: places in the theme's cycle of tools by T number, where they are others than the order of the tools.
     """
 
     line: NDArray[np.int32]
     tool: NDArray[np.int32]
     surface: NDArray[np.int32]
+    inks: Mapping[int, int] = field(default_factory=dict)
 
     @cached_property
     def tools(self) -> Numbered:
@@ -41,6 +44,11 @@ class CutMoves:
         numbers, first, places = np.unique(self.tool, return_index=True, return_inverse=True)
         order = np.argsort(first)
         return numbers[order], np.argsort(order)[places]
+
+    def ink_of(self, tool: int) -> int:
+        """Return a tool's place in the theme's cycle of tools."""
+        known = self.tools[0].tolist()
+        return self.inks.get(tool, known.index(tool) if tool in known else tool - 1)
 
     @cached_property
     def surfaces(self) -> Numbered:

@@ -52,7 +52,7 @@ class ColourScale(Themed, QWidget):
             return
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setFont(text_font(12))
+        painter.setFont(text_font())
         if self._key.ticks:
             self._paint_scale(painter, self._key)
         else:

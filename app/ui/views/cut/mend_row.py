@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QPushButton, QWidget
@@ -11,6 +12,8 @@ from ...framework.labels import Elided
 
 if TYPE_CHECKING:
     from ....usecases.mending import Mend
+
+_FROM_TO = re.compile(r"[\d.]+ \u2192 [\d.]+ mm")
 
 
 class MendRow(QWidget):
@@ -26,7 +29,7 @@ class MendRow(QWidget):
         self.look.setProperty("role", "link")
         self.look.setToolTip("Cut it so, and look, before anything is changed")
         self.look.setAccessibleName(f"Preview: {mend.words}")
-        change = Elided(mend.change, "muted")
+        change = Elided(mend.change, "muted", _shorter(mend.change))
         tip = f"{mend.words}: {mend.change}. The paths are computed again; Ctrl+Z takes it back."
         for widget in (self.button, change):
             widget.setToolTip(tip)
@@ -35,6 +38,12 @@ class MendRow(QWidget):
         row.addWidget(self.button)
         row.addWidget(change, 1)
         row.addWidget(self.look)
+
+
+def _shorter(change: str) -> tuple[str, ...]:
+    """Return what is said where there is no room for all of it: from how much to how much, else nothing."""
+    figures = _FROM_TO.search(change)
+    return (*((figures.group(),) if figures else ()), "")
 
 
 class TrialRow(QWidget):

@@ -114,7 +114,7 @@ class CutOverlay(Themed, QWidget):
         painter.setBrush(self._ground(_AXES_GROUND))
         painter.drawEllipse(origin, _AXES_EDGE_PX - 4, _AXES_EDGE_PX - 4)
         right, up, towards = self._camera.axes
-        painter.setFont(text_font(12))
+        painter.setFont(text_font())
         for axis in sorted(range(3), key=lambda k: towards[k]):
             way = QPointF(right[axis], -up[axis])
             colour = (theme.plunge, theme.pocket, theme.left)[axis]
@@ -126,7 +126,7 @@ class CutOverlay(Themed, QWidget):
 
     def _paint_pitch(self, painter: QPainter) -> None:
         """Paint how wide the cells are, beside the axes."""
-        painter.setFont(text_font(12, semibold=self._finer))
+        painter.setFont(text_font(semibold=self._finer))
         words = tr(self._pitch)
         wide = painter.fontMetrics().horizontalAdvance(words)
         row = QRectF(2 * _AXES_EDGE_PX + 8, self.height() - _AXES_EDGE_PX + 10, wide, 18)
@@ -161,7 +161,7 @@ class CutOverlay(Themed, QWidget):
         knee = at + QPointF(_LEADER_PX, _LEADER_PX)
         painter.drawLine(at + QPointF(0.7, 0.7) * _RING_PX, knee)
         painter.drawLine(knee, knee + QPointF(10, 0))
-        rows = ((tr(pin.title), text_font(13, semibold=True)), (tr(pin.facts), text_font(12)))
+        rows = ((tr(pin.title), text_font(semibold=True)), (tr(pin.facts), text_font()))
         wide = max(QFontMetricsF(font).horizontalAdvance(text) for text, font in rows) + 2.5 * _PAD_PX
         sheet = QColor(self._theme.canvas)
         sheet.setAlphaF(0.94)
@@ -200,7 +200,7 @@ class CutOverlay(Themed, QWidget):
 
     def _paint_card(self, painter: QPainter, probe: ProbedCell) -> None:
         """Paint the words beside the place, on the side where there is room."""
-        metrics = QFontMetricsF(text_font(12))
+        metrics = QFontMetricsF(text_font())
         wide = max(metrics.horizontalAdvance(text) for text in (probe.place, probe.facts)) + 2 * _PAD_PX
         card = QRectF(
             probe.at.x() + _CARD_GAP_PX,
@@ -217,7 +217,7 @@ class CutOverlay(Themed, QWidget):
         painter.setPen(QPen(self._theme.hairline, 1))
         painter.setBrush(ground)
         painter.drawRoundedRect(card, 4, 4)
-        painter.setFont(text_font(12))
+        painter.setFont(text_font())
         rows = card.adjusted(_PAD_PX, _PAD_PX / 2, 0, 0)
         for k, (text, colour) in enumerate(((probe.place, self._theme.ink), (probe.facts, self._theme.muted))):
             painter.setPen(colour)

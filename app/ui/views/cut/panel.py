@@ -253,8 +253,9 @@ class CutPanel(Themed, QWidget):
     def show_trial(self, mend: Mend) -> None:
         """Say that what is shown is what a mend would make, and ask whether it is taken."""
         self._clear_mends()
-        self.title.setText("Preview")
-        set_role(self.title, "warning")
+        if self.shown is not None:
+            self.title.setText(f"Preview · {title_of(self.shown)}")
+            set_role(self.title, _ROLES[level_of(self.shown)])
         self.name.setText(mend.words)
         row = TrialRow(mend)
         row.take.clicked.connect(partial(self._mend, mend))

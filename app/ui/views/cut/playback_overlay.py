@@ -82,7 +82,5 @@ def drawn_tool(tool: Tool | None, picture: CutPicture | None) -> DrawnTool | Non
     """Return a tool as it is painted, in the colour that its cuts have in a picture."""
     if tool is None:
         return None
-    known = picture.moves.tools[0].tolist() if picture is not None and picture.moves is not None else []
-    return DrawnTool(
-        outline_of(tool), tool.flutes, known.index(tool.number) if tool.number in known else tool.number - 1
-    )
+    moves = picture.moves if picture is not None else None
+    return DrawnTool(outline_of(tool), tool.flutes, moves.ink_of(tool.number) if moves is not None else tool.number - 1)

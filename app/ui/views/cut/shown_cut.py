@@ -125,17 +125,17 @@ def shown_cut(
     """
     from ....gcode.interpreter.notes_operation import contour_motions
     from ..nc.line_marks import line_marks
-    from ..nc.motion_shapes import shape_motions
+    from ..nc.motion_shapes import shape_motions, tool_inks
     from ..nc.program_text import program_text
 
     progress.step(0.0, "Preparing the cut")
     setup = cut.setup
-    moves = CutMoves(setup.lines(), setup.numbers(), np.zeros(0, np.int32))
     texts = tuple(program_text(file.data) for file in files)
     shapes = [
         shape_motions(program, contour_motions(file.data, program))
         for program, file in zip(setup.programs, files, strict=True)
     ]
+    moves = CutMoves(setup.lines(), setup.numbers(), np.zeros(0, np.int32), tool_inks(*shapes))
     pieces = [_pieces(program, each) for program, each in zip(setup.programs, shapes, strict=True)]
     starts, ends = (np.concatenate([each[column] for each in pieces]) for column in (0, 1))
     looks = np.concatenate([each[2] for each in pieces])

@@ -11,12 +11,13 @@ from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF, Q
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from ...framework.figures import grouped
-from ...framework.theme import mixed, text_font
+from ...framework.theme import mixed
 from ...framework.themed import Themed
 from .panel import colour_of
 
 if TYPE_CHECKING:
     from ....usecases.cutting.timeline import Timeline, TimelineColumns
+    from .cut_picture import CutMoves
     from .cut_player import TimelineMark
 
 HEIGHT = 58
@@ -55,12 +56,15 @@ class TimePlot(Themed, QWidget):
         self._at = 0.0
         self._columns: _Columns | None = None
         self._timeline: Timeline | None = None
+        self._moves: CutMoves | None = None
 
-    def show_timeline(self, timeline: Timeline | None, marks: tuple[TimelineMark, ...]) -> None:
-        """Show another way, or none."""
-        if timeline is self._timeline and marks == self._marks:
+    def show_timeline(
+        self, timeline: Timeline | None, marks: tuple[TimelineMark, ...], moves: CutMoves | None = None
+    ) -> None:
+        """Show another way, or none; its moves tell the colours of the tools."""
+        if timeline is self._timeline and marks == self._marks and moves is self._moves:
             return
-        self._timeline, self._marks, self._columns = timeline, marks, None
+        self._timeline, self._marks, self._moves, self._columns = timeline, marks, moves, None
         self.setCursor(Qt.CursorShape.PointingHandCursor if timeline is not None else Qt.CursorShape.ArrowCursor)
         self.update()
 
@@ -157,15 +161,14 @@ class TimePlot(Themed, QWidget):
     def _paint_tools(self, painter: QPainter, room: QRectF, timeline: Timeline) -> None:
         """Draw which tool is in the spindle, in the colours that its cuts have."""
         ends = np.concatenate([[0], timeline.tool_changes, [len(timeline)]])
-        known = list(dict.fromkeys(timeline.tool[ends[:-1][ends[:-1] < len(timeline)]].tolist()))
-        painter.setFont(text_font(10))
         for first, last in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True):
             if last <= first:
                 continue
             begin = self._x(float(timeline.ends[first - 1]) if first else 0.0)
             end = self._x(float(timeline.ends[last - 1]) if last < len(timeline) else timeline.total)
             number = int(timeline.tool[first])
-            colour = self._theme.tools[known.index(number) % len(self._theme.tools)]
+            ink = self._moves.ink_of(number) if self._moves is not None else number - 1
+            colour = self._theme.tools[ink % len(self._theme.tools)]
             painter.fillRect(QRectF(begin, room.bottom() + 3, max(end - begin - 1, 1), _BAND), colour)
             if first:
                 painter.fillRect(QRectF(begin - 1, room.top(), 1, room.height()), self._theme.hairline)

@@ -153,7 +153,8 @@ class Transport(QWidget):
             widget.setEnabled(ready)
         for button in self._finding_steps:
             button.setVisible(bool(player.marks))
-        self.plot.show_timeline(timeline, player.marks)
+        moves = player.shown.picture.moves if player.shown is not None else None
+        self.plot.show_timeline(timeline, player.marks, moves)
         self._show_speed()
         self.show_place()
 

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from ....gcode.interpreter.program import ProgramProblem
 from ....model.motion import MotionKind
-from .motion_shapes import MotionLineStyle, MotionShapes, tools_of
+from .motion_shapes import CONTOUR_INK, MotionLineStyle, MotionShapes, tool_inks
 
 Ints = NDArray[np.int64]
 
 NOTHING, RAPID, PLUNGE, CUT = 0, 1, 2, 3
-"""What a line moves: nothing, a rapid, straight down; CUT + k = cuts with the program's k-th tool (by kind: CUT +
+"""What a line moves: nothing, a rapid, straight down; CUT + k = cuts in the k-th colour of the tools (by kind: CUT +
 MotionKind).
 """
 
@@ -57,9 +57,10 @@ def line_marks(count: int, shapes: MotionShapes | None = None, problems: Sequenc
 
 
 def _codes(shapes: MotionShapes) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
-    order = {tool: min(k, 200) for k, tool in enumerate(tools_of(shapes))}
+    inks = tool_inks(shapes)
     tools, at = np.unique(shapes.tool, return_inverse=True)
-    of_tool = np.array([CUT + order.get(int(tool), 0) for tool in tools])[at]
+    of_tool = np.array([CUT + min(inks.get(int(tool), 0), 200) for tool in tools])[at]
+    of_tool = np.where(shapes.look == MotionLineStyle.CONTOUR, CUT + CONTOUR_INK, of_tool)
     plain = np.where(shapes.look == MotionLineStyle.RAPID, RAPID, PLUNGE)
     cuts = (shapes.look == MotionLineStyle.CUT) | (shapes.look == MotionLineStyle.CONTOUR)
     kinds = shapes.program.motions.kind.astype(np.int64)

@@ -26,6 +26,9 @@ _MOST_PIECES = 1_600
 
 _MOST_LIT = 4_000
 
+CONTOUR_INK = 1
+"""The place of contours in the theme's cycle of tools, as in the Paths view."""
+
 
 class ViewSide(Enum):
     """From where the path is looked at; the value holds the columns that go to the right and up."""
@@ -139,6 +142,30 @@ def tools_of(shapes: MotionShapes) -> list[int]:
     """Return the T numbers that feed, in the order of their first cut."""
     tools, first = np.unique(shapes.tool[shapes.look != MotionLineStyle.RAPID], return_index=True)
     return [int(tool) for tool in tools[np.argsort(first)]]
+
+
+def tool_inks(*files: MotionShapes) -> dict[int, int]:
+    """Return the place in the theme's cycle of tools of what each tool of a program feeds, by T number.
+
+    Places go by the order of first cuts. Where it is known which motions go along contours, these have a place of
+    their own, whatever tool cuts them, and it is left free for them: so nothing has another colour than in the Paths
+    view.
+
+    Args:
+        files: of the program, in the order of cutting.
+    """
+    tools = list(dict.fromkeys(tool for shapes in files for tool in tools_of(shapes)))
+    if not any(np.any(shapes.look == MotionLineStyle.CONTOUR) for shapes in files):
+        return {tool: at for at, tool in enumerate(tools)}
+    others = {tool for shapes in files for tool in _tools_off_contours(shapes)}
+    alone = [tool for tool in tools if tool not in others]
+    rest = [*(tool for tool in tools if tool in others), *alone[1:]]
+    return dict.fromkeys(alone[:1], CONTOUR_INK) | {tool: at + (at >= CONTOUR_INK) for at, tool in enumerate(rest)}
+
+
+def _tools_off_contours(shapes: MotionShapes) -> list[int]:
+    """Return the T numbers that cut elsewhere than along contours."""
+    return [int(tool) for tool in np.unique(shapes.tool[shapes.look == MotionLineStyle.CUT])]
 
 
 def shape_motions(program: NcProgram, contour: Bools | None = None) -> MotionShapes:

@@ -274,7 +274,7 @@ class PathView(Viewport):
         names = "XYZ"
         side = self.picture.side if self.picture is not None else ViewSide.XY
         zero = self.view.to_screen((0.0, 0.0))
-        painter.setFont(text_font(11))
+        painter.setFont(text_font())
         painter.setPen(QColor(self._how.theme.muted))
         painter.drawText(QPointF(zero.x() + 41, zero.y() + 4), names[side.value[0]])
         painter.drawText(QPointF(zero.x() - 3.5, zero.y() - 41), names[side.value[1]])

@@ -64,7 +64,7 @@ class NcView(QWidget):
         self.splitter.setChildrenCollapsible(False)
         for at, widget in enumerate((self.pane, self.other, right)):
             self.splitter.addWidget(widget)
-            self.splitter.setStretchFactor(at, 1 if widget is right else 0)
+            self.splitter.setStretchFactor(at, 2 if widget is right else 1)
         self.splitter.setSizes(list(_SHARES))
         self.other.hide()
         column = v_box(self, spacing=0)

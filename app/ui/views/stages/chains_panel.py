@@ -53,7 +53,7 @@ class ChainsPanel(QWidget):
         self.list.setAccessibleName("Contour lines of this step")
         self.list.setToolTip("Column and row of the start pixel S, and how long the code is")
         self.text.setReadOnly(True)
-        self.text.setFont(mono_font(12))
+        self.text.setFont(mono_font())
         self.text.setFixedHeight(_TEXT_PX)
         self.text.setAccessibleName("Chain code")
         self.text.setObjectName("chainText")

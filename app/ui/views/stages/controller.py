@@ -7,7 +7,7 @@ from enum import Enum
 from ....drafting.document import DocumentChange
 from ....usecases.pixels.options import BitmapSize
 from ...framework.controller import Controller
-from ...framework.missing import NOTHING, MissingHint
+from ...framework.missing import NOTHING, MissingHint, failed_hint
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
 from .film_set import FilmRequest, FilmSet, film_set_of
@@ -39,7 +39,7 @@ class StagesController(Controller):
         self._view, self._panel = view, panel
         self.worker = Worker(self)
         self.reel: FilmSet | None = None
-        self.error = ""
+        self.error, self._may_retry = "", False
         self._size, self._published, self._seen = BitmapSize(), False, False
         self._asked: FilmRequest | None = None
         workspace.activity.follow(self.worker)
@@ -72,7 +72,7 @@ class StagesController(Controller):
         if self.state is StagesState.RUNNING:
             return MissingHint("The stages are being computed.", "Cancel  Shift+F5", "cancel")
         if self.error:
-            return MissingHint(self.error, "Compute again", "stages_again")
+            return failed_hint(self.error, self._may_retry, "stages_again")
         return (
             NOTHING
             if self.reel is not None
@@ -135,7 +135,7 @@ class StagesController(Controller):
 
     def _on_failed(self, answer: JobOutcome) -> None:
         """Show no stages but the reason, in their place: those of another job or size would mislead."""
-        self.error = answer.error or ""
+        self.error, self._may_retry = answer.error or "", answer.again
         self._show(None)
 
     def _on_cancelled(self) -> None:

@@ -28,7 +28,7 @@ class DirectionRose(Themed, QWidget):
         """Paint the arrows."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setFont(text_font(11))
+        painter.setFont(text_font())
         middle = QPointF(_SIDE / 2, _SIDE / 2)
         for number, (row, col) in enumerate(STEPS.tolist()):
             size = math.hypot(row, col)

@@ -15,7 +15,7 @@ from ....core.errors import InputError
 from ....core.progress import Progress
 from ...framework.controller import Controller
 from ...framework.figures import counted
-from ...framework.missing import NOTHING, MissingHint
+from ...framework.missing import NOTHING, MissingHint, failed_hint
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
 from .own_cut import own_cut
@@ -51,7 +51,7 @@ class TextFilmController(Controller):
         super().__init__(view)
         self._view, self._panel, self._own, self._preferences = view, panel, own, workspace.preferences
         self.worker = Worker(self)
-        self.error = ""
+        self.error, self._may_retry = "", False
         self._asked: TextFilmRequest | None = None
         self._seen = False
         workspace.activity.follow(self.worker)
@@ -69,7 +69,7 @@ class TextFilmController(Controller):
         if self.worker.busy:
             return MissingHint("The steps are being computed.", "Cancel  Shift+F5", "cancel")
         if self.error:
-            return MissingHint(self.error, "Compute again", "stages_again")
+            return failed_hint(self.error, self._may_retry, "stages_again")
         if self._view.films.film is None:
             return MissingHint("The steps are not computed yet.", "Compute the stages", "stages_again")
         return NOTHING
@@ -106,7 +106,7 @@ class TextFilmController(Controller):
         source = self._own(letter) if wants_own else None
         if wants_own and source is None:
             self.worker.cancel()
-            self._asked, self.error = None, _NO_OWN.get(letter, _NO_OWN[""])
+            self._asked, self.error, self._may_retry = None, _NO_OWN.get(letter, _NO_OWN[""]), False
             self._show(None)
             return
         asked = TextFilmRequest(letter, source)
@@ -134,7 +134,7 @@ class TextFilmController(Controller):
         if self._view.films.film is not None:  # it is there, but could not be written
             self.failed.emit(answer.error or "")
             return
-        self.error = answer.error or ""  # said in the place of the film
+        self.error, self._may_retry = answer.error or "", answer.again  # said in the place of the film
         self._show(None)
 
     def choose_folder(self) -> None:

@@ -155,7 +155,7 @@ def _paint_dimension(painter: QPainter, view: ViewTransform, dimension: Dimensio
     painter.setBrush(colour)
     for head in made.heads:
         painter.drawPolygon(QPolygonF([view.to_screen(corner) for corner in head]))
-    painter.setFont(text_font(12))
+    painter.setFont(text_font())
     painter.setPen(colour)
     painter.translate(view.to_screen(made.at))
     painter.rotate(-math.degrees(made.angle))

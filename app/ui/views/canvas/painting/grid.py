@@ -17,7 +17,6 @@ from ..view_transform import ViewTransform, nice_step
 RULER = 24
 CELL_PX = 6.0
 _MAJOR_PX = 100.0
-_FONT_PX = 11
 _CORNER_PX = 12.0
 
 
@@ -79,7 +78,7 @@ def paint_display_marks(painter: QPainter, view: ViewTransform, area: QRectF, fr
                 painter.drawLine(corner, corner + QPointF(inwards, 0))
                 painter.drawLine(corner, corner + QPointF(0, down))
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
-    painter.setFont(text_font(_FONT_PX))
+    painter.setFont(text_font())
     name = tr(f"{frame.cols} {TIMES} {frame.rows} display")
     at = QPointF(_px(outline.left()), _px(outline.top()) - 6)
     if QFontMetricsF(painter.font()).horizontalAdvance(name) < outline.width() and area.adjusted(
@@ -106,7 +105,7 @@ def paint_rulers(painter: QPainter, view: ViewTransform, size: QSize, theme: The
     width, height = float(size.width()), float(size.height())
     painter.fillRect(QRectF(0, 0, width, RULER), theme.paper)
     painter.fillRect(QRectF(0, 0, RULER, height), theme.paper)
-    painter.setFont(text_font(_FONT_PX))
+    painter.setFont(text_font())
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
     painter.setPen(_line(theme.hairline))
     painter.drawLine(QLineF(RULER, RULER - 1, width, RULER - 1))

@@ -24,7 +24,7 @@ MOST_DRAWN = 60
 
 _FAINT, _FILL = 0.4, 0.16
 _WIDTH = 1.25
-_FONT_PX, _GAP_PX = 11, 6.0
+_GAP_PX = 6.0
 
 
 class SurroundingsLayer:
@@ -77,7 +77,7 @@ class SurroundingsLayer:
             return
         painter.save()
         paint_outline(painter, _outline(self.stock, view), area, theme)
-        painter.setFont(text_font(_FONT_PX))
+        painter.setFont(text_font())
         place = self.size_place(view)
         if not place.isEmpty():
             painter.drawText(QPointF(place.left(), place.bottom()), _size_of(self.stock))
@@ -87,7 +87,7 @@ class SurroundingsLayer:
         """Return where the stock's size is written, px, from the letters' tops to their line; empty = nowhere."""
         if self.stock is None:
             return QRectF()
-        outline, metrics = _outline(self.stock, view), QFontMetricsF(text_font(_FONT_PX))
+        outline, metrics = _outline(self.stock, view), QFontMetricsF(text_font())
         width, high = metrics.horizontalAdvance(_size_of(self.stock)), metrics.ascent()
         if width >= outline.width():
             return QRectF()

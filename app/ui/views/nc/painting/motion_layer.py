@@ -22,7 +22,7 @@ from ...canvas.painting.pens import FINE, screen_pen
 from ...canvas.painting.program_chunks import rapids_path
 from ...canvas.painting.program_layer import CONTOUR_DASHES, CUT_WIDTH, RAPID_DOTS, RAPID_WIDTH, paint_plunges
 from ...canvas.view_transform import ViewTransform
-from ..motion_shapes import Floats, Ints, MotionLineStyle, MotionShapes, ViewSide, tools_of
+from ..motion_shapes import CONTOUR_INK, Floats, Ints, MotionLineStyle, MotionShapes, ViewSide, tool_inks, tools_of
 from .motion_chunks import MotionChunk, MotionChunks, chunks_by_style, contour_chunks
 from .path_key import KeyMark, KeyRow
 
@@ -66,9 +66,9 @@ class MotionPaint:
     width: float = CUT_WIDTH
 
 
-def tool_colour(order: int, theme: Theme) -> QColor:
-    """Return the colour of the program's first (0), second (1), ... tool."""
-    return theme.tools[order % len(theme.tools)]
+def tool_colour(ink: int, theme: Theme) -> QColor:
+    """Return the colour at a place in the cycle of tools, from 0 (`motion_shapes.tool_inks`)."""
+    return theme.tools[ink % len(theme.tools)]
 
 
 def motion_colour(kind: MotionKind, theme: Theme) -> QColor:
@@ -118,7 +118,7 @@ class MotionLayer:
     def __init__(self, shapes: MotionShapes, side: ViewSide, only: Ints | None = None) -> None:
         """Build every path once, in mm."""
         self.shapes, self.side, self.only, self.tools = shapes, side, only, tools_of(shapes)
-        self._order = {tool: at for at, tool in enumerate(self.tools)}
+        self._inks = tool_inks(shapes)
         columns, motions = list(side.value), shapes.program.motions
         rows = shapes.seen(side, only)
         look = shapes.look[rows]
@@ -166,10 +166,12 @@ class MotionLayer:
         """
         tool = self.tools[at]
         note = next((note for note in self.shapes.program.tools if note.number == tool), None)
-        words, colour = _tool_name(tool, note), tool_colour(at, theme)
+        words, colour = _tool_name(tool, note), tool_colour(self._inks[tool], theme)
         contour = (tool, MotionLineStyle.CONTOUR) in self._looks
         rows = [KeyRow(words, colour)] if (tool, MotionLineStyle.CUT) in self._looks or not contour else []
-        return [*rows, KeyRow(f"{words}, contour", colour, KeyMark.DASHES)] if contour else rows
+        return (
+            [*rows, KeyRow(f"{words}, contour", tool_colour(CONTOUR_INK, theme), KeyMark.DASHES)] if contour else rows
+        )
 
     def box_of(self, motions: Ints | None) -> Box | None:
         """Return x0, y0, x1, y1 of some motions seen from this side, mm."""
@@ -237,11 +239,10 @@ class MotionLayer:
             return how.one
         if chunk.look is MotionLineStyle.PLUNGE:
             return how.theme.plunge
-        return (
-            motion_colour(chunk.kind, how.theme)
-            if how.colour is MotionColourBy.MOTION
-            else tool_colour(self._order[chunk.tool], how.theme)
-        )
+        if how.colour is MotionColourBy.MOTION:
+            return motion_colour(chunk.kind, how.theme)
+        contour = chunk.look is MotionLineStyle.CONTOUR
+        return tool_colour(CONTOUR_INK if contour else self._inks[chunk.tool], how.theme)
 
 
 def _once(rows: Floats) -> Floats:

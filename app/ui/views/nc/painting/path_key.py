@@ -67,7 +67,7 @@ class KeyRow:
 
 def key_size(rows: Sequence[KeyRow]) -> QSizeF:
     """Return the size of a key, px; nothing for none."""
-    metrics = QFontMetricsF(text_font(12))
+    metrics = QFontMetricsF(text_font())
     wide = max((metrics.horizontalAdvance(tr(row.words)) for row in rows), default=0.0)
     return QSizeF(wide + _LINE_PX + _GAP_PX + 2 * _PAD_PX, len(rows) * _ROW_PX + _PAD_PX) if rows else QSizeF(0.0, 0.0)
 
@@ -115,7 +115,7 @@ def paint_key(painter: QPainter, place: QRectF, rows: Sequence[KeyRow], theme: T
     ground = QColor(theme.canvas)
     ground.setAlphaF(0.88)
     painter.fillRect(place, ground)
-    painter.setFont(text_font(12))
+    painter.setFont(text_font())
     left, top = place.left() + _PAD_PX, place.top() + _PAD_PX / 2
     for at, row in enumerate(rows):
         middle = top + (at + 0.5) * _ROW_PX

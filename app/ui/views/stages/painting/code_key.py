@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter
 
 from ....framework.catalogue import tr
 from ....framework.theme import Theme, text_font
@@ -29,7 +29,7 @@ def code_key_size(rows: tuple[CodeRow, ...]) -> QSizeF:
     """Return the size of a key, px; nothing for none."""
     if not rows:
         return QSizeF(0.0, 0.0)
-    metrics = QFontMetricsF(text_font(12, semibold=True))
+    metrics = QFontMetricsF(text_font(semibold=True))
     wide = max(metrics.horizontalAdvance(tr(row.words)) for row in rows)
     return QSizeF(wide + SWATCH_PX + GAP_PX + 2 * PAD_PX, len(rows) * ROW_PX + PAD_PX)
 
@@ -63,17 +63,13 @@ def _paint_row(painter: QPainter, at: QPointF, row: CodeRow, lit: bool, theme: T
     painter.setPen(theme.hairline)
     painter.setBrush(row.colour)
     painter.drawRect(swatch)
-    painter.setFont(_bold(11))
+    painter.setFont(text_font(semibold=True))
     painter.setPen(ink_on(row.colour))
     painter.drawText(swatch, Qt.AlignmentFlag.AlignCenter, row.letter)
-    painter.setFont(text_font(12, semibold=lit))
+    painter.setFont(text_font(semibold=lit))
     painter.setPen(theme.ink if lit else theme.muted)
     words = QRectF(at.x() + SWATCH_PX + GAP_PX, at.y() - ROW_PX / 2, 400, ROW_PX)
     painter.drawText(words, Qt.AlignmentFlag.AlignVCenter, tr(row.words))
-
-
-def _bold(pixels: int) -> QFont:
-    return text_font(pixels, semibold=True)
 
 
 def ink_on(ground: QColor, opacity: float = 0.9) -> QColor:
