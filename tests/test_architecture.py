@@ -62,7 +62,7 @@ def test_only_kernel_files_make_kernels() -> None:
     assert not offenders(others, lambda path: "core.jit import" in path.read_text("utf-8"))
 
 
-MARK = re.compile(r"# *(type|noqa|fmt):?")
+MARK = re.compile(r"# *(type|noqa|fmt|mypy):?")
 
 
 def comments_share(text: str) -> float:

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: symmetric positive systems with their entries in a band about the diagonal, as splines and joints have."""
 
 from __future__ import annotations

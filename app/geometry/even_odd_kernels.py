@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: areas by lines that sweep over curves which rise all along.
 
 A curve is a row: its low and high end (y), x at both, centre and radius of an arc; the radius is negative on the left

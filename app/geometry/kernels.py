@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops on rows of lines and arcs: distance, and a tree of boxes to find the near ones.
 
 The tree is implicit: rows in Morton order, four to a leaf, the boxes of a complete binary tree in heap order

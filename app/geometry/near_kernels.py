@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops: which points are nearest to places, and which boxes meet, in the tree of boxes of `kernels`."""
 
 from __future__ import annotations

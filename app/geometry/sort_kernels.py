@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Sorting, for kernels: numba makes machine code for each kernel that sorts, a second or two of compiling; so few of
 them do it for all.
 """

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled tracing of the borders of filled areas: all areas of all levels in one pass over the picture.
 
 Directions are those of the chain code: 0 to the right, then counter-clockwise by 45 degrees.

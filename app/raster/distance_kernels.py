@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled exact Euclidean distances of pixels, told only as the number of thresholds that each one reaches.
 
 How far every column is free up and down, then along every row the lower envelope of parabolas. Squares of distances are

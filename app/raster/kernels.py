@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled loops of the display memory, in image coordinates: u = column, v = row, downwards; px (r, c) spans [c, c+1)
 x [r, r+1).
 

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled loops along the rows of a bitmap, many columns at once."""
 
 from __future__ import annotations

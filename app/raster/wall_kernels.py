@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled loops that tell which pixels lie wholly inside a drawing, in image coordinates (see `kernels`)."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops on ground that is cut: how far a place is from it, whether all of a straight way lies on it; and
 walls along a way.
 

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loop: which rows of a path begin a new line or arc."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loop for necks: the way over a grid that keeps farthest from walls."""
 
 from __future__ import annotations

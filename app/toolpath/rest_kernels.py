@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops of rest machining: what paths have left, which pieces of rings cut it, and which of these are
 enough.
 

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: the largest empty discs behind places of walls, and what the best motion of a cone leaves of each."""
 
 from __future__ import annotations

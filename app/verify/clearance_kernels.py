@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: the exact least distance of pairs of lines and arcs, see `app.verify.verdict`.
 
 A row is start, end, centre, radius and turn (0 a line, +1 or -1 an arc); an arc that ends where it begins is a circle.

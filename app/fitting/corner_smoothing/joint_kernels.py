@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled joining of fitted lines and circles: tangents where they nearly touch, corners where they cross (step 404).
 
 A carrier is a row of five numbers: of a line a point, its unit direction along the path and 0; of an arc its centre,

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled fits of lines and circles to runs of points, from running sums of their moments about a local origin.
 
 A row of sums after k points holds the sums of x, y, x^2, x y, y^2, x w, y w, w^2 with w = x^2 + y^2, of coordinates

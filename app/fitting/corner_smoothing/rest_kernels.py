@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled step 407: arcs that meet with slight bends become biarcs; see `rest`. Rows and ends are those of
 `joint_kernels`.
 """

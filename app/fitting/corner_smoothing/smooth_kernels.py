@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled segmentation of a sequence of points into lines and arcs (steps 401-406); see `smooth`.
 
 The points of a closed path are given three times over, so that a run may pass its beginning. A segment from a to b

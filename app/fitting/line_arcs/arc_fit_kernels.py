@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: the longest line or arc that stands for points from one of them on. A path is (n, 3): two axes of a plane
 and its normal.
 """

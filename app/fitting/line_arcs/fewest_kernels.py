@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: the fewest lines and arcs along a polyline, by a shortest path over places where they may meet.
 
 States are points of the polyline, each with a few places beside it where a joint may be, its own the first: of paths

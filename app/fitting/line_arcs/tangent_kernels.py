@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: joints of lines and arcs in a plane, moved until the path is tangent and within a limit of a polyline.
 
 The polyline is xy, (n,) complex places; `along` (n,) their distances along it, `ahead` (n,) the unit direction at each.

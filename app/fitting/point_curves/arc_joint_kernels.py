@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: two arcs that meet smoothly, by least squares of the distances of points (Levenberg and Marquardt)."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: least-squares B-splines in space, their values, and places nearest to points. Cost rises with the points
 alone.
 """

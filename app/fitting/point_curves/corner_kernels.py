@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: how much a path turns at each of its points, seen over a length and not over single chords."""
 
 from __future__ import annotations

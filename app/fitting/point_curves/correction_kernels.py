@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: correction curves through effective points (S21, S22), and the places on them that points move to (S23)."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: ranges of points along one segment of a polygon (S111-S117), in one go over the points.
 
 Directions from a range's first point that pass every point between within epsilon form a cone about each; one cone

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: a cloud's facets, grown from its flattest places over neighbours within epsilon of one plane."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: which place of a curve answers to which point of a polyline, and how far apart the two are."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: whether a stretch of a curve lies within the region round one chord, by signs of Bernstein coefficients."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: heights of bicubic B-splines over even knots, and the normal equations of one by scattered places."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled core of `blocks`: which lines of a text surely say nothing but where to move."""
 
 from __future__ import annotations

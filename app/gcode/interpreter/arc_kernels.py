@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Where the centre of an arc is: one rule for the reader's core and for its lane, so that both give the same bits."""
 
 from __future__ import annotations

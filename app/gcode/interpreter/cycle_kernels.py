@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: the canned cycles of LinuxCNC in which the spindle turns on, as `holes` and `cycles` do them, motion by
 motion.
 """

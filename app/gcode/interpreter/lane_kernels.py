@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """The compiled lane: line by line through a program, plain ones at once, others word by word, until one is not surely
 right.
 

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """The compiled lane of the reader: blocks of G0 to G3, X Y Z I J K R F N with plain numbers, and comments.
 
 Whatever is not surely plain ends the run before its line; nothing of that line is then done.

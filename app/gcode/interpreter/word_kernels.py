@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: the words of a line of any kind that needs no jump, no name and no subroutine."""
 
 from __future__ import annotations

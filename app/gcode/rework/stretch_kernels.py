@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: which lines of a program say no more than where a straight feed move goes, and whether it goes there."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loop of the time estimate: look-ahead over the whole program, then a trapezoid of speed for each
 motion.
 """

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled core of `arcs`: the blocks of many meant arcs, one arc after the other."""
 
 from __future__ import annotations

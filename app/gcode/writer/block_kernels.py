@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled core of `blocks`: the text of motions, one block after the other, each with the words that the control
 lacks.
 """

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: places, tangents and bounds of plane curves of rational Bézier pieces, see
 `app.geometry.arcs.bezier.BezierCurve`.
 

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled biarcs: two arcs that meet smoothly between two points with given directions."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: a plane curve as chords whose middles are near it."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: spans of a plane curve, each replaced by a line or by two arcs that meet without a bend, and how far these
 are off.
 

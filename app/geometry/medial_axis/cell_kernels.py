@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: the cell of each element, the part of a region that is nearest to it, as pieces of the medial axis.
 
 Along the feet of an element the disc is as large as the site lets it that gives the greatest curvature: a cell is an

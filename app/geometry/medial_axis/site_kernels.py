@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: discs that touch the boundary of a region at one foot and at one other site, in closed form.
 
 Elements and sites are numbered alike: e < n is row e, n + i is the vertex at which row i starts (only where the

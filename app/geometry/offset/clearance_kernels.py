@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops: how near two rows come to each other, in closed form, and whether paths keep their distance
 from a drawing.
 """

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops of the exact offset: elements at a level, and where a row's distance passes it.
 
 Element e < n is row e moved to its left by the level; element n + i is the arc about the vertex at which row i

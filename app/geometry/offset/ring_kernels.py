@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops of the exact offset: pieces of a level to rings, and what these measure."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops of the exact offset: a tree whose leaves are runs of rows.
 
 As the tree of `kernels`, but up to four rows to a leaf that follow one another where they can (-1 where there are

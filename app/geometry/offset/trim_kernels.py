@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops of the exact offset: the parts of elements that nothing comes nearer to than the level.
 
 A feature that is not the nearest one of some point at a level is never again nearest beyond it, so the fractions that

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: which points lie near which rows."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: in which order branches make ways, and ways are gone along, the one with the nearest end always next."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """A body that does not cut, led straight over metal that stays as it is: how deep it goes, found in a pyramid of
 maxima.
 

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Heights against heights: grey dilation by a profile, and how far a cell is from the part at most."""
 
 from __future__ import annotations

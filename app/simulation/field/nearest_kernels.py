@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: how far places are from triangles, and how deep the deepest place of an upright segment lies under them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: where upright lines meet triangles in a tree of boxes."""
 
 from __future__ import annotations

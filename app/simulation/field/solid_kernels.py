@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Heights of a solid of triangles at the cells of a grid."""
 
 from __future__ import annotations

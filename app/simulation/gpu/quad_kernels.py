@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """The quads that cover the cells a piece may lower, and the numbers that a fragment of one needs.
 
 Each quad has an anchor, the cell of the grid that is nearest to its middle. Places are float64 up to the anchor, and

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Facets of what a cutter that is no ball sweeps along chains of moves: a polyhedron, and the quads that its silhouette
 sweeps.
 

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Facets of what a ball sweeps along chains of moves: a cylinder a move, and of each corner's sphere a wedge.
 
 A circle has an even number of corners, the same for all of a ball's cylinders and wedges. Where two moves meet, the

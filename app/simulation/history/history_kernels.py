@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Squares of a field: which have changed, kept copies of them, and a whole field put together from such copies."""
 
 from __future__ import annotations

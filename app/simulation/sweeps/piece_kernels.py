@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: the chords and the level arcs that arcs are swept in, see `pieces`."""
 
 from __future__ import annotations

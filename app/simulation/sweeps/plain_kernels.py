@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """A plain trim, to measure others by: one thread, every cell of each move's box, branches, float64: what anybody would
 write first.
 """

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: how low a cutter gets over single places on its pieces of path, in float64."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Which cells a straight move must be evaluated at, when the moves before and behind it are evaluated as well.
 
 Let u be a move's horizontal direction, s its rise per mm, L its horizontal length, t a cell's place along it. Give the

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """The innermost loops: the height of a sweep over a run of cells, sixteen at a time, float32, without a branch.
 
 A run is a row of cells; cell k has the place a along the move's horizontal direction as seen from the move's lower end,

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """One piece of a path over one tile: which runs of cells it can lower, and the numbers that the runs need.
 
 A tile's heights lie in lines of cells, either rows or columns of the grid: whichever gives the longer runs. "Fast" is

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Tiles and pieces: which piece touches which tile, and one tile cut by all of its pieces, in their order."""
 
 from __future__ import annotations

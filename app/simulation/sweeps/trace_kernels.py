@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """What a swept run does to cells: their heights, the motion that cut them last, and how much it took, without a branch.
 
 Sums go lane by lane in float32, which keeps them vectors, and are gathered in float64 before they can grow wrong.

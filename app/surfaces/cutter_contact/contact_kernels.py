@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: how low a cutter comes over a triangle, exactly: the contact with its face, edges and corners in closed
 form.
 

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: how far a segment, or all that is above it, is from a triangle in space, in closed form."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: how low a cutter comes over facets and over what they stand for.
 
 No place of a surface is farther from its facet than the facet's error. So a cutter with a skin of that error, over the

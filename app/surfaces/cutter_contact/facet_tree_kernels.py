@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: the tree of facets that cutters are held against, and the rows that facets are quartered on."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: how low a cutter comes over surfaces, quickly: exact where it touches, but other places are looked at by
 their facets.
 

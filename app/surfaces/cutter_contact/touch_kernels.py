@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: where exactly a cutter touches a patch, by Newton's method from a place near it.
 
 Where a ball, or another cutter without a cone, touches a smooth surface that rises by the tangent of some angle, it

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Equal rows of words get one number: a table of open addresses, one look a row."""
 
 from __future__ import annotations

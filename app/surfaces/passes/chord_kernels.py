@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: proof that a cutter on its way along a chord goes nowhere deeper than allowed into what one facet stands
 for.
 

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: a cutter along one line over surfaces: points so near that every chord is proven, and where surfaces
 change.
 

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: boundary points: where a cutter on its line touches two surfaces at once."""
 
 from __future__ import annotations

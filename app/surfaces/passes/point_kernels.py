@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: points of a cutter's path: what they are, and what is touched at a place along a line."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: as few points for a path as a tube above it lets through.
 
 A path of many points is a function z(t) along its line. Another one that is nowhere below it keeps as clear of the

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: proof for many chords of a cutter's way at once.
 
 A way of chords is halved into groups down to single chords; a group is a straight line from its first place to its

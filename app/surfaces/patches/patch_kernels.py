@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: places on rational Bézier patches, and facets that stand for ever smaller parts of them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: the topmost of many pieces of section curves on one plane, and where it passes from surface to surface.
 
 Between two neighbouring ends of pieces every piece is a smooth function. Those whose chords, with how far off these

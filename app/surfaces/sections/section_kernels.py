@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: where upright planes cut facets and what they stand for, as short pieces whose ends lie exactly on both."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: can a cutter's centre be near a place? See `app.toolpath.coverage.areas`."""
 
 from __future__ import annotations

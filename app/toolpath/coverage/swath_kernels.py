@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: squares of a wanted area that one stretch of a path covers all over.
 
 A cutter of radius R along a line covers all within R of it, along an arc of radius A all within R of that: in the

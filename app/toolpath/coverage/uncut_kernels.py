@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops for how far points are from what paths sweep, whose cutters differ in radius."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """The metal round a cutter, as it stands before each place of a path: heights in square cells, in tiles along the path.
 
 A frame is (x, y of the corner of cell 0, 0; side of a cell), mm. Cell (row, column) lies in tile (row >> SHIFT, column

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """How much of a cutter's rim may be in metal, bounded from above along whole lines and arcs, not looked at in places.
 
 What is clear of metal is known as convex shapes, a row each: a disc, cut by up to two half planes: (cx, cy, radius, nx,

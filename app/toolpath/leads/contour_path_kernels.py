@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops on many paths at once: how far along each of them something is."""
 
 from ...core.jit import kernel

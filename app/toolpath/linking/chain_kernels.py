@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops of chains: which straight ways are clear, and the nearest goals in a net of ways."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loop for runs between rings: the parts of paths that a cutter along other paths does not come over."""
 
 from __future__ import annotations

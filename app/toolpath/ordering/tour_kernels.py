@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled inner loops of the tour: who comes after whom so that the tool travels little between strokes.
 
 Stroke 0 is the place where the tool is before the first one; the others are 1 … n. `ends` (n + 1, 4) holds where each

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled loop that turns heights into normals for the light, and finds where between cells a wall stands."""
 
 from __future__ import annotations

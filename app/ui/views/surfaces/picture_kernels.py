@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Compiled: surfaces and lines as pixels, with a depth for each pixel, so that what crosses does so at the right place.
 
 A frame is what a camera sees: its axes (to the right, up, towards the eye), its target, px per mm, width and height in
