@@ -94,6 +94,7 @@ def _leading_on(ends, first, at, lengths, left, gone, node):
         k = at[place]
         if gone[k]:
             continue
+        # the node at its other end: the sum of both less this one
         onward = left[ends[k, 0] + ends[k, 1] - node]
         if onward > most or (onward == most and lengths[k] > lengths[found]):
             found, most = k, onward
@@ -118,6 +119,7 @@ def walked(ends, first, at, lengths, odd, some, steps):
     while j < len(some):
         while i < len(odd) and left[odd[i]] % 2 == 0:
             i += 1
+        # a node with an odd number left ends a way in any order; rings, all of whose nodes are even, come last
         if i == len(odd) and left[some[j]] == 0:
             j += 1
             continue
