@@ -58,13 +58,14 @@ def _warning_lines(warnings: tuple[str, ...]) -> list[str]:
 
 COMMAND = CliCommand(
     "cut",
-    "",
-    "the NC program",
-    "Cut any NC program out of its stock, exactly, and tell what is left, what went wrong, and how near it is to the "
-    "part.",
-    EPILOG,
-    _add_options,
-    _run,
+    needs="the NC program",
+    about=(
+        "Cut any NC program out of its stock, exactly, and tell what is left, what went wrong, and how near it is to "
+        "the part."
+    ),
+    epilog=EPILOG,
+    add_options=_add_options,
+    run=_run,
     intermixed=True,
     check=_check,
     examples=(
