@@ -215,7 +215,6 @@ class SolidGouges:
 
 def apart(places: Floats) -> NDArray[np.int64]:
     """Return which of some places (m, 2), in order, are farther than APART from all of these before them."""
-
     cells = np.floor(places / APART).astype(np.int64)
     cells -= cells.min(axis=0, initial=0) - 1
     high = int(cells[:, 1].max(initial=0)) + 2

@@ -16,7 +16,6 @@ from ..signals import StopFlag
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 with problems or differences."""
-
     outputs = check_files(arguments)
     progress = shown_progress(arguments.quiet, stopped)
     data = read_input(arguments.program)

@@ -138,7 +138,7 @@ class Compensation:
         if motion.kind not in (MotionKind.ARC_CW, MotionKind.ARC_CCW):
             way = (end - start) / abs(end - start)
             aside = way * 1j * self._radius
-            return OffsetMove(motion, start + aside, end + aside, None, True, way, way, end)
+            return OffsetMove(motion, start + aside, end + aside, None, ccw=True, leaving=way, arriving=way, corner=end)
         u, v, _ = self._plane.axes
         centre, ccw = complex(motion.centre[u], motion.centre[v]), motion.kind == MotionKind.ARC_CCW
         inward = self._radius if ccw else -self._radius

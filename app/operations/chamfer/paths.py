@@ -85,7 +85,7 @@ def cutter_of(job: Job, operation: ChamferOperation) -> ChamferCutter:
     if (ball := operation.ball(tool)) is not None:
         _check_stock(job, tool, ball.depth)
         top = ball.off + operation.width
-        return ChamferCutter(VCutter(ball.off, 1.0, tool.radius), True, ball.depth, ball.off, top)
+        return ChamferCutter(VCutter(ball.off, 1.0, tool.radius), round=True, depth=ball.depth, off=ball.off, top=top)
     tip, rate, depth = tool.tip_diameter / 2, math.tan(tool.tip_angle / 2), operation.deepest(tool)
     top = tip + depth * rate
     if top > tool.radius + _SAME:
@@ -95,7 +95,9 @@ def cutter_of(job: Job, operation: ChamferOperation) -> ChamferCutter:
             "or less of either."
         )
     _check_stock(job, tool, depth)
-    return ChamferCutter(VCutter(tip - operation.width, rate, tool.radius), False, depth, top - operation.width, top)
+    return ChamferCutter(
+        VCutter(tip - operation.width, rate, tool.radius), round=False, depth=depth, off=top - operation.width, top=top
+    )
 
 
 def _check_stock(job: Job, tool: Tool, depth: float) -> None:
@@ -225,7 +227,7 @@ def _behind_lines(area: MachiningArea, operation: ChamferOperation) -> Rows:
     lines = shapely.linestrings(straight[:, :4].reshape(-1, 2, 2))
     left = shapely.get_parts(shapely.difference(lines, shapely.buffer(ends, operation.width + _BEYOND, quad_segs=64)))
     kept = [shapely.get_coordinates(each).tolist() for each in left.tolist() if each.length > _WELD]
-    return _rows([Contour((Line(tuple(a), tuple(b)),), False) for a, b in kept])
+    return _rows([Contour((Line(tuple(a), tuple(b)),), closed=False) for a, b in kept])
 
 
 def _beside(

@@ -144,7 +144,7 @@ def fill(
 def gaps_of(half: OffsetLevel, inner: RingField | None, radius: float) -> list[_Gap]:
     """Return the parts of rings between two levels that the inner one's rings do not cover."""
     if inner is None:
-        return [_Gap(ring.rows, True, ring) for ring in half.rings]
+        return [_Gap(ring.rows, closed=True, ring=ring) for ring in half.rings]
     path = inner.field
     gaps: list[_Gap] = []
     for ring in half.rings:
@@ -163,12 +163,12 @@ def _connected(ring: Ring, parts: Floats) -> list[_Gap]:
     before = np.roll(parts, 1, axis=0)
     follows = ((before[:, 0] + 1) % count == parts[:, 0] % count) & (before[:, 2] == 1) & (parts[:, 1] == 0)
     if follows.all() and len(parts) == count:
-        return [_Gap(ring.rows, True, ring)]
+        return [_Gap(ring.rows, closed=True, ring=ring)]
     turned = -int(np.argmin(follows))
     parts, follows = np.roll(parts, turned, axis=0), np.roll(follows, turned)
     starts = np.append(np.flatnonzero(~follows), len(parts))
     return [
-        _Gap(np.concatenate([part_of(ring.rows[int(row)], u, v) for row, u, v in parts[a:b]]), False, ring)
+        _Gap(np.concatenate([part_of(ring.rows[int(row)], u, v) for row, u, v in parts[a:b]]), closed=False, ring=ring)
         for a, b in pairwise(starts)
     ]
 

@@ -180,7 +180,7 @@ def _about_gap(line: Contour) -> Finding:
         f"An outline has a gap of {_gap(line):.3f} mm at {in_plane(x, y)}, so no operation is proposed for it; close "
         "it, or raise the join tolerance."
     )
-    return Finding(FindingKind.OPEN_CONTOUR, text, x, y, True, line.entity_ids, _gap(line))
+    return Finding(FindingKind.OPEN_CONTOUR, text, x, y, counts=True, entity_ids=line.entity_ids, amount=_gap(line))
 
 
 def selectors_for(
