@@ -114,7 +114,17 @@ class SolidGouges:
 
     def _spot(self, place: Floats, z: float, depth: float, motion: int) -> Spot:
         line = int(self.lines[motion]) if motion >= 0 else 0
-        return Spot(SpotKind.GOUGE, float(place[0]), float(place[1]), z, depth, 0.0, 0.0, line, motion)
+        return Spot(
+            kind=SpotKind.GOUGE,
+            x=float(place[0]),
+            y=float(place[1]),
+            z=z,
+            depth_mm=depth,
+            area_mm2=0.0,
+            disc_mm=0.0,
+            line=line,
+            motion=motion,
+        )
 
     def _homes(self, places: Sequence[CellPlace]) -> NDArray[np.int64]:
         """Return the number of the place of each cell, -1: none, with a cell round each place."""

@@ -150,14 +150,14 @@ class Compensation:
             )
         turn = 1j if ccw else -1j
         return OffsetMove(
-            motion,
-            start - first / abs(first) * inward,
-            end - last / abs(last) * inward,
-            centre,
-            ccw,
-            first / abs(first) * turn,
-            last / abs(last) * turn,
-            end,
+            motion=motion,
+            start=start - first / abs(first) * inward,
+            end=end - last / abs(last) * inward,
+            centre=centre,
+            ccw=ccw,
+            leaving=first / abs(first) * turn,
+            arriving=last / abs(last) * turn,
+            corner=end,
         )
 
     def _enter(self, side: OffsetMove, start: complex) -> None:

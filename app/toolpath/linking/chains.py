@@ -386,7 +386,16 @@ class LinkGraph:
         first = np.concatenate([[0], np.cumsum(np.bincount(start, minlength=len(spots)))]).astype(np.int64)
         kinds, counts = np.concatenate([kind, np.full(2 * len(c), STRAIGHT)]), np.concatenate([count, zero, zero])
         return LinkGraph(
-            places, spots, first, end[order], cost[order], kinds[order], start[order], counts[order], air, ends
+            places=places,
+            chunk=spots,
+            first=first,
+            to=end[order],
+            cost=cost[order],
+            kind=kinds[order],
+            come_from=start[order],
+            count=counts[order],
+            air=air,
+            ends=ends,
         )
 
     @cached_property

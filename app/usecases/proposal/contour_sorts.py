@@ -101,17 +101,17 @@ def sorted_contours(part: Part, drawn: DrawnContours) -> SortedContours:
         return tuple(each for each, own in zip(closed, sorts, strict=True) if own is sort)
 
     return SortedContours(
-        of(ContourSort.OUTLINE),
-        by_diameter(of(ContourSort.HOLE)),
-        of(ContourSort.BORE),
-        of(ContourSort.POCKET),
-        of(ContourSort.ISLAND),
-        (
+        outlines=of(ContourSort.OUTLINE),
+        holes=by_diameter(of(ContourSort.HOLE)),
+        bores=of(ContourSort.BORE),
+        pockets=of(ContourSort.POCKET),
+        islands=of(ContourSort.ISLAND),
+        lines=(
             *(each for each in lines if not any(each is other for other in broken)),
             *(each for each in drawn.closed if each.layer in engraved),
         ),
-        tuple(strokes),
-        tuple(_about_gap(each) for each in broken),
+        strokes=tuple(strokes),
+        gaps=tuple(_about_gap(each) for each in broken),
     )
 
 
