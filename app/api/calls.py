@@ -329,7 +329,6 @@ def surface(scene: FilePath, progress: Progress = NO_PROGRESS) -> MadeSurface:
         HitofudeError: it cannot be read, computed or written.
         Cancelled: by progress.
     """
-
     path = _path(scene)
     sources = sources_of(_reader_beside(path))
     computed = compute(read_scene(path.name, read_input(path)), sources, progress.part(0.0, 0.6))

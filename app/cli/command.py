@@ -8,7 +8,7 @@ import math
 import re
 import textwrap
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -33,7 +33,7 @@ class CliCommand:
     Attributes:
         name: what is typed.
         reads: what it reads one of, in words; "" = it may be given any number, or none.
-        needs: what it cannot do without, in words.
+        needs: what it cannot do without, in words; "" = it can do without all.
         about, epilog: above and below the list of its options.
         add_options: adds them to a parser.
         run: does the work of arguments that are read and in their ranges and returns the exit status; it raises
@@ -44,8 +44,9 @@ class CliCommand:
     """
 
     name: str
-    reads: str
-    needs: str
+    _: KW_ONLY
+    reads: str = ""
+    needs: str = ""
     about: str
     epilog: str
     add_options: Callable[[OptionParser], None]

@@ -71,7 +71,7 @@ class RecordedLine:
         return "\n".join(lines) + "\n" if lines else ""
 
     def _steps(self) -> Iterator[RecordedLine]:
-        """Yield the lines in order, from the last one on that begins anew."""
+        """Return the lines in order, from the last one on that begins anew."""
         found, at = list[RecordedLine](), self
         while at.before is not None:
             found.append(at)

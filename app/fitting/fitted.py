@@ -130,15 +130,15 @@ def chained(parts: Sequence[FittedPath]) -> FittedPath:
         return np.concatenate([getattr(part.motions, name) for part in parts])
 
     motions = Motions(
-        joined("start"),
-        joined("end"),
-        joined("centre"),
-        joined("kind"),
-        joined("plane"),
-        joined("turns"),
-        joined("feed"),
-        joined("line"),
-        joined("state"),
-        splines,
+        start=joined("start"),
+        end=joined("end"),
+        centre=joined("centre"),
+        kind=joined("kind"),
+        plane=joined("plane"),
+        turns=joined("turns"),
+        feed=joined("feed"),
+        line=joined("line"),
+        state=joined("state"),
+        splines=splines,
     )
     return FittedPath(motions, np.concatenate(last), tuple(each for part in parts for each in part.refusals))

@@ -294,7 +294,12 @@ def without_length(places: list[Point | None]) -> Iterator[Finding]:
         where = f", the first at {in_plane(known[0][0], known[0][1])}" if known else ""
         what = "1 entity has" if len(places) == 1 else f"{len(places)} entities have"
         yield Finding(
-            FindingKind.TINY_ENTITY, f"{what} no length{where}; left out.", x, y, False, (), float(len(places))
+            FindingKind.TINY_ENTITY,
+            f"{what} no length{where}; left out.",
+            x,
+            y,
+            counts=False,
+            amount=float(len(places)),
         )
 
 

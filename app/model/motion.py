@@ -103,4 +103,14 @@ class Motions:
         """Return no motion."""
         places = np.zeros((0, 3))
         small, whole = np.zeros(0, np.uint8), np.zeros(0, np.int32)
-        return Motions(places, places, places, small, small, whole, np.zeros(0), whole, whole)
+        return Motions(
+            start=places,
+            end=places,
+            centre=places,
+            kind=small,
+            plane=small,
+            turns=whole,
+            feed=np.zeros(0),
+            line=whole,
+            state=whole,
+        )

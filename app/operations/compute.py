@@ -60,14 +60,14 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     areas = context.areas.areas()
     seen = context.on_bitmap or BitmapCheck(0.0, 0.0, 0, (0.0, 0.0), 0.0)
     return Program(
-        context.builder.moves(),
-        context.regions,
-        worst_first((*about, *context.findings, *context.areas.findings)),
-        context.strokes,
-        context.polyline_rings,
-        seen.bitmap_area,
-        seen.exact_area,
-        seen.pitch,
+        moves=context.builder.moves(),
+        regions=context.regions,
+        findings=worst_first((*about, *context.findings, *context.areas.findings)),
+        strokes=context.strokes,
+        polyline_rings=context.polyline_rings,
+        bitmap_area_mm2=seen.bitmap_area,
+        exact_area_mm2=seen.exact_area,
+        pitch_mm=seen.pitch,
         areas=areas,
         lines=lines,
         clamps=parts.clamps,

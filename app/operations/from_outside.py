@@ -87,7 +87,9 @@ def from_outside(
     stock = open_stock(context, operation, area)
     assert stock is not None
     tool, cut = context.job.tool(operation.cut.tool), operation.cut
-    ground = EntryContext(tool, cut.entry, area.distances, keep, True, cut.direction, context.cleared)
+    ground = EntryContext(
+        tool, cut.entry, area.distances, keep, beside=True, direction=cut.direction, cleared=context.cleared
+    )
     made = tuple(_begun_outside(each, stock, ground) for each in strokes)
     know_as_clear(context, operation, stock, [np.array(each.start) for each in made])
     return made

@@ -185,7 +185,9 @@ def _point_holes(job: Job, layers: frozenset[str]) -> list[Contour]:
         radius = job.tool(operation.cut.tool).radius
         for note, at in points:
             if _names(operation.cut.curves, note):
-                found.setdefault((at, radius), Contour((Circle(at, radius),), True, note.layer, (note.id,)))
+                found.setdefault(
+                    (at, radius), Contour((Circle(at, radius),), closed=True, layer=note.layer, entity_ids=(note.id,))
+                )
     return list(found.values())
 
 
@@ -392,7 +394,7 @@ def _told(lines: Sequence[Contour], layer: str) -> Finding:
     engraved = f"{option('side', 'on')} engraves along them."
     text = f"Layer {layer} has {count} nothing and that no operation follows; {engraved}"
     ids = tuple(dict.fromkeys(number for line in mine for number in line.entity_ids))
-    return Finding(FindingKind.OPEN_CONTOUR, text, x, y, False, ids, float(len(mine)))
+    return Finding(FindingKind.OPEN_CONTOUR, text, x, y, counts=False, entity_ids=ids, amount=float(len(mine)))
 
 
 # Which contours of a drawing an operation works on, by its selectors, and what to say of those that find nothing.
@@ -425,7 +427,7 @@ def selected(drawn: DrawnContours, curves: Sequence[Selector]) -> SelectedCurves
     inner = drawn.inner if placed else frozenset()
     return SelectedCurves(
         tuple(c for c in drawn.closed if any(_selects(each, c, id(c) in inner) for each in curves)),
-        tuple(c for c in drawn.open if any(_selects(each, c, False) for each in curves)),
+        tuple(c for c in drawn.open if any(_selects(each, c, is_inner=False) for each in curves)),
     )
 
 

@@ -455,14 +455,17 @@ def wall_paths(level: OffsetLevel, area: MachiningArea, direction: Direction) ->
 def _along_walls(ring: Ring, area: MachiningArea, rank: int) -> list[ContourPath]:
     bare = area.follows_bare(ring.rows)
     if not bare.any():
-        return [ContourPath(ring.rows, True, ring.region, rank, ring.area)]
+        return [ContourPath(ring.rows, closed=True, region=ring.region, rank=rank, area=ring.area)]
     if bare.all():
         return []
     # begin beside something bare, so that no run is cut in two by the ring's own beginning
     first = int(np.argmax(bare))
     rows, bare = np.roll(ring.rows, -first, axis=0), np.roll(bare, -first)
     edges = np.flatnonzero(np.diff(np.concatenate([[True], bare, [True]]).astype(np.int8)))
-    return [ContourPath(rows[a:b], False, ring.region, rank, ring.area) for a, b in edges.reshape(-1, 2).tolist()]
+    return [
+        ContourPath(rows[a:b], closed=False, region=ring.region, rank=rank, area=ring.area)
+        for a, b in edges.reshape(-1, 2).tolist()
+    ]
 
 
 def ranks(loops: Sequence[np.ndarray]) -> list[int]:

@@ -113,7 +113,7 @@ def _strip(way: _EdgeLine, strip: SideStrip) -> StripsBesideLines | None:
         return None
     back = _chords(np.array([points[-1], *rest, points[0]]))
     bounds = replace(way.turned, primitives=(*way.turned.primitives, *back), closed=True)
-    return StripsBesideLines([bounds], [Contour(back, False)])
+    return StripsBesideLines([bounds], [Contour(back, closed=False)])
 
 
 def _chords(points: Floats) -> tuple[Line, ...]:
@@ -323,7 +323,7 @@ def _end_at(place: Floats, ways: Sequence[_EdgeLine], kept: Sequence[int], end: 
 
 def _bounds(links: Sequence[_Link], ways: Sequence[_EdgeLine]) -> Iterator[Contour]:
     """Yield the rings round one area: lines, and links from the end of one to the beginning of the next."""
-    yield from (Contour(_chords(link.points), True) for link in links if link.after is None)
+    yield from (Contour(_chords(link.points), closed=True) for link in links if link.after is None)
     behind = {link.after: link for link in links if link.after is not None}
     while behind:
         first = number = min(behind)

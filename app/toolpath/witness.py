@@ -157,7 +157,9 @@ def region_findings(contours: Sequence[Contour], outlines: Sequence[Contour], ne
         x, y = nesting.thin[0].primitives[0].start
         count = "1 area" if len(nesting.thin) == 1 else f"{len(nesting.thin)} areas"
         text = f"Left out: {count} thinner than 1 um, {thin:.4f} mm2 in all, at {at((x, y))} for one."
-        found.append(Finding(FindingKind.LEFT_OUT, text, x, y, False, nesting.thin[0].entity_ids, thin))
+        found.append(
+            Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, entity_ids=nesting.thin[0].entity_ids, amount=thin)
+        )
     return found
 
 

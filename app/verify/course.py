@@ -88,15 +88,15 @@ def straight(start: Floats, end: Floats, kind: MotionKind = MotionKind.RAPID) ->
     count = len(start)
     small, whole = np.zeros(count, np.uint8), np.zeros(count, np.int32)
     return Motions(
-        start.copy(),
-        end.copy(),
-        np.full((count, 3), np.nan),
-        np.full(count, kind, np.uint8),
-        small,
-        whole,
-        np.zeros(count),
-        whole,
-        whole,
+        start=start.copy(),
+        end=end.copy(),
+        centre=np.full((count, 3), np.nan),
+        kind=np.full(count, kind, np.uint8),
+        plane=small,
+        turns=whole,
+        feed=np.zeros(count),
+        line=whole,
+        state=whole,
     )
 
 

@@ -317,7 +317,17 @@ class _HolderCheck:
                 worst = max(run, key=lambda touch: touch.depth)
                 number = int(self._course.tool[worst.row])
                 found.append(
-                    HolderContact(number, part, run[0].row, len(run), worst.row, worst.x, worst.y, worst.z, worst.depth)
+                    HolderContact(
+                        tool=number,
+                        part=part,
+                        first=run[0].row,
+                        count=len(run),
+                        motion=worst.row,
+                        x=worst.x,
+                        y=worst.y,
+                        z=worst.z,
+                        depth=worst.depth,
+                    )
                 )
         return tuple(sorted(found, key=lambda each: each.first))
 

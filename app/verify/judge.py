@@ -177,19 +177,19 @@ def judge(judging: JudgementInput, certificate: Certificate | None, progress: Pr
         counts = {kind: count for kind, (_, count) in found.items()}
     discs = (spot.disc_mm for spot in left_spots if spot.kind is SpotKind.UNREACHABLE)
     return Judgement(
-        deviation,
-        unreachable,
-        gouge,
-        reachable_mm2,
-        unreachable_mm2,
-        max(discs, default=0.0),
-        (*gouges, *left_spots),
-        counts | {SpotKind.GOUGE: gouged},
-        tuple(_bands(judging, deviation)),
-        certificate,
-        isinstance(part, FlatPart),
-        tolerance,
-        coverage.given_up_mm2 if coverage is not None else 0.0,
+        deviation=deviation,
+        unreachable=unreachable,
+        gouge=gouge,
+        reachable_mm2=reachable_mm2,
+        unreachable_mm2=unreachable_mm2,
+        largest_disc_mm=max(discs, default=0.0),
+        spots=(*gouges, *left_spots),
+        counts=counts | {SpotKind.GOUGE: gouged},
+        bands=tuple(_bands(judging, deviation)),
+        certificate=certificate,
+        exact=isinstance(part, FlatPart),
+        tolerance=tolerance,
+        skin_mm2=coverage.given_up_mm2 if coverage is not None else 0.0,
     )
 
 
@@ -235,7 +235,17 @@ def _exact_gouges(judging: JudgementInput) -> Iterator[Spot]:
         if len(reported) < MOST_GOUGES and all(np.hypot(x - other[0], y - other[1]) > APART for other in reported):
             reported.append((x, y))
             motion = int(depths.move[k])
-            yield Spot(SpotKind.GOUGE, x, y, z, float(depths.depth[k]), 0.0, 0.0, int(judging.lines[motion]), motion)
+            yield Spot(
+                kind=SpotKind.GOUGE,
+                x=x,
+                y=y,
+                z=z,
+                depth_mm=float(depths.depth[k]),
+                area_mm2=0.0,
+                disc_mm=0.0,
+                line=int(judging.lines[motion]),
+                motion=motion,
+            )
 
 
 def _gouge_of_cells(judging: JudgementInput, place: CellPlace) -> Spot:

@@ -27,11 +27,10 @@ from ..simulation.field.target import MARGIN, TargetHeights, beside, inside
 from ..simulation.field.workpiece import Grid
 from ..toolpath.build import MovesBuilder
 from ..toolpath.coverage.areas import grown, region_shapes, united
-from ..toolpath.coverage.floor_target import CHORD, dog_bone_shape, floor_targets
+from ..toolpath.coverage.floor_target import CHORD, FloorTarget, dog_bone_shape, floor_targets
 from .verdict import OperationBound, bounds_of, followed_walls
 
 if TYPE_CHECKING:
-    from ..toolpath.coverage.floor_target import FloorTarget
     from .solid_depth import DepthInSolid
 
 
@@ -71,7 +70,6 @@ class FlatPart:
     @cached_property
     def targets(self) -> tuple[FloorTarget, ...]:
         """What is to be cleared, the shallowest floor first."""
-
         return floor_targets(self.program(MovesBuilder().moves()), self.job) if self.floors is None else self.floors
 
     def program(self, moves: Moves) -> Program:

@@ -275,7 +275,9 @@ def fast_plunges(
         number = int(course.tool[first])
         if hit.depth >= _least(tools[number], known[number]):
             feed, (x, y) = float(down[first : last + 1].max()), _at_height(ways[k].points, hit.z)
-            deepest.setdefault(number, []).append(FastPlunge(first, number, x, y, hit.depth, feed, known[number], 1))
+            deepest.setdefault(number, []).append(
+                FastPlunge(motion=first, tool=number, x=x, y=y, depth=hit.depth, feed=feed, rate=known[number], count=1)
+            )
     worst = (
         replace(max(found, key=lambda each: each.depth), count=sum(each.count for each in found))
         for found in deepest.values()

@@ -114,7 +114,17 @@ class SolidGouges:
 
     def _spot(self, place: Floats, z: float, depth: float, motion: int) -> Spot:
         line = int(self.lines[motion]) if motion >= 0 else 0
-        return Spot(SpotKind.GOUGE, float(place[0]), float(place[1]), z, depth, 0.0, 0.0, line, motion)
+        return Spot(
+            kind=SpotKind.GOUGE,
+            x=float(place[0]),
+            y=float(place[1]),
+            z=z,
+            depth_mm=depth,
+            area_mm2=0.0,
+            disc_mm=0.0,
+            line=line,
+            motion=motion,
+        )
 
     def _homes(self, places: Sequence[CellPlace]) -> NDArray[np.int64]:
         """Return the number of the place of each cell, -1: none, with a cell round each place."""
@@ -215,7 +225,6 @@ class SolidGouges:
 
 def apart(places: Floats) -> NDArray[np.int64]:
     """Return which of some places (m, 2), in order, are farther than APART from all of these before them."""
-
     cells = np.floor(places / APART).astype(np.int64)
     cells -= cells.min(axis=0, initial=0) - 1
     high = int(cells[:, 1].max(initial=0)) + 2

@@ -40,12 +40,12 @@ _PRINTED = 20
 
 COMMAND = CliCommand(
     "batch",
-    "folder or list",
-    "the folder or the list of parts and the folder to write to",
-    "Make, check or smooth many parts, each by itself: one that fails, hangs or is killed harms none.",
-    EPILOG,
-    add_batch_options,
-    _run,
+    reads="folder or list",
+    needs="the folder or the list of parts and the folder to write to",
+    about="Make, check or smooth many parts, each by itself: one that fails, hangs or is killed harms none.",
+    epilog=EPILOG,
+    add_options=add_batch_options,
+    run=_run,
     examples=(
         "hitofude batch parts -o programs --depth 3 --sheets pdf",
         "hitofude batch programs -o checked --check",

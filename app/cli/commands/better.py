@@ -48,14 +48,14 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
 COMMAND = CliCommand(
     "better",
-    "program",
-    "the NC program and -o OUT.ngc",
-    (
+    reads="program",
+    needs="the NC program and -o OUT.ngc",
+    about=(
         "Make a better program of one that goes over a surface in passes: fewer blocks, smaller bends, nearer to the "
         "true shape, and prove by a second cut that it leaves the same."
     ),
-    EPILOG,
-    add_better_options,
-    _run,
+    epilog=EPILOG,
+    add_options=add_better_options,
+    run=_run,
     examples=("hitofude better raster.ngc -o raster-better.ngc --image metal.png --report better.json",),
 )

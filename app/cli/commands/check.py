@@ -16,7 +16,6 @@ from ..signals import StopFlag
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 with problems or differences."""
-
     outputs = check_files(arguments)
     progress = shown_progress(arguments.quiet, stopped)
     data = read_input(arguments.program)
@@ -41,12 +40,12 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
 COMMAND = CliCommand(
     "check",
-    "program",
-    "the NC program",
-    "Read an NC program as its control would, and tell what there is to know of it.",
-    EPILOG,
-    add_check_options,
-    _run,
+    reads="program",
+    needs="the NC program",
+    about="Read an NC program as its control would, and tell what there is to know of it.",
+    epilog=EPILOG,
+    add_options=add_check_options,
+    run=_run,
     examples=(
         "hitofude check program.nc --machine vmc --report found.json",
         "hitofude check program.nc --restart-at 1234 -o rest.nc",

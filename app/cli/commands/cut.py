@@ -37,9 +37,9 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     request = setup_request(arguments)
     ready = setup_of(examined_programs(arguments, progress.part(0.0, 0.2)), request, progress.part(0.2, 0.25))
     if arguments.tiles:
-        return CommandOutcome({}, [cut_by_tiles(arguments, ready.setup, progress.part(0.25, 1.0))], False).delivered(
-            arguments, progress
-        )
+        return CommandOutcome(
+            {}, [cut_by_tiles(arguments, ready.setup, progress.part(0.25, 1.0))], counts=False
+        ).delivered(arguments, progress)
     ensure_window(arguments.window, ready)
     done = cut(ready.setup, requested_look(arguments), progress.part(0.25, 0.95))
     report = cut_report(done, ready)
@@ -58,13 +58,14 @@ def _warning_lines(warnings: tuple[str, ...]) -> list[str]:
 
 COMMAND = CliCommand(
     "cut",
-    "",
-    "the NC program",
-    "Cut any NC program out of its stock, exactly, and tell what is left, what went wrong, and how near it is to the "
-    "part.",
-    EPILOG,
-    _add_options,
-    _run,
+    needs="the NC program",
+    about=(
+        "Cut any NC program out of its stock, exactly, and tell what is left, what went wrong, and how near it is to "
+        "the part."
+    ),
+    epilog=EPILOG,
+    add_options=_add_options,
+    run=_run,
     intermixed=True,
     check=_check,
     examples=(

@@ -47,12 +47,10 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
 COMMAND = CliCommand(
     "desktop",
-    "",
-    "",
-    "Put the program into the desktop's menu for this user, with its icon and its kinds of files.",
-    EPILOG,
-    _add_options,
-    _run,
+    about="Put the program into the desktop's menu for this user, with its icon and its kinds of files.",
+    epilog=EPILOG,
+    add_options=_add_options,
+    run=_run,
     examples=(
         "hitofude desktop",
         "hitofude desktop --remove",

@@ -47,12 +47,11 @@ def _lines(made: FeedProposal) -> list[str]:
 
 COMMAND = CliCommand(
     "feeds",
-    "",
-    "the material of the stock, and a tool or a file of tools",
-    "Tell how fast tools may turn and feed in a material, and why.",
-    EPILOG,
-    add_feeds_options,
-    _run,
+    needs="the material of the stock, and a tool or a file of tools",
+    about="Tell how fast tools may turn and feed in a material, and why.",
+    epilog=EPILOG,
+    add_options=add_feeds_options,
+    run=_run,
     check=check_feeds_options,
     examples=("hitofude feeds --material aluminium --tool flat:6 --flutes 2",),
 )

@@ -37,11 +37,12 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
 COMMAND = CliCommand(
     "figure11",
-    "",
-    "",
-    ("Measure how long plain software, the published depth buffer, and this program's engines take for the same cuts."),
-    EPILOG,
-    add_figure_options,
-    _run,
+    about=(
+        "Measure how long plain software, the published depth buffer, and this program's engines take for the same "
+        "cuts."
+    ),
+    epilog=EPILOG,
+    add_options=add_figure_options,
+    run=_run,
     examples=("hitofude figure11 --programs A --grid 512",),
 )

@@ -61,11 +61,11 @@ def _add_options(parser: OptionParser) -> None:
 
 COMMAND = CliCommand(
     "inlay",
-    "drawing",
-    "the drawing, the job file and what the programs are called",
-    "Turn a drawing into a V-carved pocket and the plug that fits into it, and prove that they fit.",
-    EPILOG,
-    _add_options,
-    _run,
+    reads="drawing",
+    needs="the drawing, the job file and what the programs are called",
+    about="Turn a drawing into a V-carved pocket and the plug that fits into it, and prove that they fit.",
+    epilog=EPILOG,
+    add_options=_add_options,
+    run=_run,
     examples=("hitofude inlay inlay.draw --job inlay.toml -o inlay",),
 )

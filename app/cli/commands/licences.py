@@ -30,11 +30,9 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
 COMMAND = CliCommand(
     "licences",
-    "",
-    "",
-    "List this program and every package that it runs with here, with their licences.",
-    "The list is what the packages that are installed say of themselves. Exit status 0.",
-    _add_options,
-    _run,
+    about="List this program and every package that it runs with here, with their licences.",
+    epilog="The list is what the packages that are installed say of themselves. Exit status 0.",
+    add_options=_add_options,
+    run=_run,
     examples=("hitofude licences --texts",),
 )

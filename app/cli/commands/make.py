@@ -52,13 +52,15 @@ def _ensure_apart(output: Path, programs: list[Path], others: list[Path]) -> Non
 
 COMMAND = CliCommand(
     "make",
-    "drawing",
-    "the drawing and the NC program to write",
-    "Turn a drawing or a picture into tool paths for pockets, rests, contours and holes, and write them as an NC "
-    "program, read back and proven the same.",
-    EPILOG,
-    add_make_options,
-    _run,
+    reads="drawing",
+    needs="the drawing and the NC program to write",
+    about=(
+        "Turn a drawing or a picture into tool paths for pockets, rests, contours and holes, and write them as an NC "
+        "program, read back and proven the same."
+    ),
+    epilog=EPILOG,
+    add_options=add_make_options,
+    run=_run,
     examples=(
         "hitofude make part.dxf -o part.ngc --pocket-tool 6 --contour-tool 3 --depth 4 --stepdown 2",
         "hitofude make part.dxf -o part.ngc --side outside --tabs 4 --sheet part.pdf",

@@ -43,11 +43,10 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
 COMMAND = CliCommand(
     "manual",
-    "",
-    "-o and the folder to write to",
-    "Write the manual as a folder of pages for browsers, with a search, in all languages that it has.",
-    EPILOG,
-    _add_options,
-    _run,
+    needs="-o and the folder to write to",
+    about="Write the manual as a folder of pages for browsers, with a search, in all languages that it has.",
+    epilog=EPILOG,
+    add_options=_add_options,
+    run=_run,
     examples=("hitofude manual -o site",),
 )

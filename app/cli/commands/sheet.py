@@ -78,12 +78,11 @@ def _cut(
 
 COMMAND = CliCommand(
     "sheet",
-    "",
-    "the NC program and -o OUT.pdf",
-    "Write the sheet that goes to the machine with an NC program: what is set up, what it does, what is proven.",
-    EPILOG,
-    add_sheet_options,
-    _run,
+    needs="the NC program and -o OUT.pdf",
+    about="Write the sheet that goes to the machine with an NC program: what is set up, what it does, what is proven.",
+    epilog=EPILOG,
+    add_options=add_sheet_options,
+    run=_run,
     intermixed=True,
     check=check_cut_arguments,
     examples=(

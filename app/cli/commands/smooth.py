@@ -56,15 +56,15 @@ def _warnings(done: SmoothedProgram) -> list[str]:
 
 COMMAND = CliCommand(
     "smooth",
-    "program",
-    "the NC program and -o OUT.ngc",
-    (
+    reads="program",
+    needs="the NC program and -o OUT.ngc",
+    about=(
         "Write the straight moves of an NC program as fewer lines, as arcs, or as splines, within a tolerance that "
         "is proven."
     ),
-    EPILOG,
-    add_smooth_options,
-    _run,
+    epilog=EPILOG,
+    add_options=add_smooth_options,
+    run=_run,
     examples=(
         "hitofude smooth part.ngc -o smooth.ngc --tolerance 0.01",
         "hitofude smooth part.ngc -o smooth.ngc --as nurbs --post fanuc",

@@ -25,15 +25,14 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
 COMMAND = CliCommand(
     "stages",
-    "",
-    "the folder to write to",
-    (
+    needs="the folder to write to",
+    about=(
         "Write every numbered step of one of the five texts, on a file or on its sample; of that of 1986 the display "
         "memory after every step."
     ),
-    EPILOG,
-    add_stages_options,
-    _run,
+    epilog=EPILOG,
+    add_options=add_stages_options,
+    run=_run,
     examples=(
         "hitofude stages part.dxf -o steps --contour-tool 2 --pocket-tool 4",
         "hitofude stages --text E -o steps",

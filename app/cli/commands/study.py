@@ -48,12 +48,12 @@ def _told(choices: Sequence[StudyChoice], rows: Sequence[BatchRow]) -> list[str]
 
 COMMAND = CliCommand(
     "study",
-    "drawing or program",
-    "the drawing or program and the folder to write to",
-    "Make or smooth one file with every combination of some options' values, and tell which takes least time.",
-    EPILOG,
-    add_study_options,
-    _run,
+    reads="drawing or program",
+    needs="the drawing or program and the folder to write to",
+    about="Make or smooth one file with every combination of some options' values, and tell which takes least time.",
+    epilog=EPILOG,
+    add_options=add_study_options,
+    run=_run,
     examples=(
         "hitofude study part.dxf -o study --vary pocket-tool=6,8 --vary stepover=40%,60% --depth 3",
         "hitofude study part.dxf -o study --which-tool",

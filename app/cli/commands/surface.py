@@ -36,15 +36,15 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
 COMMAND = CliCommand(
     "surface",
-    "scene",
-    "the scene and -o OUT.ngc",
-    (
+    reads="scene",
+    needs="the scene and -o OUT.ngc",
+    about=(
         "Compute tool paths over the surfaces of a scene, told apart by surface, and prove that they go into none of "
         "them."
     ),
-    EPILOG,
-    add_surface_options,
-    _run,
+    epilog=EPILOG,
+    add_options=add_surface_options,
+    run=_run,
     examples=(
         "hitofude surface compound.toml -o compound.ngc --plot compound.svg",
         "hitofude surface compound.toml -o curves.ngc --smooth 0.03",

@@ -33,11 +33,11 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
 COMMAND = CliCommand(
     "tools",
-    "drawing",
-    "the drawing",
-    "Tell which tools a drawing wants.",
-    EPILOG,
-    add_tools_options,
-    _run,
+    reads="drawing",
+    needs="the drawing",
+    about="Tell which tools a drawing wants.",
+    epilog=EPILOG,
+    add_options=add_tools_options,
+    run=_run,
     examples=("hitofude tools part.dxf --depth 4",),
 )

@@ -196,11 +196,11 @@ def _shortened(curve: Line | Arc, at: Point, near: Point) -> Line | Arc | None:
         if (left > 0) is not onward or math.dist(far, at) < WELD:
             return None
         return Line(at, far) if onward else Line(far, at)
-    keeps_end = way_ahead(curve, at, False) if not lies_on(curve, at) else 0.0
+    keeps_end = way_ahead(curve, at, forward=False) if not lies_on(curve, at) else 0.0
     if lies_on(curve, at):
         kept = min(split(curve, [at]), key=lambda p: math.dist(nearest_point(p, near), near), default=None)
         return kept if isinstance(kept, Arc) else None
-    to_end = way_ahead(curve, at, True)
+    to_end = way_ahead(curve, at, forward=True)
     start, end = (at, curve.end) if keeps_end < to_end else (curve.start, at)
     return Arc(start, end, curve.centre, curve.ccw) if math.dist(start, end) > WELD else None
 

@@ -173,7 +173,9 @@ def _joined(
         joint_kernels.CROSSING
     )
     joint_kernels.deviations(rounds, ends, carriers, rows, worst)
-    path = SmoothedPath(rows, _kinds(rows, options), ends, joined, float(worst[:, 0].max()), True, carriers)
+    path = SmoothedPath(
+        rows, _kinds(rows, options), ends, joined, float(worst[:, 0].max()), exact=True, carriers=carriers
+    )
     return path, worst[:, 1] > _LIMIT * options.tolerance
 
 
@@ -186,8 +188,8 @@ def _one_circle(points: Floats, carriers: Floats) -> SmoothedPath:
         np.array([0, len(points)]),
         np.ones(1, np.uint8),
         float(np.abs(off).max()),
-        True,
-        carriers,
+        exact=True,
+        carriers=carriers,
     )
 
 
@@ -315,4 +317,4 @@ def as_it_is(points: Floats) -> SmoothedPath:
     rows[:, :2], rows[:, 2:4] = points, np.roll(points, -1, axis=0)
     count = len(points)
     kinds, joined = np.full(count, PieceKind.SPLINE), np.full(count, 2, np.uint8)
-    return SmoothedPath(rows, kinds, np.arange(count + 1), joined, 0.0, False, np.zeros((count, 5)))
+    return SmoothedPath(rows, kinds, np.arange(count + 1), joined, 0.0, exact=False, carriers=np.zeros((count, 5)))

@@ -164,7 +164,16 @@ def _proven(curve: SpaceCurve, points: Floats, feet: Floats, widest: float) -> T
         at = float(feet[int(worst)])
     chord = min(max(int(np.searchsorted(feet, at, side="right")) - 1, 0), len(points) - 2)
     bound = min(bound + curve.slack, widest)
-    return TubeJudgement(TubeAnswer.INSIDE, bound, found, back, at, _place(curve, at), chord, feet)
+    return TubeJudgement(
+        answer=TubeAnswer.INSIDE,
+        bound=bound,
+        from_curve=found,
+        from_points=back,
+        parameter=at,
+        place=_place(curve, at),
+        chord=chord,
+        feet=feet,
+    )
 
 
 def _refused(

@@ -262,10 +262,10 @@ def _unit(document: Any, data: bytes, given: Units | None, overrule: bool) -> _U
     if code in _NAMED_UNITS:
         size, shown = _NAMED_UNITS[code]
         if not overrule or given is None or given is shown:
-            return _Unit(size, shown, True)
-        return _Unit(given.value, given, True, shown)
+            return _Unit(size, shown, named=True)
+        return _Unit(given.value, given, named=True, overruled=shown)
     unit = given or Units.MM
-    return _Unit(unit.value, unit, False)
+    return _Unit(unit.value, unit, named=False)
 
 
 def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:

@@ -79,14 +79,14 @@ def solid_of(entity: Any) -> Hatch:
         NoLengthError: all its corners are one.
     """
     places = [entity.dxf.get(f"vtx{k}", entity.dxf.vtx2) for k in (0, 1, 3, 2)]
-    outline = segments_of([((float(place.x), float(place.y)), 0.0) for place in places], True)
+    outline = segments_of([((float(place.x), float(place.y)), 0.0) for place in places], closed=True)
     ring = placed_in(entity, float(entity.dxf.vtx0.z), outline)
     return Hatch((tuple(ring),), entity.dxf.layer, entity.dxftype())
 
 
 def _ring(path: Any) -> list[Curve]:
     try:
-        return segments_of([((float(x), float(y)), float(bulge)) for x, y, bulge in path.vertices], True)
+        return segments_of([((float(x), float(y)), float(bulge)) for x, y, bulge in path.vertices], closed=True)
     except NoLengthError:
         return []
 
@@ -191,7 +191,6 @@ def bounding_alone(rings: Sequence[tuple[Curve, ...]], drawn: Sequence[Curve], s
 
 def _rows(curves: Sequence[Curve], to: Affine) -> Any:
     """Return curves as rows of lines and arcs, mm."""
-
     placed = (transformed(curve, to) for curve in curves)
     pieces, _ = pieces_from([Entity(number, curve) for number, curve in enumerate(placed, 1) if curve is not None])
     return rows_of(pieces)[0]

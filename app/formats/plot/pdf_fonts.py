@@ -81,7 +81,7 @@ class PdfFonts:
         """Return how a run of text is written; None where no font has all of its letters."""
         if is_helvetica(words.text):
             width = text_width(words.text, words.height, words.bold)
-            return SetWords(1 + words.bold, words.height, width, pdf_string(words.text), False)
+            return SetWords(1 + words.bold, words.height, width, pdf_string(words.text), upright=False)
         typeface = _typeface_with(words.text)
         return None if typeface is None else self._embedded[typeface].set(words)
 
@@ -123,7 +123,7 @@ class _EmbeddedFont:
         long = sum(self.face.glyphs[letter].advance for letter in words.text) / self.em
         size = text_width(words.text, words.height) / long if is_wide(words.text) and long else words.height
         codes = "".join(f"{self.letters.index(letter) + 1:04x}" for letter in words.text)
-        return SetWords(self.number, size, long * size, f"<{codes}>", True)
+        return SetWords(self.number, size, long * size, f"<{codes}>", upright=True)
 
     def objects(self, first: int) -> list[bytes]:
         """Return the font, its letters, what is told of them, their outlines, and which signs they are."""

@@ -75,17 +75,17 @@ def _row(text: str, remark: str, line: int, units: Units) -> TableRow:
         return first, second, third
 
     return TableRow(
-        int(values["T"]),
-        int(values["P"]),
-        three("XYZ"),
-        three("UVW"),
-        three("ABC"),
-        values["D"],
-        values["I"],
-        values["J"],
-        int(values["Q"]),
-        remark,
-        line,
+        number=int(values["T"]),
+        pocket=int(values["P"]),
+        offset=three("XYZ"),
+        second_offset=three("UVW"),
+        rotary_offset=three("ABC"),
+        diameter=values["D"],
+        front_angle=values["I"],
+        back_angle=values["J"],
+        orientation=int(values["Q"]),
+        remark=remark,
+        line=line,
     )
 
 

@@ -147,15 +147,15 @@ def check(data: bytes, file: NcFile, reference: CheckReference, progress: Progre
     step = writing_tolerance(job, post)
     allowed, ends = allowed_distances(moves, job, step)
     compared = _FileCheck(
-        read,
-        moves,
-        ReferencePath.of(moves, origin),
-        file,
-        ExpectedState.of(job, post),
-        job.travel_z - origin[2],
-        step,
-        allowed,
-        ends,
+        read=read,
+        moves=moves,
+        reference=ReferencePath.of(moves, origin),
+        file=file,
+        expected=ExpectedState.of(job, post),
+        safe_z=job.travel_z - origin[2],
+        tolerance=step,
+        allowed=allowed,
+        ends=ends,
     )
     mine, far, problems = _differences(compared)
     if not problems:

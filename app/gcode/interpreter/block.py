@@ -138,7 +138,7 @@ def _parsed(code: str, nesting: int, grammar: Grammar, begin: int) -> ParsedLine
             settings.append(ParameterSetting(key, values.expression() if free else values.value()))
         elif "a" <= letter <= "z" or (polar and letter in POLAR):
             values.letter = letter
-            words.append(Word(letter, values.value(), at, values.at, False))
+            words.append(Word(letter, values.value(), at, values.at, whole=False))
             values.letter = ""
         else:
             raise BlockFault(f"{letter!r} begins no word; {_instead(code, at)}.", column=-1 - at, word=letter)

@@ -138,7 +138,7 @@ class Compensation:
         if motion.kind not in (MotionKind.ARC_CW, MotionKind.ARC_CCW):
             way = (end - start) / abs(end - start)
             aside = way * 1j * self._radius
-            return OffsetMove(motion, start + aside, end + aside, None, True, way, way, end)
+            return OffsetMove(motion, start + aside, end + aside, None, ccw=True, leaving=way, arriving=way, corner=end)
         u, v, _ = self._plane.axes
         centre, ccw = complex(motion.centre[u], motion.centre[v]), motion.kind == MotionKind.ARC_CCW
         inward = self._radius if ccw else -self._radius
@@ -150,14 +150,14 @@ class Compensation:
             )
         turn = 1j if ccw else -1j
         return OffsetMove(
-            motion,
-            start - first / abs(first) * inward,
-            end - last / abs(last) * inward,
-            centre,
-            ccw,
-            first / abs(first) * turn,
-            last / abs(last) * turn,
-            end,
+            motion=motion,
+            start=start - first / abs(first) * inward,
+            end=end - last / abs(last) * inward,
+            centre=centre,
+            ccw=ccw,
+            leaving=first / abs(first) * turn,
+            arriving=last / abs(last) * turn,
+            corner=end,
         )
 
     def _enter(self, side: OffsetMove, start: complex) -> None:

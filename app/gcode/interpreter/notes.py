@@ -76,10 +76,10 @@ def _told(comments: Comments, units: ProgramUnits) -> Iterator[ToolNote]:
     seen = set()
     for at, text, number in _at_changes(comments):
         seen.add(at)
-        note = tool_of(text, units.mm_at(at), True)
+        note = tool_of(text, units.mm_at(at), at_change=True)
         yield replace(note, number=note.number or number, line=comments.line(at))
     for at, text in comments.texts(_TOOL_WORDS):
-        note = tool_of(text, units.mm_at(at), False) if at not in seen else ToolNote(0)
+        note = tool_of(text, units.mm_at(at), at_change=False) if at not in seen else ToolNote(0)
         if note.kind or note.diameter or note.corner_radius:
             yield replace(note, number=note.number or _number_near(comments, at), line=comments.line(at))
 

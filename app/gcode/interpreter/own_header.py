@@ -84,28 +84,28 @@ def own_notes(comments: Comments) -> ProgramNotes:
         noted.setdefault(key, []).append(values)
     origin = next((triple for _, values in noted.get("origin_mm", []) if (triple := _triple(values)) is not None), None)
     header = HeaderNote(
-        origin,
-        tuple(_operations(noted)),
-        _units(noted.get("drawing_units", [])),
-        tuple(_name(values) for _, values in noted.get("layer", [])),
-        _first(noted.get("join_tolerance_mm", [])),
-        _first(noted.get("path_tolerance_mm", [])),
-        _first(noted.get("allowance_mm", [])),
-        _copies(noted.get("copies", [])),
-        KeepOutNote(
+        origin=origin,
+        operations=tuple(_operations(noted)),
+        drawing_units=_units(noted.get("drawing_units", [])),
+        layers=tuple(_name(values) for _, values in noted.get("layer", [])),
+        join_tolerance=_first(noted.get("join_tolerance_mm", [])),
+        path_tolerance=_first(noted.get("path_tolerance_mm", [])),
+        allowance=_first(noted.get("allowance_mm", [])),
+        copies=_copies(noted.get("copies", [])),
+        keep_out=KeepOutNote(
             tuple(_name(values) for _, values in noted.get("keep_out", [])),
             _first(noted.get("keep_out_height_mm", [])) or 0.0,
         ),
-        tuple(Tab(*numbers) for numbers in _fives(noted.get("tab", []))),
-        tuple(DogBone(*numbers) for numbers in _fives(noted.get("dog_bone", []))),
-        _reading(noted),
-        tuple(
+        tabs=tuple(Tab(*numbers) for numbers in _fives(noted.get("tab", []))),
+        dog_bones=tuple(DogBone(*numbers) for numbers in _fives(noted.get("dog_bone", []))),
+        reading=_reading(noted),
+        plunge_rates=tuple(
             PlungeRateNote(int(numbers[0]), numbers[1])
             for _, values in noted.get("plunge_mm_min", [])
             if len(numbers := _floats(values)) == 2
         ),
-        max(_first(noted.get("under_mm", [])) or 0.0, 0.0),
-        max(_first(noted.get("above_mm", [])) or 0.0, 0.0),
+        under=max(_first(noted.get("under_mm", [])) or 0.0, 0.0),
+        above=max(_first(noted.get("above_mm", [])) or 0.0, 0.0),
     )
     return ProgramNotes(
         tuple(_tools(noted.get("tool", []))), _stock(noted.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header

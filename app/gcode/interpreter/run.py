@@ -335,7 +335,14 @@ class InterpreterRun:
         asked, control.requested = tuple(control.requested.items()), {}
         self._watch(
             BlockStep(
-                line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row), asked
+                line=line,
+                parsed=parsed,
+                block=said,
+                states=(before, control.modal),
+                motion=control.motion,
+                feed=control.feed,
+                rows=(row, control.row),
+                requested=asked,
             )
         )
         return goes_on

@@ -107,14 +107,14 @@ def _stretch(motions: Motions, text: ProgramBuffer, spoken: _LineWords, first: i
     feed = text.data[begin:end].decode() if begin >= 0 else ""
     lines = motions.line[[first, stop - 1]].tolist()
     return FeedStretch(
-        first,
-        stop,
-        points,
-        lines[0],
-        lines[1],
-        feed,
-        bool(spoken.coded[first]),
-        _resumed(text, spoken.begins, lines[1]),
+        first=first,
+        stop=stop,
+        points=points,
+        first_line=lines[0],
+        last_line=lines[1],
+        feed=feed,
+        coded=bool(spoken.coded[first]),
+        resumed=_resumed(text, spoken.begins, lines[1]),
     )
 
 

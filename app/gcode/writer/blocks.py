@@ -393,7 +393,19 @@ def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> CycleHo
         if word and level and _alike(steps, done, rules.near):
             pause = f"P{wait.rpartition('P')[2]}" if wait else ""
             start, rate = rules.taps.get(operation, ""), rules.rates.get(operation, "")
-            return CycleHole(f"{level} {word}", x, y, bottom, r, q, moves.feed[feed], stop, pause, start, rate)
+            return CycleHole(
+                cycle=f"{level} {word}",
+                x=x,
+                y=y,
+                z=bottom,
+                r=r,
+                peck=q,
+                feed=moves.feed[feed],
+                stop=stop,
+                dwell=pause,
+                start=start,
+                rate=rate,
+            )
     return None
 
 

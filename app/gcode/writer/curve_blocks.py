@@ -4,7 +4,7 @@ program.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -152,8 +152,6 @@ class _CurveWriter:
         self._block(kind, end, words)
 
     def _spline(self, row: int) -> None:
-        from dataclasses import replace
-
         spline = self._path.splines[row]
         blocks = nurbs_blocks(replace(spline, points=spline.points - self._shift), self._post, self._state.units)
         assert blocks is not None, "the form cannot carry this spline"

@@ -96,14 +96,14 @@ def _arc(start: Floats, end: Floats, leaving: Floats) -> FittedPath:
     centre[:2] += radius * np.array([-leaving[1], leaving[0]]) / size
     kind = MotionKind.ARC_CCW if radius > 0 else MotionKind.ARC_CW
     motion = Motions(
-        line.start,
-        line.end,
-        centre[None],
-        np.array([kind], np.uint8),
-        np.array([Plane.XY], np.uint8),
-        np.ones(1, np.int32),
-        line.feed,
-        line.line,
-        line.state,
+        start=line.start,
+        end=line.end,
+        centre=centre[None],
+        kind=np.array([kind], np.uint8),
+        plane=np.array([Plane.XY], np.uint8),
+        turns=np.ones(1, np.int32),
+        feed=line.feed,
+        line=line.line,
+        state=line.state,
     )
     return FittedPath(motion, np.array([1]))

@@ -99,15 +99,15 @@ def work_moves(moves: Moves, origin: tuple[float, float, float], units: Units, d
     columns = [whole(column, decimals) for column, decimals in zip(end.T, (digits.X, digits.Y, digits.Z), strict=True)]
     rows = np.flatnonzero(moves.kind >= MoveKind.ARC_CW)
     return WorkMoves(
-        moves.kind,
-        moves.purpose,
-        moves.tool,
-        moves.operation,
-        np.column_stack(columns),
-        end[:, 2].copy(),
-        np.maximum(1, whole(moves.feed / units.value, digits.F)),
-        rows,
-        _meant_arcs(moves, rows, origin, units),
+        kind=moves.kind,
+        purpose=moves.purpose,
+        tool=moves.tool,
+        operation=moves.operation,
+        end=np.column_stack(columns),
+        z=end[:, 2].copy(),
+        feed=np.maximum(1, whole(moves.feed / units.value, digits.F)),
+        arc_rows=rows,
+        arcs=_meant_arcs(moves, rows, origin, units),
     )
 
 

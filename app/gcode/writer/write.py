@@ -280,15 +280,15 @@ class _ProgramWriter:
         # a count by the cycle's heights and half a one by rounding, where as much may be off
         near = int(1.5 * unit / self.z_scale <= writing_tolerance(job, post))
         rules = CycleRules(
-            post.drilling,
-            round(self.z_scale),
-            peck,
-            chip,
-            near,
-            _dwells(job),
-            self._taps(),
-            _left(job),
-            self._tap_rates(offset.moves),
+            words=post.drilling,
+            scale=round(self.z_scale),
+            peck_gap=peck,
+            chip_gap=chip,
+            near=near,
+            dwells=_dwells(job),
+            taps=self._taps(),
+            left=_left(job),
+            rates=self._tap_rates(offset.moves),
         )
         self.holes: dict[int, CycleHole] = holes_of(moves, rules)
         self.waits = waits_of(moves, rules, self.holes)

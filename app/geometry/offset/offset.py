@@ -468,4 +468,4 @@ def _packed(loops: Sequence[Rows]) -> Primitives:
 
 def _contour(ring: Ring, layer: str, ids: tuple[int, ...]) -> Contour:
     rows = within_half_turn(ring.rows)
-    return Contour(tuple(row_curve(row) for row in rows), True, layer, ids)
+    return Contour(tuple(row_curve(row) for row in rows), closed=True, layer=layer, entity_ids=ids)

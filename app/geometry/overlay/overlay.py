@@ -262,7 +262,15 @@ class PlanarGraph:
         for loop in loops:
             rows = self._rows(np.array(loop))
             if abs(signed_area(rows)) > _SLIVER * float(lengths(rows).sum()):
-                made.append(Contour(tuple(map(row_curve, rows)), True, members[0].layer, ids, deviation))
+                made.append(
+                    Contour(
+                        tuple(map(row_curve, rows)),
+                        closed=True,
+                        layer=members[0].layer,
+                        entity_ids=ids,
+                        deviation=deviation,
+                    )
+                )
         return made
 
     def _rows(self, ends: Indices) -> Rows:

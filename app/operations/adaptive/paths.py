@@ -90,7 +90,16 @@ def adaptive(context: OperationContext, index: int, progress: Progress) -> None:
         return
     parts = tuple(nearest_first(parts, context.at))
     keep = tool.radius + cut.stock_to_leave
-    ground = EntryContext(tool, cut.entry, area.distances, keep, True, cut.direction, context.cleared, context.tabs)
+    ground = EntryContext(
+        tool,
+        cut.entry,
+        area.distances,
+        keep,
+        beside=True,
+        direction=cut.direction,
+        cleared=context.cleared,
+        tabs=context.tabs,
+    )
     if stock is not None:
         know_as_clear(context, operation, stock, [part.runs[0].rows[0, :2] for part in parts])
     passes = DiscPasses(context.builder, label, ground, levels, operation.lift_between)

@@ -78,7 +78,7 @@ class AxisWalk:
             chain = [before, node]
             if swept[node]:
                 (x, y), reach = _place(self.axis.points[node], self.axis.reach[node])
-                last: int | None = self.discs.add(ClearedDisc(x, y, reach, payer, True))
+                last: int | None = self.discs.add(ClearedDisc(x, y, reach, payer, swept=True))
             else:
                 while len(on := tree.children(chain[-1])) == 1 and not swept[on[0]]:
                     chain += on

@@ -86,7 +86,7 @@ def cutter_of(job: Job, operation: ChamferOperation) -> ChamferCutter:
     if (ball := operation.ball(tool)) is not None:
         _check_stock(job, tool, ball.depth)
         top = ball.off + operation.width
-        return ChamferCutter(VCutter(ball.off, 1.0, tool.radius), True, ball.depth, ball.off, top)
+        return ChamferCutter(VCutter(ball.off, 1.0, tool.radius), round=True, depth=ball.depth, off=ball.off, top=top)
     tip, rate, depth = tool.tip_diameter / 2, math.tan(tool.tip_angle / 2), operation.deepest(tool)
     top = tip + depth * rate
     if top > tool.radius + _SAME:
@@ -96,7 +96,9 @@ def cutter_of(job: Job, operation: ChamferOperation) -> ChamferCutter:
             "or less of either."
         )
     _check_stock(job, tool, depth)
-    return ChamferCutter(VCutter(tip - operation.width, rate, tool.radius), False, depth, top - operation.width, top)
+    return ChamferCutter(
+        VCutter(tip - operation.width, rate, tool.radius), round=False, depth=depth, off=top - operation.width, top=top
+    )
 
 
 def _check_stock(job: Job, tool: Tool, depth: float) -> None:
@@ -235,7 +237,10 @@ def _behind_lines(area: MachiningArea, operation: ChamferOperation) -> Rows:
     left = np.flatnonzero(straight & (lengths_of - taken.sum(axis=1) > _WELD))
     starts, ends = points_at(rows[left], shares[left, 0]), points_at(rows[left], 1 - shares[left, 1])
     return _rows(
-        [Contour((Line(tuple(a), tuple(b)),), False) for a, b in zip(starts.tolist(), ends.tolist(), strict=True)]
+        [
+            Contour((Line(tuple(a), tuple(b)),), closed=False)
+            for a, b in zip(starts.tolist(), ends.tolist(), strict=True)
+        ]
     )
 
 

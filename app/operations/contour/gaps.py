@@ -377,7 +377,9 @@ def narrow_places(found: Sequence[WallGap], area: MachiningArea, distance: float
 def _is_shallow(gap: WallGap, distance: float) -> bool:
     if gap.corner is None:
         return False
-    points = np.concatenate([gap.rows[:, :2], ContourPath(gap.rows, False).points(np.linspace(0, gap.length, 17))])
+    points = np.concatenate(
+        [gap.rows[:, :2], ContourPath(gap.rows, closed=False).points(np.linspace(0, gap.length, 17))]
+    )
     return float(np.hypot(*(points - np.array(gap.corner)).T).max()) - distance < _DEPTH
 
 
@@ -387,7 +389,7 @@ def _free_discs(found: Sequence[WallGap], field: DistanceField, most: float) -> 
     """
     if not found:
         return []
-    paths = [ContourPath(gap.rows, False) for gap in found]
+    paths = [ContourPath(gap.rows, closed=False) for gap in found]
     parts = [_PARTS * path.length for path in paths]
     points = np.concatenate([path.points(where) for path, where in zip(paths, parts, strict=True)])
     aside = left_of(np.concatenate([path.headings(where) for path, where in zip(paths, parts, strict=True)]))

@@ -67,11 +67,15 @@ def _path_along(contour: Contour, depth: int, direction: Direction, loop: int) -
     """
     rows, climbs = contour_rows(contour), direction is Direction.CLIMB
     if not contour.closed:
-        return ContourPath(rows if climbs else reversed_rows(rows), False, 0, depth, 0.0, loop)
+        return ContourPath(
+            rows if climbs else reversed_rows(rows), closed=False, region=0, rank=depth, area=0.0, loop=loop
+        )
     enclosed, outer = signed_area(rows), depth % 2 == 0
     turns_wrong = (enclosed > 0) == (climbs if outer else not climbs)
     area = -abs(enclosed) if outer else abs(enclosed)
-    return ContourPath(reversed_rows(rows) if turns_wrong else rows, True, 0, depth, area, loop)
+    return ContourPath(
+        reversed_rows(rows) if turns_wrong else rows, closed=True, region=0, rank=depth, area=area, loop=loop
+    )
 
 
 def _beside_clamps(
@@ -95,7 +99,12 @@ def _beside_clamps(
         spans = [*spans[1:-1], (spans[-1][0], length + spans[0][1])]
     elif path.closed and len(spans) == 1 and spans[0] == (0.0, length):
         return [path], []
-    kept = [ContourPath(path.span(a, b, np.zeros(0))[0], False, 0, path.rank, path.area, path.loop) for a, b in spans]
+    kept = [
+        ContourPath(
+            path.span(a, b, np.zeros(0))[0], closed=False, region=0, rank=path.rank, area=path.area, loop=path.loop
+        )
+        for a, b in spans
+    ]
     return kept, _between(path, spans)
 
 

@@ -68,15 +68,15 @@ def surface_moves(families: Sequence[PassFamily], clearance: float, approach: fl
     count = len(rows)
     kind = np.array([row.kind for row in rows], np.uint8)
     moves = Moves(
-        np.array([row.end for row in rows]).reshape(-1, 3),
-        np.full((count, 2), np.nan),
-        kind,
-        np.array([row.purpose for row in rows], np.uint8),
-        np.array([row.operation for row in rows], np.int16),
-        np.array([row.tool for row in rows], np.int16),
-        np.zeros(count, np.int32),
-        np.array([row.feed for row in rows]),
-        np.zeros(count, np.int32),
+        end=np.array([row.end for row in rows]).reshape(-1, 3),
+        centre=np.full((count, 2), np.nan),
+        kind=kind,
+        purpose=np.array([row.purpose for row in rows], np.uint8),
+        operation=np.array([row.operation for row in rows], np.int16),
+        tool=np.array([row.tool for row in rows], np.int16),
+        region=np.zeros(count, np.int32),
+        feed=np.array([row.feed for row in rows]),
+        line=np.zeros(count, np.int32),
     )
     return SurfaceMoves(moves, np.array([row.surface for row in rows], np.int64))
 

@@ -80,11 +80,11 @@ def way_of(operation: ThreadOperation, tool: Tool) -> ThreadWay:
     ccw = (cut.direction is Direction.CLIMB) != operation.external
     up = ccw != operation.left_hand
     if operation.external:
-        radius = thread.bolt_core / 2 + tool.radius + correction(thread, tool.radius, True)
+        radius = thread.bolt_core / 2 + tool.radius + correction(thread, tool.radius, external=True)
         lead, beside = pitch * operation.lead(tool) / (2 * radius), radius + 2 * operation.lead(tool)
         feed = tool.feed_rate
     else:
-        radius = thread.major / 2 - tool.radius - correction(thread, tool.radius, False)
+        radius = thread.major / 2 - tool.radius - correction(thread, tool.radius, external=False)
         lead, beside = pitch / 4, 0.0
         feed = tool.feed_rate * radius / (radius + tool.radius)  # of its edge at the wall: the tool's own
     if cut.depth <= lead + pitch / 4:

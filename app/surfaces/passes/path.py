@@ -465,11 +465,11 @@ def _boundaries(
         met = rows[:, k.NEW] == k.BOUNDARY
         left, right = rows[:, k.LEFT].astype(np.int64), rows[:, k.FACET].astype(np.int64)
         for n in np.flatnonzero(met).tolist():
-            found.append(_Passage(plane, rows[n], rows[n], False))
+            found.append(_Passage(plane, rows[n], rows[n], jump=False))
         corners = np.flatnonzero(rows[:, k.NEW] == k.CORNER)
         for n in corners[(corners > 0) & (corners < len(rows) - 1)].tolist():
             if not met[n + 1] and facets.owner[right[n - 1]] != facets.owner[left[n + 1]]:
-                found.append(_Passage(plane, rows[n - 1], rows[n + 1], True))
+                found.append(_Passage(plane, rows[n - 1], rows[n + 1], jump=True))
     found.sort(key=lambda each: (each.plane, each.here[k.MET]))
     if not found:
         return BoundaryPoints.none()

@@ -208,15 +208,15 @@ def _tree(facets: SurfaceFacets) -> FacetTree:
     planes = np.concatenate([_planes(triangles.reshape(-1, 3, 3), error, slopes, count) for count in counts])
     patch = np.where(np.append(facets.patches.whole, False)[facets.patch], facets.patch, NONE)
     return FacetTree(
-        np.column_stack([np.concatenate(levels[::-1]), planes]),
-        triangles,
-        np.ascontiguousarray(_taken(facets.corners.reshape(-1, 6), order)),
-        patch[order],
-        error,
-        _taken(facets.bulge, order),
-        facets.owner[order],
-        order,
-        facets.patches.control,
+        boxes=np.column_stack([np.concatenate(levels[::-1]), planes]),
+        triangles=triangles,
+        corners=np.ascontiguousarray(_taken(facets.corners.reshape(-1, 6), order)),
+        patch=patch[order],
+        error=error,
+        bulge=_taken(facets.bulge, order),
+        owner=facets.owner[order],
+        order=order,
+        control=facets.patches.control,
     )
 
 

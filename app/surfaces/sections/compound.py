@@ -133,7 +133,16 @@ class BoundaryPoints:
     def none() -> BoundaryPoints:
         """Return those of a compound whose surfaces meet nowhere."""
         number, place, at = np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 2))
-        return BoundaryPoints(number, number, number, place, place, at, at, np.zeros(0, np.uint8))
+        return BoundaryPoints(
+            plane=number,
+            before=number,
+            after=number,
+            place=place,
+            end=place,
+            before_at=at,
+            after_at=at,
+            kind=np.zeros(0, np.uint8),
+        )
 
 
 @dataclass(frozen=True, eq=False)

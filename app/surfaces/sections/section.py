@@ -253,14 +253,14 @@ def _boundaries(
         return BoundaryPoints.none()
     before, after = (pieces.facet[marks[:, column].astype(np.int64)] for column in (k.BEFORE, k.AFTER))
     return BoundaryPoints(
-        np.full(len(marks), plane),
-        facets.owner[before],
-        facets.owner[after],
-        _places(planes, plane, marks[:, [k.AT, k.HERE]]),
-        _places(planes, plane, marks[:, [k.UNTIL, k.THERE]]),
-        surface_parameters(facets, before, marks[:, [k.BU, k.BV]]),
-        surface_parameters(facets, after, marks[:, [k.AU, k.AV]]),
-        marks[:, k.KIND].astype(np.uint8),
+        plane=np.full(len(marks), plane),
+        before=facets.owner[before],
+        after=facets.owner[after],
+        place=_places(planes, plane, marks[:, [k.AT, k.HERE]]),
+        end=_places(planes, plane, marks[:, [k.UNTIL, k.THERE]]),
+        before_at=surface_parameters(facets, before, marks[:, [k.BU, k.BV]]),
+        after_at=surface_parameters(facets, after, marks[:, [k.AU, k.AV]]),
+        kind=marks[:, k.KIND].astype(np.uint8),
     )
 
 

@@ -214,7 +214,15 @@ def _region(walls: Walls, found: RegionWidths, k: int, number: int, rows: Indice
     passage, disc = _spot(found.passage_at[k], found.passage[k]), _spot(found.disc_at[k], found.disc[k])
     clearing = _spot(found.clearing_at[k], found.clearing[k])
     return RegionAdvice(
-        number, signed_area(walls.rows[rows]), passage, disc, clearing, int(walls.sharp[rows].sum()), corner, radius, ()
+        number=number,
+        area_mm2=signed_area(walls.rows[rows]),
+        passage=passage,
+        disc=disc,
+        clearing=clearing,
+        corners=int(walls.sharp[rows].sum()),
+        corner=corner,
+        inner_radius=radius,
+        reaches=(),
     )
 
 

@@ -175,12 +175,12 @@ def measure(
         if program.allowance_mm:
             skin = _skin(metal, each, deeper.reach, program.allowance_mm)
             metal = _solid(without(metal, skin))
-            skins += _places(skin, True, share.part(0.6, 0.75))
-        places = _places(metal, True, share.part(0.75, 0.9))
+            skins += _places(skin, reachable=True, progress=share.part(0.6, 0.75))
+        places = _places(metal, reachable=True, progress=share.part(0.75, 0.9))
         for place, within in zip(places, pool().map(partial(_is_reached, each, fields), places), strict=True):
             share.step(0.9, _TEXT)
             (left if within else corners).append(place if within else replace(place, reachable=False))
-        corners += _places(_solid(each.beyond), False, share.part(0.9, 1.0))
+        corners += _places(_solid(each.beyond), reachable=False, progress=share.part(0.9, 1.0))
     for some in (left, corners, skins):
         some.sort(key=lambda place: -place.disc_mm)
     return Coverage(

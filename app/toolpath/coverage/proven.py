@@ -396,11 +396,11 @@ def settled(program: Program, job: Job, paths: Sequence[tuple[Rows, float]], pro
     floor = gathered(shapes)
     tiles = uncertain(floor, paths, progress)
     depth, cutters = cutters_of(program, job)
-    known = FloorTarget(depth, floor, floor, floor, True, cutters, shapely.Polygon())
+    known = FloorTarget(depth, floor, floor, floor, whole=True, cutters=cutters, out_of_reach=shapely.Polygon())
     if not len(tiles):
         return SingleFloor(None, known, tiles)
     near, reach = _around(shapes, tiles, cutters)
-    some = FloorTarget(depth, near, reach, reach, True, cutters)
+    some = FloorTarget(depth, near, reach, reach, whole=True, cutters=cutters)
     return SingleFloor(some, replace(known, out_of_reach=some.beyond), tiles)
 
 

@@ -144,7 +144,9 @@ def sample_engagement(program: Program, job: Job, progress: Progress = NO_PROGRE
     begin, end = np.zeros(len(moves)), np.zeros(len(moves))
     if not cutting.any():
         none, no = np.zeros(0), np.zeros(0, np.int64)
-        return EngagementSamples(begin, end, none, none, none, no, no, {}, {})
+        return EngagementSamples(
+            begin=begin, end=end, first=none, last=none, share=none, block=no, owner=no, radii={}, pitches={}
+        )
     lowest = np.minimum(moves.start[:, 2], moves.end[:, 2])
     numbers = np.unique(moves.tool[cutting]).tolist()
     radii = {

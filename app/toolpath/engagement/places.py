@@ -144,15 +144,15 @@ def places(moves: Moves, chosen: Indices, radius: float) -> PathPlaces:
     seen = np.empty(len(order), np.int64)
     seen[order] = np.arange(len(order))
     return PathPlaces(
-        chosen,
-        begin,
-        end,
-        np.concatenate([every[order], tail]),
-        seen[: len(looks)],
-        first,
-        first + size,
-        block,
-        chosen[own],
+        moves=chosen,
+        begin=begin,
+        end=end,
+        rows=np.concatenate([every[order], tail]),
+        seen=seen[: len(looks)],
+        first=first,
+        last=first + size,
+        block=block,
+        owner=chosen[own],
     )
 
 

@@ -148,14 +148,14 @@ class _Reckoning:
         rows = tuple(each for each in self._tool.feeds if each.material.casefold() != row.material.casefold())
         made = replace(self._tool, spindle_speed=rpm, feed_rate=feed, plunge_rate=plunge, feeds=(*rows, row))
         return FeedProposal(
-            made,
-            row,
-            mechanics.surface_speed(rpm, self._tool.diameter),
-            chip,
-            mechanics.milling_power(cut, self._tool, self._material),
-            self._deflection(cut),
-            tuple(self._reasons),
-            self._thickest(chip) < LEAST_CHIP,
+            tool=made,
+            row=row,
+            surface_speed=mechanics.surface_speed(rpm, self._tool.diameter),
+            feed_per_tooth=chip,
+            power=mechanics.milling_power(cut, self._tool, self._material),
+            deflection=self._deflection(cut),
+            reasons=tuple(self._reasons),
+            rubs=self._thickest(chip) < LEAST_CHIP,
         )
 
     def _say(self, key: str, text: str, held: bool = False) -> None:

@@ -168,7 +168,7 @@ def runs(
     none = np.zeros((0, 8))
     return tuple(
         made.get(k)
-        or PathWithLeads(path, starts[k][0], _stop(path, lengths[k], starts[k][0], around), none, none, 0.0, False)
+        or PathWithLeads(path, starts[k][0], _stop(path, lengths[k], starts[k][0], around), none, none, 0.0, bent=False)
         for k, path in enumerate(paths)
     )
 

@@ -81,6 +81,20 @@ def inward_bridges(
     return bridges
 
 
+class FeetOnRings(NamedTuple):
+    """What of the rings of one level is nearest to each of n points.
+
+    Attributes:
+        distance: (n,) mm.
+        row: (n,) of the field. fraction: (n,) of its length. point: (n, 2) there, mm.
+    """
+
+    distance: NDArray[np.float64]
+    row: Indices
+    fraction: NDArray[np.float64]
+    point: NDArray[np.float64]
+
+
 @dataclass(frozen=True)
 class RingField:
     """Distances from the rings of one level.
@@ -103,16 +117,12 @@ class RingField:
             np.concatenate([np.arange(len(r.rows)) for r in rings]),
         )
 
-    def nearest_of(
-        self, points: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], Indices, NDArray[np.float64], NDArray[np.float64]]:
-        """Return for points (n, 2) (distances (n,), rows of the field (n,), fractions of these (n,), points there (n,
-        2)).
-        """
+    def nearest_of(self, points: NDArray[np.float64]) -> FeetOnRings:
+        """Return what is nearest to points (n, 2)."""
         distance, found = self.field.nearest(points)
         rows = self.field.rows[found]
-        parts = fractions_at(rows, points)
-        return distance, found, parts, points_at(rows, parts)
+        fraction = fractions_at(rows, points)
+        return FeetOnRings(distance, found, fraction, points_at(rows, fraction))
 
     def place(self, row: int, part: float) -> RingPlace:
         """Return the place at a fraction of a row of the field."""
@@ -219,9 +229,9 @@ def _crossed(
     for k in range(int(counts.max()) - 1, -1, -1):
         level, target = targets[k]
         at = np.flatnonzero(there & (counts > k))
-        off, rows, parts, _ = target.nearest_of(middles.towards_wall(some[at], middles.distance[some[at]] - level))
-        there[at[off > tolerances.LEVEL]] = False
-        found.append((level, target, at, rows, parts.tolist()))
+        feet = target.nearest_of(middles.towards_wall(some[at], middles.distance[some[at]] - level))
+        there[at[feet.distance > tolerances.LEVEL]] = False
+        found.append((level, target, at, feet.row, feet.fraction.tolist()))
     crossed: dict[int, list[tuple[float, RingPlace]]] = {k: [] for k in np.flatnonzero(there).tolist()}
     for level, target, requested, row_of, part_of in found:
         for one, row, part in zip(requested.tolist(), row_of.tolist(), part_of, strict=True):

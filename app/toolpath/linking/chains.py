@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -375,18 +376,28 @@ class LinkGraph:
         ring = chunks.ring[spots]
         places = chunks.rows[spots, :2]
         air = corridor.in_air(np.hstack([places, places]))
-        a, b, kind, count, size = _along(chunks, spots)
+        round_rings = _along(chunks, spots)
         c, d = _across(places, ring, chunks.region[ring], corridor, longest)
         far = np.hypot(*(places[c] - places[d]).T)
         zero = np.zeros(len(c), np.int64)
-        start, end = np.concatenate([a, c, d]), np.concatenate([b, d, c])
-        size = np.concatenate([size, far, far])
+        start, end = np.concatenate([round_rings.start, c, d]), np.concatenate([round_rings.end, d, c])
+        size = np.concatenate([round_rings.length, far, far])
         cost = size * np.where(air[start] & air[end], 1.0, _IN_METAL)
         order = np.argsort(start, kind="stable")
         first = np.concatenate([[0], np.cumsum(np.bincount(start, minlength=len(spots)))]).astype(np.int64)
-        kinds, counts = np.concatenate([kind, np.full(2 * len(c), STRAIGHT)]), np.concatenate([count, zero, zero])
+        kinds = np.concatenate([round_rings.kind, np.full(2 * len(c), STRAIGHT)])
+        counts = np.concatenate([round_rings.rows, zero, zero])
         return LinkGraph(
-            places, spots, first, end[order], cost[order], kinds[order], start[order], counts[order], air, ends
+            places=places,
+            chunk=spots,
+            first=first,
+            to=end[order],
+            cost=cost[order],
+            kind=kinds[order],
+            come_from=start[order],
+            count=counts[order],
+            air=air,
+            ends=ends,
         )
 
     @cached_property
@@ -451,8 +462,18 @@ def _road_levels(chunks: RingChunks) -> Indices:
     return np.unique(chunks.level)[::4]
 
 
-def _along(chunks: RingChunks, spots: Indices) -> tuple[Indices, Indices, Indices, Indices, Floats]:
-    """Return (from, to, kind, rows, length) of the ways from each place to the next round its ring, there and back."""
+class _RingWays(NamedTuple):
+    """Ways (n,) round rings between places: from and to which, ALONG or BACK, how many rows they have, and mm."""
+
+    start: Indices
+    end: Indices
+    kind: Indices
+    rows: Indices
+    length: Floats
+
+
+def _along(chunks: RingChunks, spots: Indices) -> _RingWays:
+    """Return the ways from each place to the next round its ring, there and back."""
     ring = chunks.ring[spots]
     last = np.concatenate([np.diff(ring) != 0, [True]])
     starts = np.flatnonzero(np.concatenate([[True], np.diff(ring) != 0]))
@@ -467,12 +488,12 @@ def _along(chunks: RingChunks, spots: Indices) -> tuple[Indices, Indices, Indice
     real = after != number
     a, b, count, size = number[real], after[real], count[real], size[real]
     kind = np.full(len(a), ALONG)
-    return (
-        np.concatenate([a, b]),
-        np.concatenate([b, a]),
-        np.concatenate([kind, np.full(len(a), BACK)]),
-        np.concatenate([count, count]),
-        np.concatenate([size, size]),
+    return _RingWays(
+        start=np.concatenate([a, b]),
+        end=np.concatenate([b, a]),
+        kind=np.concatenate([kind, np.full(len(a), BACK)]),
+        rows=np.concatenate([count, count]),
+        length=np.concatenate([size, size]),
     )
 
 

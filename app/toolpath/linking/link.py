@@ -340,11 +340,11 @@ class TreeWalk:
         away, place = nearest_on(self._walked.rings[there.ring], there.ring, start)
         end = point_of(self._walked.rings[there.ring].rows, place)
         count = len(ring)
-        gone = span(ring, *sorted((position(entry, count, True), position(here, count, True))))
+        gone = span(ring, *sorted((position(entry, count, forward=True), position(here, count, forward=True))))
         other = span(
             ring,
-            max(position(entry, count, True), position(here, count, True)),
-            min(position(entry, count, True), position(here, count, True)) + count,
+            max(position(entry, count, forward=True), position(here, count, forward=True)),
+            min(position(entry, count, forward=True), position(here, count, forward=True)) + count,
         )
         along = min((gone, other), key=lambda rows: path_length(rows))
         again = path_length(along)

@@ -144,7 +144,7 @@ def fill(
 def gaps_of(half: OffsetLevel, inner: RingField | None, radius: float) -> list[_Gap]:
     """Return the parts of rings between two levels that the inner one's rings do not cover."""
     if inner is None:
-        return [_Gap(ring.rows, True, ring) for ring in half.rings]
+        return [_Gap(ring.rows, closed=True, ring=ring) for ring in half.rings]
     path = inner.field
     gaps: list[_Gap] = []
     for ring in half.rings:
@@ -163,12 +163,12 @@ def _connected(ring: Ring, parts: Floats) -> list[_Gap]:
     before = np.roll(parts, 1, axis=0)
     follows = ((before[:, 0] + 1) % count == parts[:, 0] % count) & (before[:, 2] == 1) & (parts[:, 1] == 0)
     if follows.all() and len(parts) == count:
-        return [_Gap(ring.rows, True, ring)]
+        return [_Gap(ring.rows, closed=True, ring=ring)]
     turned = -int(np.argmin(follows))
     parts, follows = np.roll(parts, turned, axis=0), np.roll(follows, turned)
     starts = np.append(np.flatnonzero(~follows), len(parts))
     return [
-        _Gap(np.concatenate([part_of(ring.rows[int(row)], u, v) for row, u, v in parts[a:b]]), False, ring)
+        _Gap(np.concatenate([part_of(ring.rows[int(row)], u, v) for row, u, v in parts[a:b]]), closed=False, ring=ring)
         for a, b in pairwise(starts)
     ]
 
@@ -312,15 +312,9 @@ class _Space:
         ends = np.array([end for run in runs for end in (run[0, :2], run[-1, 2:4])]).reshape(-1, 2)
         sides = []
         for side in self._sides:
-            away, rows, parts, there = side.nearest_of(ends)
-            sides.append(
-                [
-                    _RingEnd(distance, side.place(row, part), point)
-                    for distance, row, part, point in zip(
-                        away.tolist(), rows.tolist(), parts.tolist(), there, strict=True
-                    )
-                ]
-            )
+            feet = side.nearest_of(ends)
+            places = map(side.place, feet.row.tolist(), feet.fraction.tolist())
+            sides.append(list(map(_RingEnd, feet.distance.tolist(), places, feet.point)))
         return [
             _RunWithEnds(run, [side[2 * k] for side in sides], [side[2 * k + 1] for side in sides])
             for k, run in enumerate(runs)
@@ -335,7 +329,7 @@ class _Space:
         counts = np.array([len(each) for each in places])
         probes = np.concatenate([_far_apart(each) for each in places])
         requested = [side.nearest_of(probes) for side in self._sides]
-        starts = np.concatenate([each[3].reshape(len(places), -1, 2) for each in requested], axis=1)
+        starts = np.concatenate([each.point.reshape(len(places), -1, 2) for each in requested], axis=1)
         ways = np.empty((len(places), 2 * starts.shape[1], 3))
         runs_kernels.tips(
             np.concatenate(places),
@@ -347,7 +341,9 @@ class _Space:
         spurs: list[Detour | None] = []
         for k in range(len(places)):
             mine = slice(3 * k, 3 * k + 3)
-            sides = [(side, each[1][mine], each[2][mine]) for side, each in zip(self._sides, requested, strict=True)]
+            sides = [
+                (side, feet.row[mine], feet.fraction[mine]) for side, feet in zip(self._sides, requested, strict=True)
+            ]
             spurs.append(self._spur(starts[k], ways[k], sides))
         return spurs
 

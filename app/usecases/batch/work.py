@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -71,8 +71,6 @@ def _beside(task: BatchTask) -> dict[str, PurePosixPath]:
 
 
 def _made(task: BatchTask, options: MakeOptions, progress: Progress) -> BatchResult:
-    from pathlib import Path
-
     made = make(_file_name(task), task.data, options, progress)
     named = {what: Path(path) for what, path in _beside(task).items()} | {"output": Path(task.output)}
     others = other_files(made, named, task.data, task.extras.language)
@@ -93,16 +91,21 @@ def made_row(name: str, made: MakeResult) -> BatchRow:
     return BatchRow(
         name,
         BatchVerdict.CLEAN if made.clean else BatchVerdict.FINDINGS,
-        report["time_s"],
-        sum(report["length_mm"].values()),
-        *_told(made.findings),
-        part_picture(made.program),
-        None if left is None else left["reachable_mm2"] + left["unreachable_mm2"],
+        time_s=report["time_s"],
+        length_mm=sum(report["length_mm"].values()),
+        findings=_sentences(made.findings),
+        counting=_counting(made.findings),
+        picture=part_picture(made.program),
+        left_mm2=None if left is None else left["reachable_mm2"] + left["unreachable_mm2"],
     )
 
 
-def _told(findings: Sequence[Finding]) -> tuple[tuple[str, ...], int]:
-    return tuple(each.text for each in findings), sum(each.counts for each in findings)
+def _sentences(findings: Sequence[Finding]) -> tuple[str, ...]:
+    return tuple(each.text for each in findings)
+
+
+def _counting(findings: Sequence[Finding]) -> int:
+    return sum(each.counts for each in findings)
 
 
 def _checked(task: BatchTask, options: ExamineOptions, progress: Progress) -> BatchResult:
@@ -123,9 +126,9 @@ def _smoothed(task: BatchTask, options: SmoothOptions, progress: Progress) -> Ba
     done = smooth(_file_name(task), task.data, options, progress.part(0.0, 0.9))
     reading = ExamineOptions(dialect=done.dialects[1], units=options.units)
     after = examine(_file_name(task), done.data, reading, progress.part(0.9, 1.0))
-    sentences, counting = _told(smooth_findings(done))
+    found = smooth_findings(done)
     files = {path.as_posix(): report_text(done).encode() for path in _beside(task).values()}
-    return BatchResult(_row_of(task, after, sentences, counting), {**files, task.output: done.data})
+    return BatchResult(_row_of(task, after, _sentences(found), _counting(found)), {**files, task.output: done.data})
 
 
 def _row_of(task: BatchTask, examined: ExaminedProgram, sentences: tuple[str, ...], counting: int) -> BatchRow:
@@ -133,11 +136,11 @@ def _row_of(task: BatchTask, examined: ExaminedProgram, sentences: tuple[str, ..
     return BatchRow(
         task.name,
         BatchVerdict.FINDINGS if counting else BatchVerdict.CLEAN,
-        float(np.nan_to_num(examined.time.total)),
-        length["cut"] + length["rapid"],
-        sentences,
-        counting,
-        motions_picture(examined.program.motions),
+        time_s=float(np.nan_to_num(examined.time.total)),
+        length_mm=length["cut"] + length["rapid"],
+        findings=sentences,
+        counting=counting,
+        picture=motions_picture(examined.program.motions),
     )
 
 

@@ -74,20 +74,20 @@ def better(
     again = _cut_again(context, curves, progress.part(0.85, 1.0))
     area = made.smoothed.area
     return BetterProgram(
-        name,
-        options,
-        context.ready,
-        old_cut,
-        again.cut,
-        made.smoothed,
-        made.figures,
-        made.scene,
-        made.written,
-        curves,
-        compared(old_cut.cut.workpiece, again.cut.cut.workpiece, area),
-        _figures(context.examined, context.program, _bend_of_passes(area)),
-        _figures(again.examined, again.program, max((piece.after.bend for piece in curves.pieces), default=0.0)),
-        _budget(options.tolerance, context.shares, made, curves),
+        name=name,
+        options=options,
+        ready=context.ready,
+        old_cut=old_cut,
+        new_cut=again.cut,
+        smoothed=made.smoothed,
+        figures=made.figures,
+        scene=made.scene,
+        written=made.written,
+        curves=curves,
+        comparison=compared(old_cut.cut.workpiece, again.cut.cut.workpiece, area),
+        old=_figures(context.examined, context.program, _bend_of_passes(area)),
+        new=_figures(again.examined, again.program, max((piece.after.bend for piece in curves.pieces), default=0.0)),
+        budget=_budget(options.tolerance, context.shares, made, curves),
     )
 
 

@@ -90,14 +90,14 @@ class SmoothedPieces:
     def figures(self) -> SurfaceFigures:
         """What they are, in figures."""
         return SurfaceFigures(
-            len(self.tracked.lines),
-            len(self.piece),
-            self.cut_deeper,
-            self.facets,
-            tuple((len(corners.places), corners.kind.value) for corners in self.corners),
-            tuple(fitted.spans for fitted in self.fitted),
-            max((fitted.left_out_mm for fitted in self.fitted), default=0.0),
-            self.kept_places,
+            passes=len(self.tracked.lines),
+            places=len(self.piece),
+            cut_deeper=self.cut_deeper,
+            facets=self.facets,
+            shape=tuple((len(corners.places), corners.kind.value) for corners in self.corners),
+            spans=tuple(fitted.spans for fitted in self.fitted),
+            left_out_mm=max((fitted.left_out_mm for fitted in self.fitted), default=0.0),
+            kept=self.kept_places,
         )
 
 

@@ -227,16 +227,16 @@ def _stage(context: CutContext, k: int, before: Workpiece, after: CutResult, don
 
     program = context.setup.programs[k]
     return ProgramStage(
-        context.courses[k],
-        before,
-        after,
-        metal,
-        context.setup.tools,
-        where,
-        rates,
-        under,
-        program.rapids_bend,
-        standing_cut(program, after),
+        known=context.courses[k],
+        before=before,
+        cut=after,
+        metal=metal,
+        tools=context.setup.tools,
+        where=where,
+        plunge_rates=rates,
+        under=under,
+        rapids_bend=program.rapids_bend,
+        standing=standing_cut(program, after),
     )
 
 

@@ -115,15 +115,15 @@ class _Motions:
         each = [examined.program.motions for examined in ready.programs]
         file = np.repeat(np.arange(len(each), dtype=np.int32), [len(motions) for motions in each])
         return _Motions(
-            np.concatenate([motions.kind for motions in each]),
-            done.cut.engaged > 0,
-            np.concatenate([lengths(motions) for motions in each]),
-            done.setup.numbers(),
-            np.concatenate([motions.start[:, 2] for motions in each]),
-            np.concatenate([motions.end[:, 2] for motions in each]),
-            done.setup.lines(),
-            file,
-            tuple(examined.name for examined in ready.programs),
+            kind=np.concatenate([motions.kind for motions in each]),
+            took=done.cut.engaged > 0,
+            length=np.concatenate([lengths(motions) for motions in each]),
+            tool=done.setup.numbers(),
+            start=np.concatenate([motions.start[:, 2] for motions in each]),
+            end=np.concatenate([motions.end[:, 2] for motions in each]),
+            line=done.setup.lines(),
+            file=file,
+            names=tuple(examined.name for examined in ready.programs),
         )
 
     @property

@@ -84,16 +84,16 @@ class Timeline:
         line = np.concatenate([motions.line for motions in programs])
         first = np.cumsum([0, *(len(motions) for motions in programs)])
         return Timeline(
-            tuple(programs),
-            first,
-            ends - moving,
-            ends,
-            float(starts[-1]),
-            tool,
-            line,
-            np.concatenate([lengths(motions) for motions in programs]),
-            volume,
-            nowhere,
+            programs=tuple(programs),
+            first=first,
+            begins=ends - moving,
+            ends=ends,
+            total=float(starts[-1]),
+            tool=tool,
+            line=line,
+            length=np.concatenate([lengths(motions) for motions in programs]),
+            volume=volume,
+            nowhere=nowhere,
         )
 
     def __len__(self) -> int:

@@ -35,8 +35,8 @@ def picture_of(name: str, program: Program, coverage: Coverage) -> PathPicture:
         contours=tuple(contour_rows(contour) for region in program.regions for contour in region.contours),
         paths=tuple(sorted(_runs(moves), key=lambda run: _ORDER.index(run.style))),
         plunges=np.unique(moves.end[plunge, :2], axis=0),
-        left=_rings(coverage, True),
-        unreachable=_rings(coverage, False),
+        left=_rings(coverage, reachable=True),
+        unreachable=_rings(coverage, reachable=False),
     )
 
 

@@ -178,5 +178,11 @@ def _spot(path: SmoothedPath, pitch: float) -> SmoothedPath:
     rows = np.zeros((2, 8))
     rows[0, :4], rows[1, :4] = (x, y, x + pitch / 4, y), (x + pitch / 4, y, x, y)
     return SmoothedPath(
-        rows, np.repeat(path.kinds, 2), np.array([0, 0, 1]), np.zeros(2, np.uint8), 0.0, False, np.zeros((2, 5))
+        rows,
+        np.repeat(path.kinds, 2),
+        np.array([0, 0, 1]),
+        np.zeros(2, np.uint8),
+        0.0,
+        exact=False,
+        carriers=np.zeros((2, 5)),
     )

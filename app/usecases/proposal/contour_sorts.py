@@ -101,17 +101,17 @@ def sorted_contours(part: Part, drawn: DrawnContours) -> SortedContours:
         return tuple(each for each, own in zip(closed, sorts, strict=True) if own is sort)
 
     return SortedContours(
-        of(ContourSort.OUTLINE),
-        by_diameter(of(ContourSort.HOLE)),
-        of(ContourSort.BORE),
-        of(ContourSort.POCKET),
-        of(ContourSort.ISLAND),
-        (
+        outlines=of(ContourSort.OUTLINE),
+        holes=by_diameter(of(ContourSort.HOLE)),
+        bores=of(ContourSort.BORE),
+        pockets=of(ContourSort.POCKET),
+        islands=of(ContourSort.ISLAND),
+        lines=(
             *(each for each in lines if not any(each is other for other in broken)),
             *(each for each in drawn.closed if each.layer in engraved),
         ),
-        tuple(strokes),
-        tuple(_about_gap(each) for each in broken),
+        strokes=tuple(strokes),
+        gaps=tuple(_about_gap(each) for each in broken),
     )
 
 
@@ -180,7 +180,7 @@ def _about_gap(line: Contour) -> Finding:
         f"An outline has a gap of {_gap(line):.3f} mm at {in_plane(x, y)}, so no operation is proposed for it; close "
         "it, or raise the join tolerance."
     )
-    return Finding(FindingKind.OPEN_CONTOUR, text, x, y, True, line.entity_ids, _gap(line))
+    return Finding(FindingKind.OPEN_CONTOUR, text, x, y, counts=True, entity_ids=line.entity_ids, amount=_gap(line))
 
 
 def selectors_for(

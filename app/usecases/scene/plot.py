@@ -93,16 +93,16 @@ def by_surface(computed: ComputedScene, what: PlotScene = PlotScene()) -> BySurf
     ]
     places = np.array([place for place, _ in marks]).reshape(-1, 3) if what.marks else np.zeros((0, 3))
     return BySurface(
-        computed.scene.name,
-        surfaces,
-        [PlottedKind(_tool_words(tool)) for tool in tools],
-        pieces,
-        places,
-        [label for _, label in marks] if what.marks and what.labels else (),
-        what.view,
-        what.look,
-        [_passes_words(family.passes, family.tool) for family in computed.families],
-        what.legend,
+        title=computed.scene.name,
+        surfaces=surfaces,
+        tools=[PlottedKind(_tool_words(tool)) for tool in tools],
+        pieces=pieces,
+        marks=places,
+        labels=[label for _, label in marks] if what.marks and what.labels else (),
+        view=what.view,
+        look=what.look,
+        notes=[_passes_words(family.passes, family.tool) for family in computed.families],
+        with_legend=what.legend,
     )
 
 

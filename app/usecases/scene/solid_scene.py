@@ -79,7 +79,7 @@ def open_solid(name: str, path: str, sources: SceneFiles, progress: Progress = N
     """
     progress.step(0.0, f"Reading {name}")
     if name.lower().endswith(STEPS):
-        return OpenedSolid(name, path, None, False)
+        return OpenedSolid(name, path, None, units_missing=False)
     size = _size(read_mesh(name, sources.data(path)))
     return OpenedSolid(name, path, size, name.lower().endswith(_WITHOUT_UNITS))
 

@@ -148,13 +148,35 @@ def left_of(
     ridge = _ridge(sheet, over, mask, low, requested)
     within = min((_level(each) * BENT + each.chord for each in requested), default=0.0) + TOLERANCE + error
     if not found:
-        return SceneLeft(0.0, 0, 0.0, 0.0, 0.0, 0.0, ridge, within, grid.pitch)
+        return SceneLeft(
+            area_mm2=0.0,
+            places=0,
+            worst_mm=0.0,
+            wide_mm=0.0,
+            x=0.0,
+            y=0.0,
+            ridge=ridge,
+            within_mm=within,
+            cell_mm=grid.pitch,
+        )
     row, col = found[0].cell
     x, y = grid.place(row * grid.cols + col)
     area = float(np.count_nonzero(mask)) * grid.pitch**2
     rim = _at_rim(on, row, col, math.ceil(max(each.requested.cutter.radius for each in requested) / grid.pitch))
     short = rim and any(each.overrun for each in requested)
-    return SceneLeft(area, count, found[0].worst, found[0].disc_mm, x, y, ridge, within, grid.pitch, rim, short)
+    return SceneLeft(
+        area_mm2=area,
+        places=count,
+        worst_mm=found[0].worst,
+        wide_mm=found[0].disc_mm,
+        x=x,
+        y=y,
+        ridge=ridge,
+        within_mm=within,
+        cell_mm=grid.pitch,
+        at_rim=rim,
+        cut_short=short,
+    )
 
 
 @dataclass(frozen=True, eq=False)

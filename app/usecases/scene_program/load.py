@@ -149,7 +149,7 @@ def _loads(course: Course, volume: Floats, number: int, tool: Tool) -> Iterator[
             course,
             int(np.argmax(np.where(down, volume, -1.0))),
             float(np.max(volume[down])) / (math.pi * tool.radius**2),
-            True,
+            plunges=True,
         )
     if along.any():
         rows = np.flatnonzero(along)
@@ -158,7 +158,7 @@ def _loads(course: Course, volume: Floats, number: int, tool: Tool) -> Iterator[
         section = taken / np.maximum(long, tool.diameter)
         heaviest = int(np.argmax(section))
         own = rows[piece == heaviest]
-        yield _load(course, int(own[np.argmax(volume[own])]), float(section[heaviest]) / tool.diameter, False)
+        yield _load(course, int(own[np.argmax(volume[own])]), float(section[heaviest]) / tool.diameter, plunges=False)
 
 
 def _load(course: Course, row: int, depth: float, plunges: bool) -> _Load:

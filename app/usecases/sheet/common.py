@@ -35,15 +35,15 @@ _CHORD = 0.02
 """mm; how far chords of the picture may be from arcs."""
 
 TOOL_COLUMNS = (
-    SheetColumn("T", 0.05, True),
+    SheetColumn("T", 0.05, number=True),
     SheetColumn("Tool", 0.27),
-    SheetColumn("Ø mm", 0.07, True),
-    SheetColumn("Flutes", 0.06, True),
-    SheetColumn("Stick-out mm", 0.12, True),
+    SheetColumn("Ø mm", 0.07, number=True),
+    SheetColumn("Flutes", 0.06, number=True),
+    SheetColumn("Stick-out mm", 0.12, number=True),
     SheetColumn("Holder", 0.14),
-    SheetColumn("rpm", 0.08, True),
-    SheetColumn("Feeds mm/min", 0.13, True),
-    SheetColumn("Min", 0.08, True),
+    SheetColumn("rpm", 0.08, number=True),
+    SheetColumn("Feeds mm/min", 0.13, number=True),
+    SheetColumn("Min", 0.08, number=True),
 )
 
 

@@ -193,15 +193,15 @@ def _tools(made: MakeResult) -> SheetTable:
 
 
 _OPERATIONS = (
-    SheetColumn("#", 0.05, True),
+    SheetColumn("#", 0.05, number=True),
     SheetColumn("Operation", 0.27),
-    SheetColumn("T", 0.05, True),
-    SheetColumn("Depth mm", 0.11, True),
-    SheetColumn("Stepdown", 0.10, True),
-    SheetColumn("Stepover", 0.10, True),
-    SheetColumn("rpm", 0.09, True),
-    SheetColumn("Feeds mm/min", 0.13, True),
-    SheetColumn("Min", 0.10, True),
+    SheetColumn("T", 0.05, number=True),
+    SheetColumn("Depth mm", 0.11, number=True),
+    SheetColumn("Stepdown", 0.10, number=True),
+    SheetColumn("Stepover", 0.10, number=True),
+    SheetColumn("rpm", 0.09, number=True),
+    SheetColumn("Feeds mm/min", 0.13, number=True),
+    SheetColumn("Min", 0.10, number=True),
 )
 
 
@@ -294,7 +294,7 @@ def _proofs(made: MakeResult, report: Json) -> list[SheetProof]:
     other = counting - _PROVEN
     if other:
         words = ", ".join(sorted(kind.words for kind in other))
-        proofs.append(SheetProof("Nothing else counts", f"{words}: see below", False))
+        proofs.append(SheetProof("Nothing else counts", f"{words}: see below", holds=False))
     return proofs
 
 
@@ -325,7 +325,7 @@ def _holder_proof(made: MakeResult, counting: set[FindingKind]) -> SheetProof:
     unknown = [f"T{number}" for number in used if not made.job.tool(number).holder]
     claim = "Shank and holder keep clear"
     if counting & {FindingKind.HOLDER_CONTACT, FindingKind.SHANK_CONTACT}:
-        return SheetProof(claim, "they meet metal, see below", False)
+        return SheetProof(claim, "they meet metal, see below", holds=False)
     if unknown or made.cut is None or made.cut.holders is None:
         return SheetProof(claim, f"no holder is given for {', '.join(unknown) or 'the tools'}", None)
-    return SheetProof(claim, "every motion against the metal as it is by then", True)
+    return SheetProof(claim, "every motion against the metal as it is by then", holds=True)

@@ -187,13 +187,13 @@ def _tools(cut: SheetCut) -> SheetTable:
 
 
 _RUNS = (
-    SheetColumn("#", 0.06, True),
+    SheetColumn("#", 0.06, number=True),
     SheetColumn("File", 0.28),
-    SheetColumn("T", 0.06, True),
-    SheetColumn("Lines", 0.17, True),
-    SheetColumn("Lowest Z", 0.13, True),
-    SheetColumn("Feeds mm/min", 0.18, True),
-    SheetColumn("Min", 0.12, True),
+    SheetColumn("T", 0.06, number=True),
+    SheetColumn("Lines", 0.17, number=True),
+    SheetColumn("Lowest Z", 0.13, number=True),
+    SheetColumn("Feeds mm/min", 0.18, number=True),
+    SheetColumn("Min", 0.12, number=True),
 )
 
 

@@ -103,17 +103,17 @@ def _smoothed(name: str, context: SmoothContext, written: _WrittenStretches) -> 
     """Return what was made of a program, before its certificate stands in it."""
     source = context.source
     return SmoothedProgram(
-        name,
-        context.options,
-        source.source,
-        source.program,
-        written.program,
-        written.text.data,
-        tuple(_piece(context, written, k) for k in range(len(written.fits))),
-        context.found,
-        (source.dialect, source.post.dialect),
-        source.off,
-        context.nearness,
+        name=name,
+        options=context.options,
+        source=source.source,
+        before=source.program,
+        after=written.program,
+        data=written.text.data,
+        pieces=tuple(_piece(context, written, k) for k in range(len(written.fits))),
+        found=context.found,
+        dialects=(source.dialect, source.post.dialect),
+        off=source.off,
+        nearness=context.nearness,
     )
 
 
@@ -124,16 +124,16 @@ def _piece(context: SmoothContext, written: _WrittenStretches, k: int) -> Smooth
     at = context.corners(points) if len(points) > 2 else np.array([0])
     before = of_points(points, points[at])
     kept = SmoothedStretch(
-        stretch,
-        points,
-        (count, count),
-        None,
-        None,
-        fit.kept,
-        before,
-        before,
-        at,
-        fit.classes,
+        stretch=stretch,
+        points=points,
+        blocks=(count, count),
+        curve=None,
+        judgement=None,
+        kept=fit.kept,
+        before=before,
+        after=before,
+        corners=at,
+        classes=fit.classes,
         lines=context.source.lines(stretch),
     )
     if answer is None:
