@@ -47,10 +47,12 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     progress.step(0.0, "Chain contours")
     parts = drawn_contours(job)
     lines = followed_lines(job, parts)
-    # What the witness says of the drawing nothing waits for: it measures while the paths are made.
-    with _told_beside(lambda: drawing_findings(job, parts, lines), progress) as about_drawing:
+    # What the witness says of the drawing nothing waits for: it measures while the paths are made, unless somebody
+    # observes them, who sees one thing after the other.
+    beside_paths = partial(_told_beside, progress=progress, at_once=observer is None)
+    with beside_paths(lambda: drawing_findings(job, parts, lines)) as about_drawing:
         made = parts.regions
-        with _told_beside(lambda: made.findings, progress) as about_regions:
+        with beside_paths(lambda: made.findings) as about_regions:
             context = OperationContext(job, made.regions, MachiningAreas(job, parts), observer=observer)
             if context.regions or lines:
                 _cut(context, lines, step, progress)
@@ -78,10 +80,15 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
 
 
 def _told_beside(
-    about: Callable[[], Sequence[Finding]], progress: Progress
+    about: Callable[[], Sequence[Finding]], progress: Progress, at_once: bool
 ) -> AbstractContextManager[BesideWork[Sequence[Finding]]]:
     """Return findings that are found beside the job."""
-    return beside(lambda _: about(), progress.part(1.0, 1.0))
+
+    def found(told: Progress) -> Sequence[Finding]:
+        told.step(0.0, "Looking at the curves")
+        return about()
+
+    return beside(found, progress.part(1.0, 1.0), at_once)
 
 
 def _cut(context: OperationContext, lines: Sequence[Contour], step: float, progress: Progress) -> None:

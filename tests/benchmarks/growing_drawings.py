@@ -59,8 +59,8 @@ def letters(space: Modelspace, count: int) -> None:
     for k in range(side * side):
         middle = GRID * np.array([k % side, k // side]) + 5
         if k % 4 < 2:
-            for width, height in ((3.0, 4.0), (1.8, 2.9)):
-                _bowl(space, middle, np.array([width, height]), closed_by_stem=k % 4 == 1)
+            for width, height, shift in ((3.0, 4.0, 0.0), (1.8, 2.9, 0.5 * (k % 4))):
+                _bowl(space, middle + [shift, 0.0], np.array([width, height]), closed_by_stem=k % 4 == 1)
         else:
             corners = _STEM if k % 4 == 2 else _T
             _lines(space, np.array([*corners, corners[0]]) + middle)

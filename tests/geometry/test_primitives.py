@@ -14,6 +14,7 @@ from app.geometry.primitives import (
     path_length,
     point_on,
     points_at,
+    rows_of_each,
     sweep_of,
     sweeps,
 )
@@ -29,6 +30,13 @@ def test_who_changes_rows_changes_nobody_elses() -> None:
     before = contour_rows(HALF_DISC)
     contour_rows(HALF_DISC)[:] = 7.0
     assert (contour_rows(HALF_DISC) == before).all()
+
+
+def test_rows_of_many_contours_are_those_of_each() -> None:
+    shapes = [HALF_DISC, Contour((Circle((1.0, 1.0), 3.0),)), Contour(()), replace(HALF_DISC, layer="b"), HALF_DISC]
+    found = rows_of_each([replace(each) for each in shapes])
+    for rows, shape in zip(found, shapes, strict=True):
+        np.testing.assert_array_equal(rows, contour_rows(replace(shape)))
 
 
 def test_a_contour_made_from_another_has_rows_and_an_extent_of_its_own() -> None:

@@ -22,7 +22,7 @@ from app.model.tool_kind import ToolKind
 from app.model.vcarve_operation import VcarveOperation
 from app.operations.compute import compute
 from app.operations.vcarve.branches import AxisBranch
-from app.operations.vcarve.graph import graph_of, prune, trails
+from app.operations.vcarve.graph import BranchGraph, graph_of, prune, trails
 from app.operations.vcarve.paths import RIDGE, VCutter, carved, floor_corners, nearest_next
 from tests.part_shapes import circle, layered_part, square
 
@@ -118,6 +118,43 @@ def test_every_branch_is_walked_once_in_half_as_many_ways_as_there_are_dead_ends
     ways = trails(graph_of(spokes))
     assert len(ways) == 3
     assert sum(way.length for way in ways) == pytest.approx(6.0)
+
+
+def plain_walk(graph: BranchGraph) -> list[np.ndarray]:
+    """The ways as told: from the shallowest odd node, along what leads on to the most others, the longest first."""
+    left = [list(own) for own in graph.at]
+    ways = []
+    while any(left):
+        odd = [node for node, own in enumerate(left) if len(own) % 2]
+        node = min(odd or [k for k, own in enumerate(left) if own], key=lambda k: (graph.discs[k, 2], k))
+        parts: list[np.ndarray] = []
+        while left[node]:
+            onward = [(len(left[graph.other(k, node)]), graph.branches[k].length) for k in left[node]]
+            k = left[node][onward.index(max(onward))]
+            end, discs = graph.other(k, node), graph.branches[k].discs
+            discs = discs if graph.ends[k][0] == node else discs[::-1]
+            left[node].remove(k)
+            left[end].remove(k)
+            parts.append(discs[1:] if parts else discs)
+            node = end
+        ways.append(np.concatenate(parts))
+    return ways
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_branches_become_ways_as_told(seed: int) -> None:
+    """Loops, branches beside one another and as long ones, too."""
+    made = np.random.default_rng(seed)
+    nodes = np.column_stack([made.uniform(0, 50, (9, 2)), made.integers(0, 4, 9)])
+    found = []
+    for a, b in made.integers(0, 9, (14, 2)).tolist():
+        between = made.uniform(0, 50, (int(made.integers(1, 12)), 3))
+        found += [AxisBranch(np.concatenate([nodes[[a]], between, nodes[[b]]]))] * int(made.integers(1, 3))
+    graph = graph_of(found)
+    ways, expected = trails(graph), plain_walk(graph)
+    assert len(ways) == len(expected)
+    for way, other in zip(ways, expected, strict=True):
+        np.testing.assert_array_equal(way.discs, other)
 
 
 @pytest.mark.parametrize("seed", range(12))
