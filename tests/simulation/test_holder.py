@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from app.core.errors import ParameterError
 from app.model.motion import Floats
 from app.model.tool import HolderPoint, Tool
+from app.model.tool_kind import ToolKind
 from app.simulation.bodies.bodies import Body, BodyPaths, HeightPyramid, HolderPart, bodies_of, holder_of, shape_rows
 from app.simulation.cutter import Cutter
 from app.simulation.field.workpiece import Grid, Workpiece
@@ -25,7 +26,7 @@ def held(*outline: HolderPoint) -> Tool:
 def test_a_tool_of_which_nothing_is_known_has_no_bodies() -> None:
     assert bodies_of(Tool(1, 6.0)) == ()
     assert bodies_of(Tool(1, 6.0, shank_diameter=6.0)) == ()
-    assert bodies_of(Tool(1, 6.0, flute_length=10.0)) == ()
+    assert bodies_of(Tool(1, 6.0, ToolKind.THREAD_MILL, flute_length=10.0)) == ()
     assert bodies_of(Tool(1, 6.0, stick_out=20.0)) == ()
     assert bodies_of(Tool(1, 6.0, holder=((0.0, 10.0), (30.0, 10.0)))) == ()
 
@@ -33,6 +34,8 @@ def test_a_tool_of_which_nothing_is_known_has_no_bodies() -> None:
 def test_a_shank_begins_where_the_flutes_end() -> None:
     (shank,) = bodies_of(Tool(1, 6.0, flute_length=10.0, shank_diameter=8.0))
     assert shank == Body(HolderPart.SHANK, Cutter(4.0, 4.0, lift=10.0))
+    (untold,) = bodies_of(Tool(1, 6.0, flute_length=10.0))
+    assert untold == Body(HolderPart.SHANK, Cutter(3.0, 3.0, lift=10.0))
 
 
 def test_a_holder_stands_at_the_stick_out() -> None:

@@ -160,8 +160,9 @@ class Body:
 def bodies_of(tool: Tool) -> tuple[Body, ...]:
     """Return what of a tool does not cut, the shank first.
 
-    A shank is known where its diameter and the length of the flutes are, a holder where its outline and the stick-out
-    are.
+    A shank is known where the length of the flutes is, as wide as the cutter where nobody tells its diameter; a holder
+    where its outline and the stick-out are. Of a tool that cuts threads the flutes' length is that of its teeth, above
+    which it is narrower.
     """
     return (*_shank(tool), *(each.lifted(tool.stick_out) for each in holder_of(tool)))
 
@@ -191,7 +192,7 @@ def holder_of(tool: Tool) -> tuple[Body, ...]:
 
 
 def _shank(tool: Tool) -> tuple[Body, ...]:
-    if not (tool.shank_diameter and tool.flute_length):
+    if not tool.flute_length or (tool.kind.threads and not tool.shank_diameter):
         return ()
-    radius = tool.shank_diameter / 2
+    radius = (tool.shank_diameter or tool.diameter) / 2
     return (Body(HolderPart.SHANK, Cutter(radius, radius, lift=tool.flute_length)),)

@@ -378,8 +378,8 @@ def _tool(number: int, known: KnownTool, done: CutProgram, motions: _Motions, re
 def _shank(tool: Tool) -> str:
     """Return what of a shank was looked at."""
     return (
-        f"{tool.shank_diameter:g} mm from {tool.flute_length:g} mm up"
-        if tool.shank_diameter and tool.flute_length
+        f"{tool.shank_diameter or tool.diameter:g} mm from {tool.flute_length:g} mm up"
+        if tool.flute_length and (tool.shank_diameter or not tool.kind.threads)
         else "not known"
     )
 

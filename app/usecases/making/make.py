@@ -5,7 +5,7 @@ The command line and the window both call it. Everything is pure: bytes and valu
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import accumulate
@@ -27,7 +27,9 @@ from ...model.finding import Finding, FindingKind, worst_first
 from ...model.job import Job
 from ...model.machine import Machine
 from ...model.moves import Program
+from ...model.operation import Operation
 from ...model.stock_box import program_origin
+from ...model.tool import Tool
 from ...toolpath.coverage.coverage import Coverage, coverage_findings, measure_beside_clear
 from ...toolpath.coverage.floor_target import CHORD
 from ...toolpath.witness import floor_findings
@@ -377,21 +379,56 @@ def _measured(program: Program, job: Job, progress: Progress) -> MeasuredMoves:
     return measured
 
 
-def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
-    """Return what is to say of tools that do not cut straight walls and a flat floor, as paths beside walls take them
-    to do.
+def _shape_findings(program: Program, job: Job) -> Iterator[Finding]:
+    """Yield what is to say of tools that do not cut straight walls and a flat floor, as paths beside walls take them to
+    do, and of cones that go deeper than they are high.
+
+    Holes that go through are as wide as they should be where the tool goes on by as much as its end is rounded.
     """
-    moves, bare = program.moves, [k for k, each in enumerate(job.operations) if each.follows_lines or each.CARVES]
+    moves, operations = program.moves, list(enumerate(job.operations))
+    bare = [k for k, each in operations if each.CARVES or (each.follows_lines and not _needs_square(each, job))]
     tools = [job.tool(number) for number in dict.fromkeys(moves.tool[~np.isin(moves.operation, bare)].tolist())]
-    return tuple(
-        Finding(
-            FindingKind.TOOL_SHAPE,
-            f"T{tool.number} is a {tool.kind.value} cutter, and its path is that of a flat one of "
-            f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter.",
+    for tool in tools:
+        if not tool.kind.square:
+            text = (
+                f"T{tool.number} is a {tool.kind.value} cutter, and its path is that of a flat one of "
+                f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter."
+            )
+            yield Finding(FindingKind.TOOL_SHAPE, text)
+    followed = [each for k, each in operations if each.follows_lines and k in moves.operation]
+    yield from filter(None, (_too_deep_for(each, job.tool(each.cut.tool)) for each in followed))
+
+
+def _needs_square(operation: Operation, job: Job) -> bool:
+    """Tell whether holes that an operation makes want a tool with a sharp lower edge: they have a floor, or the tool
+    does not go through as far as its end is rounded.
+    """
+    profile, radius = job.tool(operation.cut.tool).profile, job.tool(operation.cut.tool).radius
+    end = profile.fillet + (radius - profile.flat) * profile.cone
+    return operation.HOLES and operation.LEVELS and operation.beyond < end
+
+
+def _too_deep_for(operation: Operation, tool: Tool) -> Finding | None:
+    """Return that a cone follows lines deeper than it is high, and no flutes are known above it, or that a drill's
+    flutes do not reach out of the hole.
+    """
+    high, depth = (tool.radius - tool.profile.flat) * tool.profile.cone, operation.cut.floor + operation.beyond
+    who = f"T{tool.number} {tool.label}"
+    if operation.HOLES:
+        if not (tool.kind.drills and not operation.CARVES and 0 < tool.flute_length < depth):
+            return None
+        text = (
+            f"{who} goes {depth:g} mm deep, and its flutes are {tool.flute_length:g} mm long: chips do not come out of "
+            "the hole; take a longer tool."
         )
-        for tool in tools
-        if not tool.kind.square
+        return Finding(FindingKind.TOOL_SHAPE, text, counts=False, amount=depth - tool.flute_length)
+    if not high or depth <= max(high, tool.flute_length) + LEVEL:
+        return None
+    text = (
+        f"{who} goes {depth:g} mm deep along lines, and its cone is {high:.3f} mm high: above that it would cut with "
+        "its shank; reduce the depth, or take a wider cutter."
     )
+    return Finding(FindingKind.TOOL_SHAPE, text, amount=depth - high)
 
 
 def _ring_findings(program: Program) -> tuple[Finding, ...]:
