@@ -63,6 +63,7 @@ from .findings import (
     repeated_findings,
     stray_findings,
     text_findings,
+    upright_findings,
 )
 from .letters import TextCurves
 from .load import layout_named, load, paper
@@ -135,7 +136,7 @@ def read_dxf(
     others = Counter() if how.layout else papers
     if not found.entities and not any(machined(each.layer) for each in content.points):
         raise UndecidedError(
-            f"{name}: {_nothing(content, found, others)}", _asked(content, found, others, reading, unit)
+            f"{name}: {_nothing(content, found, others, walker.upright)}", _asked(content, found, others, reading, unit)
         )
     used = {each.layer for each in found.entities} or {each.layer for each in content.points}
     part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, used)).with_entities(
@@ -161,6 +162,11 @@ def read_dxf(
         *about_unread(content, unit.size),
         *without_length(nothing),
         *_heights(content, unit.size),
+        *upright_findings(
+            walker.upright,
+            [each.curve for each in found.entities],
+            (content.heights[1] - content.heights[0]) * unit.size,
+        ),
         *hidden_insert_findings(content, unit.size),
         *clip_findings([each for each in content.clipped if any(map(machined, each.layers))], unit.size),
         *text_findings([each for each in content.letterings if machined(each.layer)], unit.size),
@@ -240,7 +246,7 @@ def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) 
     )
 
 
-def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> str:
+def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str], upright: int) -> str:
     """Return why a drawing has nothing to machine, and what to do."""
     left_out = (
         content.left_out + found.missing + Counter({PAPER: others.total(), LeftOutSort("POINT"): len(content.points)})
@@ -260,6 +266,11 @@ def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> 
         return (
             f"model space has no lines, arcs or curves to machine, but layout {layout} has something: say "
             f"{asked}{said}."
+        )
+    if upright:
+        return (
+            f"the drawing stands upright, and nothing of it is seen from above{said}; lay it into the XY plane in the "
+            "CAD program and save it again."
         )
     return f"the drawing has no lines, arcs or curves to machine{said}."
 
