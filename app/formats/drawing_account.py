@@ -35,7 +35,8 @@ PAPER = LeftOutSort("paper space entity")
 _SAYING = """
     ATTDEF ATTRIB ACAD_TABLE ARC_DIMENSION DIMENSION LARGE_RADIAL_DIMENSION LEADER MLEADER MULTILEADER TOLERANCE RTEXT
     POINT RAY XLINE IMAGE WIPEOUT OLEFRAME OLE2FRAME PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY VIEWPORT LIGHT SUN CAMERA
-    SECTIONOBJECT GEOPOSITIONMARKER POSITIONMARKER image foreignObject video audio iframe canvas
+    SECTIONOBJECT GEOPOSITIONMARKER POSITIONMARKER image foreignObject video audio iframe canvas animate
+    animateTransform animateMotion set script
 """
 _NO_SHAPES = frozenset([*_SAYING.split(), PAPER.kind])
 """What says or shows something of the drawing, and is no part of it. All else has outlines for whoever sees it, also

@@ -167,6 +167,57 @@ def test_tilted_circle_is_seen_as_an_ellipse() -> None:
     assert math.hypot(*ellipse.major) == pytest.approx(10) and abs(ellipse.major[1]) < 1e-9
 
 
+FRONT = (0, -1, 0)
+"""Normal of the plane in which a part is drawn as it is seen from the front."""
+
+
+def outline(*corners: tuple[float, float, float]) -> Draw:
+    def draw(space: Any) -> None:
+        for start, end in zip(corners, [*corners[1:], corners[0]], strict=True):
+            space.add_line(start, end)
+
+    return draw
+
+
+@pytest.mark.parametrize(
+    "draw",
+    [
+        outline((0, 0, 0), (40, 0, 0), (40, 0, 30), (0, 0, 30)),
+        outline((0, 0, 0), (0, 40, 0), (0, 20, 30)),
+        lambda space: (
+            outline((0, 0, 0), (40, 0, 0), (20, 0, 30))(space),
+            space.add_circle((20, 9, 0), 5, dxfattribs={"extrusion": FRONT}),
+        ),
+    ],
+    ids=["front", "side, no line along Z", "front with a hole"],
+)
+def test_a_part_that_is_drawn_upright_is_no_part_from_above_and_said(draw: Draw) -> None:
+    (found,) = [each for each in read(draw).findings if "upright" in each.text]
+    assert found.counts and "All of the drawing stands upright" in found.text and "XY plane" in found.text
+
+
+def test_an_upright_drawing_of_which_nothing_is_seen_is_refused_with_what_to_do() -> None:
+    with pytest.raises(InputError, match="the drawing stands upright, and nothing of it is seen from above; lay it"):
+        read(lambda space: space.add_circle((0, 0), 5, dxfattribs={"extrusion": FRONT}))
+
+
+def test_upright_lines_of_a_flat_part_are_told_and_count_for_nothing() -> None:
+    drawing = read(
+        lambda space: (
+            outline((0, 0, 0), (40, 0, 0), (40, 30, 0), (0, 30, 0))(space),
+            space.add_line((0, 0, 0), (0, 0, -5)),
+            space.add_line((3, 3, 0), (3, 3, 0)),
+        )
+    )
+    (found,) = [each for each in drawing.findings if "upright" in each.text]
+    assert found.text.startswith("1 entity stands upright and cannot be seen from above") and not found.counts
+
+
+def test_a_single_line_that_leans_is_a_line() -> None:
+    drawing = read(lambda space: space.add_line((0, 0, 0), (10, 0, 5)))
+    assert not [each for each in drawing.findings if "upright" in each.text]
+
+
 def test_height_is_projected_and_said() -> None:
     drawing = read(lambda space: (space.add_line((0, 0, 0), (10, 0, 5)), space.add_line((10, 0, 5), (10, 10, 5))))
     assert drawing.part.entities[0].curve == Line((0, 0), (10, 0))

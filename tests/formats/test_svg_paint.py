@@ -64,6 +64,28 @@ def test_outlines_that_are_areas_are_told_with_their_widths() -> None:
     assert not read('<path d="M10 10h9" stroke="red"/>').findings  # no width is said
 
 
+@pytest.mark.parametrize(
+    ("body", "count"),
+    [
+        ('<rect width="9" height="9" filter="url(#f)"/>', 1),
+        ('<g style="filter:blur(2px)"><rect width="9" height="9"/><path d="M10 10h9" stroke="red"/></g>', 2),
+        ('<rect width="9" height="9" filter="none"/>', 0),
+    ],
+)
+def test_filters_are_told_and_what_they_are_laid_on_is_read(body: str, count: int) -> None:
+    drawing = read(body)
+    shapes = "1 shape has" if count == 1 else f"{count} shapes have"
+    expected = [f"{shapes} a filter such as a blur or a shadow, which is not read."] * bool(count)
+    assert drawing.part.entities and [each.text for each in drawing.findings] == expected
+
+
+@pytest.mark.parametrize("tag", ["animate", "animateTransform", "animateMotion", "set", "script"])
+@pytest.mark.parametrize("way", ['<rect width="9" height="9">{}</rect>', '<rect width="9" height="9"/>{}'])
+def test_what_would_change_the_picture_while_it_is_looked_at_is_told(tag: str, way: str) -> None:
+    (found,) = read(way.format(f"<{tag}/>")).findings
+    assert found.text == f"Left out: 1 {tag}." and not found.counts
+
+
 def test_what_is_drawn_on_outlines_is_told() -> None:
     body = (
         '<pattern id="p"><circle r="1"/></pattern><g stroke="red" fill="none">'

@@ -28,6 +28,7 @@ from .curves import (
     heights_of,
     line_type_of,
     plane_of,
+    stands_upright,
     widths_of,
 )
 from .fonts import Fonts
@@ -253,6 +254,8 @@ class DxfWalker:
         self._open: list[str] = []
         self.types: set[str] = set()
         """Types of the entities that were met, also of those that were left out."""
+        self.upright = 0
+        """How many of them draw nothing because they are seen edge-on from above."""
         self._read: dict[str, None] = {}  # types of texts that are
 
     def content(self, entities: Iterable[Any]) -> DxfContent:
@@ -296,6 +299,7 @@ class DxfWalker:
             curves = [] if made else curves_of(entity)
         except NoLengthError as nothing:
             content.without_length.append(nothing.args[0])
+            self.upright += stands_upright(entity)
             return
         except DamagedCurveError as damaged:
             sort, at = LeftOutSort(kind, LeftOutReason.DAMAGED), damaged.args[0]
@@ -314,6 +318,7 @@ class DxfWalker:
         if curves is None:
             content.left_out[_sort_of(kind)] += 1
             return
+        self.upright += kind == "LINE" and curves[0].start == curves[0].end and stands_upright(entity)
         content.see(heights_of(entity))
         lies = drawn_heights(entity) if curves else LEVEL_ZERO
         widths = widths_of(entity)

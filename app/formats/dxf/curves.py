@@ -14,6 +14,8 @@ from .splines import spline_curve
 
 _STRAIGHT = 1e-9
 """A bulge below this bends a segment by less than its length's rounding."""
+_EDGE_ON = 1e-9
+"""Cosine between a plane's normal and Z below which nothing of the plane is seen from above."""
 _UNBROKEN = ("", "continuous", "bylayer", "byblock")
 _NEEDED = {
     "LINE": ("start", "end"),
@@ -267,6 +269,14 @@ def polar(centre: Point, radius: float, degrees: float) -> Point:
     """Return the point at an angle on a circle."""
     angle = math.radians(degrees)
     return centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)
+
+
+def stands_upright(entity: Any) -> bool:
+    """Tell whether an entity, or the plane that it is drawn in, is seen edge-on from above."""
+    if entity.dxftype() == "LINE":
+        return bool(entity.dxf.start.z != entity.dxf.end.z)
+    extrusion = entity.dxf.extrusion if entity.dxf.hasattr("extrusion") else None
+    return extrusion is not None and abs(extrusion.z) < _EDGE_ON * extrusion.magnitude
 
 
 _READERS: dict[str, Callable[[Any], list[Curve] | None]] = {

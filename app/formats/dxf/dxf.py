@@ -63,6 +63,7 @@ from .findings import (
     repeated_findings,
     stray_findings,
     text_findings,
+    upright_findings,
 )
 from .letters import TextCurves
 from .load import LoadedDocument, layout_named, load, paper
@@ -130,7 +131,7 @@ def read_dxf(
     others = Counter() if how.layout else papers
     if not found.entities and not any(machined(each.layer) for each in content.points):
         raise UndecidedError(
-            f"{name}: {_nothing(content, found, others)}", _asked(content, found, others, reading, unit)
+            f"{name}: {_nothing(content, found, others, walker.upright)}", _asked(content, found, others, reading, unit)
         )
     whole = _part(dxf, found, name)
     part = on_layers(whole, layers, name)
@@ -141,6 +142,11 @@ def read_dxf(
         *_file_findings(loaded),
         *placement_findings(found),
         *_content_findings(dxf, found),
+        *upright_findings(
+            walker.upright,
+            [each.curve for each in found.entities],
+            (content.heights[1] - content.heights[0]) * unit.size,
+        ),
         *layer_findings(document, Counter(each.layer for each in part.entities if machined(each.layer))),
         *switched_off(part, layers),
         *all_left_out(left_out),
@@ -278,7 +284,7 @@ def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) 
     )
 
 
-def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> str:
+def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str], upright: int) -> str:
     """Return why a drawing has nothing to machine, and what to do."""
     left_out = (
         content.left_out + found.missing + Counter({PAPER: others.total(), LeftOutSort("POINT"): len(content.points)})
@@ -298,6 +304,11 @@ def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> 
         return (
             f"model space has no lines, arcs or curves to machine, but layout {layout} has something: say "
             f"{asked}{said}."
+        )
+    if upright:
+        return (
+            f"the drawing stands upright, and nothing of it is seen from above{said}; lay it into the XY plane in the "
+            "CAD program and save it again."
         )
     return f"the drawing has no lines, arcs or curves to machine{said}."
 

@@ -8,8 +8,11 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from ...core import tolerances
 from ...core.options import option
 from ...core.wording import in_plane, together
+from ...geometry.sample import bounds_of_all
+from ...model.curves import Curve
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
 from .blocks import BrokenLine, ClippedBlock, DrawnCurves, DxfContent, HiddenInsert, WidePolyline
@@ -163,6 +166,29 @@ def _hidden(inserts: list[HiddenInsert], size: float) -> Finding:
         f"Say {requested} to machine them; in the window they are chosen in File, Reading options.",
         float(len(curves)),
     )
+
+
+def upright_findings(count: int, curves: Sequence[Curve], rise: float) -> Iterator[Finding]:
+    """Say that entities are seen edge-on; it counts where all of the drawing is, which then is no part.
+
+    Args:
+        count: of entities that draw nothing for it. curves: what is read, mm. rise: from the lowest to the highest
+            place, mm.
+    """
+    box = bounds_of_all(curves) if len(curves) > 1 and (count or rise > tolerances.CURVE) else None
+    if box is not None and min(box[2] - box[0], box[3] - box[1]) <= tolerances.CURVE:
+        text = (
+            "All of the drawing stands upright and is seen edge-on from above; lay it into the XY plane in the CAD "
+            "program and save it again."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(count))
+    elif count:
+        what = "1 entity stands" if count == 1 else f"{count} entities stand"
+        yield remark(
+            f"{what} upright and cannot be seen from above; if that is a front or a side view, lay it into the XY "
+            "plane in the CAD program and save it again.",
+            float(count),
+        )
 
 
 def clip_findings(clipped: Sequence[ClippedBlock], size: float) -> Iterator[Finding]:

@@ -96,6 +96,7 @@ def _details(content: SvgContent) -> Iterator[Finding]:
     told = (
         (painted.dashed, "a dashed outline, which is read whole"),
         (painted.marked, "markers such as arrowheads, which are not read"),
+        (painted.filtered, "a filter such as a blur or a shadow, which is not read"),
         (painted.patterned, "a pattern as its filling, which is not read"),
         (painted.unseen, "an outline of width 0, which is read though nobody sees it"),
     )

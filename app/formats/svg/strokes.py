@@ -56,10 +56,12 @@ class PaintedOutlines:
     """How many shapes have what is not read.
 
     Attributes:
+        filtered: a blur, a shadow or the like.
         dashed: an outline with gaps. marked: arrowheads and the like. patterned: a pattern that fills them.
         unseen: an outline of width 0. broad: those of more than 1 mm.
     """
 
+    filtered: int = 0
     dashed: int = 0
     marked: int = 0
     patterned: int = 0
@@ -69,6 +71,7 @@ class PaintedOutlines:
     def note(self, node: Node, state: OutlineState, at: Point) -> None:
         """Note what of a shape that is read lies on its outline; `at` is where it begins."""
         style = state.style
+        self.filtered += style.filtered
         self.marked += style.marked and node.tag in _ENDS
         if not style.outlined:
             return

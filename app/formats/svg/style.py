@@ -39,6 +39,7 @@ _READ = (
     "stroke-width",
     "stroke-dasharray",
     "vector-effect",
+    "filter",
     "marker",
     "marker-start",
     "marker-mid",
@@ -92,6 +93,7 @@ class SvgStyle:
         em, rem: height of its letters, and of the root's, user units, which lengths may be in.
         box: what the origin lies in, as written. evenodd: areas are filled by that rule.
         width: of the outline, as written, "" = not said. scales: it grows with the drawing. dashed: it has gaps.
+        filtered: it, or a group that it is in, is blurred, shadowed or the like.
         markers: values of the properties that put arrowheads and the like on it.
         unfollowed: what is said of its place or form and not read.
     """
@@ -119,6 +121,7 @@ class SvgStyle:
     width: str = ""
     scales: bool = True
     dashed: bool = False
+    filtered: bool = False
     markers: Mapping[str, str] = field(default_factory=dict)
     unfollowed: tuple[str, ...] = ()
 
@@ -268,7 +271,8 @@ def declarations(text: str) -> Iterator[Declaration]:
 def _hides(declared: Declaration) -> bool:
     """Tell whether a declaration may hide, show, move or form a shape; one that only paints it does not."""
     name, value, _ = declared
-    return name not in _LETTERS and (name not in _COLOURS or is_clear(value)) and not name.startswith("marker")
+    paints = name in _LETTERS or name == "filter" or name.startswith("marker")
+    return not paints and (name not in _COLOURS or is_clear(value))
 
 
 def _of_variable(found: re.Match[str], variables: Mapping[str, str]) -> str:
@@ -342,6 +346,7 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
         dashed=any("1" <= digit <= "9" for digit in declared["stroke-dasharray"])
         if "stroke-dasharray" in declared
         else outer.dashed,
+        filtered=outer.filtered or declared.get("filter", "none").lower() != "none",
         markers=({} if "marker" in markers else {**outer.markers}) | markers if markers else outer.markers,
         unfollowed=tuple(key for key in _UNFOLLOWED if declared.get(key, "none") not in ("none", "auto")),
     )

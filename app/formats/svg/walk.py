@@ -36,6 +36,8 @@ from .xml import DEEPEST, INKSCAPE, LINK, SODIPODI, Node
 
 _LINK = f"{LINK} href"
 _NOT_CURVES = ("image", "foreignObject", "video", "audio", "iframe", "canvas")
+_MOVING = ("animate", "animateTransform", "animateMotion", "set", "script")
+"""What changes a picture while it is looked at; what is read is how it is drawn."""
 TEXTS = ("text", "flowRoot")
 BLACK, WHITE = "#000000", "#ffffff"
 _GROUND = 1e-3
@@ -227,7 +229,7 @@ class SvgWalker:
     def _element(self, node: Node, outer: InheritedState) -> None:
         if node.attributes.get("requiredExtensions"):  # no viewer has any
             self._sheet.left_out[LeftOutSort(node.tag, LeftOutReason.INVISIBLE)] += 1
-        elif node.tag in _NOT_CURVES:
+        elif node.tag in _NOT_CURVES or node.tag in _MOVING:
             self._sheet.left_out[LeftOutSort(node.tag)] += 1
         elif node.tag in TEXTS:
             self._text(node, self._inside(node, outer))
@@ -238,6 +240,7 @@ class SvgWalker:
                 node = replace(node, attributes=sized)
             if node.tag in SHAPES:
                 self._draw(node, state)
+                self._children((child for child in node.children if child.tag in _MOVING), state)
             elif node.tag == "use":
                 self._use(node, state)
             elif node.tag == "svg":
