@@ -14,7 +14,8 @@ from app.exhibits.figure_eleven import FigureEleven, HeightMethod
 from app.exhibits.films.making import SAMPLES, make_film
 from app.exhibits.films.step import TEXTS, PublishedText
 from app.exhibits.films.step_drawing import AREA, BLUE, GREEN, INK, StepDrawing
-from app.exhibits.stage_files import StagesRun, png, run_stages
+from app.exhibits.stage_files import StagesRun, run_stages
+from app.exhibits.stage_picture import png
 from app.exhibits.stages import Variant
 from app.formats.plot.page import PlotPage
 from app.formats.plot.page_png import page_png
@@ -106,7 +107,7 @@ def _run(pixels: int, progress: Progress) -> StagesRun:
 
 
 def _stage(run: StagesRun, number: int) -> bytes:
-    return png(next(stage for stage in run.last if stage.number == number))
+    return png(next(stage for stage in run.last if stage.number == number), run.dashes)
 
 
 def _metal() -> bytes:
