@@ -120,17 +120,19 @@ def _words(number: int, paths: Sequence[PixelPath], made: Sequence[PublishedSmoo
     if number == 401:
         spread = min((each.spread for each in made), default=0.0)
         before = f"C of formula II changes by {100 * spread:.0f} percent at least. "
-    if number == 403:
-        sa, sb = (max((getattr(piece, name) for piece in own), default=0.0) for name in ("sa", "sb"))
-        before = f"SA comes to {sa:.2f} and SB to {sb:.2f} px a pixel at most. "
+    if own and number != 407:
+        sa, sb = (max(getattr(piece, name) for piece in own) for name in ("sa", "sb"))
+        before += f"SA comes to {sa:.2f} and SB to {sb:.2f} px a pixel at most. "
     return before + _both(_KINDS[number], own, paths, pitch)
 
 
 def _both(kind: PieceKind, own: Sequence[PublishedPiece], paths: Sequence[PixelPath], pitch: float) -> str:
     settled = sum(int(np.sum(path.smoothed.kinds == kind)) for path in paths)
-    off = max((piece.off for piece in own), default=0.0)
     theirs = max((path.smoothed.deviation for path in paths), default=0.0)
     name = kind.name.lower().replace("_", " ")
+    if not own:
+        return f"As published, no {name}; settled, {settled}, all pieces up to {1000 * theirs:.0f} um."
+    off = max(piece.off for piece in own)
     return (
         f"As published, {counted(len(own), name)}, up to {1000 * off * pitch:.0f} um ({off:.2f} px) off their pixels; "
         f"settled, {settled}, all pieces up to {1000 * theirs:.0f} um."

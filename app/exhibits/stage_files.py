@@ -14,46 +14,24 @@ import numpy as np
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.finding import Finding, worst_first
-from ..raster.frame import STAGES_BYTES, PixelCode, Plane
+from ..raster.frame import STAGES_BYTES, BitmapFrame, PixelCode, Plane
 from ..raster.steps import STEPS, StepState
+from ..raster.trace import PixelChain
 from ..usecases.job.options import MakeOptions
 from ..usecases.making.bitmap_job import BitmapJob, bitmap_job
 from ..usecases.making.report import as_values
 from ..usecases.pixels.options import is_picture
 from ..usecases.pixels.way import BitmapProgram, compute_on_bitmap
+from .stage_picture import PALETTE, WRONG_COLOUR, keyed_png
 from .stages import Variant, stages
 
 Json = dict[str, Any]
-
-SHOWN_PX = 800
-"""Pictures are enlarged by a whole factor, as long as they stay no wider than about this."""
-
-PALETTE: dict[PixelCode, str] = {
-    PixelCode.EMPTY: "#101418",
-    PixelCode.CONTOUR: "#d8dee6",
-    PixelCode.TRACED: "#4cc2ff",
-    PixelCode.R: "#ff5c5c",
-    PixelCode.INSIDE: "#2f4a3a",
-    PixelCode.PROCESSED: "#3a424c",
-    PixelCode.FRAME: "#5ee08a",
-    PixelCode.RING: "#2fa866",
-    PixelCode.CIRCLE: "#c792ff",
-    PixelCode.LONG_LINE: "#4cc2ff",
-    PixelCode.VERTEX: "#ffd24c",
-    PixelCode.SHORT_LINE: "#8fd8ff",
-    PixelCode.ARC: "#ff9e4c",
-    PixelCode.SPLINE: "#ff6fb5",
-}
-"""Colour of each code, "#rrggbb", on the dark screen of a terminal."""
 
 TURNS = "turns"
 """Folder of the planes of steps that are done more than once."""
 
 MOST_TURNS_PX = 1 << 31
 """Pixels of all planes in that folder together; more would take minutes and fill disks."""
-
-WRONG = "#ff00ff"
-"""Colour of pixels in which the published fill errs."""
 
 
 @dataclass(frozen=True)
@@ -95,6 +73,16 @@ class StagesRun:
         return worst_first((*self.made.program.findings, *self.ready.findings))
 
     @property
+    def frame(self) -> BitmapFrame:
+        """The pixels' size and place."""
+        return self.ready.part.frame
+
+    @property
+    def dashes(self) -> tuple[PixelChain, ...]:
+        """The contour tool's paths, which the text draws dashed."""
+        return next((stage.chains for stage in self.last if stage.number == 120), ())
+
+    @property
     def wrong_pixels(self) -> int:
         """In how many pixels the fill errs."""
         return max((int(np.count_nonzero(stage.wrong)) for stage in self.last if stage.wrong is not None), default=0)
@@ -115,7 +103,7 @@ class StagesRun:
 
     def report(self) -> Json:
         """Return everything that was found, as plain values."""
-        frame, given_up = self.ready.part.frame, self.made.given_up
+        frame, given_up = self.frame, self.made.given_up
         return {
             "bitmap": {"rows": frame.rows, "cols": frame.cols, "pitch_mm": frame.pitch, "x0": frame.x0, "y0": frame.y0},
             "variant": self.variant.value,
@@ -124,6 +112,7 @@ class StagesRun:
             "unsmoothed_paths": self.made.unsmoothed,
             "strokes": self.made.program.strokes,
             "codes": {code.name.lower(): int(code) for code in PixelCode},
+            "colours": {code.name.lower(): PALETTE[code] for code in PixelCode} | {"wrong": WRONG_COLOUR},
             "steps": [_step(self, stage, file) for stage, file in zip(self.last, names(self.last), strict=True)],
             "findings": [as_values(each) for each in self.findings],
         }
@@ -191,7 +180,7 @@ def stage_files(run: StagesRun, progress: Progress = NO_PROGRESS) -> dict[str, b
         progress.step(k / len(run.last), "Writing pictures")
         codes = io.BytesIO()
         np.save(codes, stage.plane)
-        files[f"{name}.png"], files[f"{name}.npy"] = png(stage), codes.getvalue()
+        files[f"{name}.png"], files[f"{name}.npy"] = keyed_png(stage, run.frame.pitch, run.dashes), codes.getvalue()
         text = run.text(stage.number)
         if text:
             files[f"{name}.txt"] = text.encode("ascii")
@@ -218,18 +207,3 @@ def indexed_png(plane: Plane) -> bytes:
 
 def _chunk(name: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-
-def png(stage: StepState) -> bytes:
-    """Return the stage as a PNG picture, pixels as squares."""
-    import cv2
-
-    from ..formats.plot.pixels import bgr
-
-    colours = np.array([bgr(PALETTE[code]) for code in PixelCode], np.uint8)
-    image = colours[stage.plane]
-    if stage.wrong is not None:
-        image[stage.wrong] = bgr(WRONG)
-    factor = max(1, SHOWN_PX // max(stage.plane.shape))
-    image = np.repeat(np.repeat(image, factor, axis=0), factor, axis=1)
-    return bytes(cv2.imencode(".png", image)[1].tobytes())

@@ -211,7 +211,6 @@ def _inner_paths(scene: _Scene, pocket: OperationPaths) -> Iterator[StepState]:
         yield StepState(146, plane.copy(), chains, _rows(pocket.levels[level - 1]), turn=level - 1)
         _mark_overlap(plane, pocket.pixels == level)
         yield StepState(147, plane.copy(), turn=level - 1)
-    plane[plane == PixelCode.CONTOUR] = PixelCode.PROCESSED
     yield StepState(148, plane.copy())
 
 

@@ -77,7 +77,7 @@ STEPS: dict[int, tuple[str, str]] = {
     143: (
         "Mark the overlap",
         "What lies within a step of the frame is marked processed, so that the next path overlaps this one as "
-        "asked: a step is two radii less the overlap.",
+        "asked: a step is two radii less the overlap. The path is kept one stroke as far as possible.",
     ),
     144: ("Every region?", "The outermost frames of all regions come first."),
     145: ("Shrink again", "The area has shrunk by a step; the border of what is left is traced again."),

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
-from app.exhibits.stage_files import png
+from app.exhibits.stage_picture import dashed, keyed_png, png
 from app.exhibits.stages import Variant, stages
 from app.geometry.outlines import polygon_contour
 from app.model.job import Job
@@ -209,6 +209,23 @@ def test_figure_5_in_codes() -> None:
         ".11111111111. .2RRRRRRRRR2. .2RRRRRRRRR2. .11111111111.",
         "............. ............. ............. .............",
     ]
+
+
+def test_the_contour_tool_s_path_is_dashed_and_start_pixels_are_ringed(walk: Walk) -> None:
+    """As in figure 2c; a pixel alone cannot be seen."""
+    chains = last(walk, 120).chains
+    made = dashed(last(walk, 140).plane, chains)
+    along = np.concatenate([made[tuple(chain.pixels().T)] for chain in chains])
+    assert 0.6 < np.mean(along == PixelCode.CONTOUR) < 0.72
+    assert np.array_equal(made != last(walk, 140).plane, (last(walk, 140).plane == PixelCode.CONTOUR) & (made == 0))
+    pitch = walk[0].part.frame.pitch
+    plain, keyed = (
+        cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
+        for data in (png(last(walk, 202)), keyed_png(last(walk, 202), pitch))
+    )
+    rows = np.flatnonzero(np.any(keyed[: len(plain)] != plain, axis=(1, 2)))
+    starts = 2 * np.argwhere(last(walk, 202).plane == PixelCode.TRACED)[:, 0] + 1
+    assert len(starts) == 3 and np.abs(rows[:, None] - starts).min(axis=1).max() <= 8
 
 
 def test_the_published_rules_stand_beside_the_settled_ones_with_what_they_come_to() -> None:

@@ -96,6 +96,22 @@ def test_the_budget_is_stated_spent_and_kept_for_each_surface() -> None:
     assert any("ring: together" in line for line in made.lines)
 
 
+def test_coarse_chords_take_no_more_than_a_fifth_of_the_tolerance_from_the_curves() -> None:
+    """Half of it left curves a tube of 0.0049 mm and half as many blocks again."""
+    coarse = scene_files(
+        "ring.toml",
+        SCENE.replace(b"chord_tolerance = 0.004", b"chord_tolerance = 0.01"),
+        no_file,
+        SceneOutputs(OUT, curves=CurvesOverSurfaces(T)),
+    )
+    assert coarse.curves is not None and coarse.curves.tube == pytest.approx((0.8 * T - 2e-4) / 2)
+    shares = {each.name: each for each in coarse.curves.budgets["ring"].shares}
+    assert shares["chords"].spent_mm == pytest.approx(T / 5)
+    assert coarse.files[OUT].count(b"\n") == pytest.approx(ring().files[OUT].count(b"\n"), abs=2)
+    off = clearance(fed(coarse.files[OUT]))
+    assert off.min() >= -1e-4 and off.max() <= T
+
+
 def test_without_standing_off_curves_gouge_and_that_is_seen() -> None:
     """The same tube about passes that lie on the surface: the second look finds what the first promise lacks."""
     how = CurvesOverSurfaces(T)
@@ -142,7 +158,7 @@ def test_no_curve_goes_into_one_of_two_surfaces_that_cross(seed: int) -> None:
 
 def test_a_tolerance_that_chords_use_up_is_refused_with_what_helps() -> None:
     with pytest.raises(InputError, match="use more than"):
-        scene_files("ring.toml", SCENE, no_file, SceneOutputs(OUT, curves=CurvesOverSurfaces(0.004)))
+        scene_files("ring.toml", SCENE, no_file, SceneOutputs(OUT, curves=CurvesOverSurfaces(0.001)))
 
 
 def test_chords_keep_to_their_curve() -> None:

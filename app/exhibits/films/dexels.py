@@ -454,7 +454,7 @@ class _DexelSteps:
             "below, and the depth buffer keeps the lowest.",
             "Drawn in plain arrays here, so that the film is the same everywhere; `cut --engine patent` has the "
             "graphics hardware draw them.",
-            self._shades(np.where(seen_cells, self.depth, np.nan)).page(),
+            self._depths().page(),
             (
                 FilmFigure("facets drawn", len(self.facets.kind)),
                 FilmFigure("cells drawn over", int(seen_cells.sum())),
@@ -534,17 +534,30 @@ class _DexelSteps:
             (FilmFigure("triangles", count),),
         )
 
+    def _depths(self) -> StepDrawing:
+        """Return what the depth buffer holds: the lower a cell's facet, the darker; what nothing was drawn over stays
+        white.
+        """
+        known = self.depth[np.isfinite(self.depth)]
+        low, high = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
+        share = (self.depth - low) / max(high - low, 1e-12)
+        return self._cells(np.clip(30 + 200 * np.where(np.isfinite(share), share, 0.0), 30, 230), self.depth)
+
     def _shades(self, heights: Floats) -> StepDrawing:
         """Return cells from above, lit from the north-west; cells without a height are left white."""
-        sketch, w = StepDrawing(), self.grid.pitch
+        w = self.grid.pitch
         dy, dx = np.gradient(np.where(np.isfinite(heights), heights, 0.0), w)
         light = (1.0 + 0.6 * dx - 0.6 * dy) / np.sqrt(1 + dx**2 + dy**2) / 1.36
-        grey = np.clip(60 + 170 * light, 30, 245).astype(int)
+        return self._cells(np.clip(60 + 170 * light, 30, 245), heights)
+
+    def _cells(self, grey: Floats, heights: Floats) -> StepDrawing:
+        """Return cells from above in tones of grey, 0 to 255; those without a height are left white."""
+        sketch, w, tones = StepDrawing(), self.grid.pitch, grey.astype(int)
         xs, ys = self.grid.xs(), self.grid.ys()
         for i, y in enumerate(ys.tolist()):
             for j, x in enumerate(xs.tolist()):
                 if np.isfinite(heights[i, j]):
-                    tone = f"{grey[i, j]:02x}" * 3
+                    tone = f"{tones[i, j]:02x}" * 3
                     sketch.area(np.array([x, y]) + w * _CELL, f"#{tone}")
         return sketch
 

@@ -40,6 +40,10 @@ _CHORD = 2e-5
 """mm; chords that stand for a curve where it is looked at once more are nowhere farther from it."""
 _MOST_CHORDS = 4096
 """Of one piece of a curve."""
+_CHORDS = 0.2
+"""Of the tolerance: chords take no more of it, however coarse passes may be else. They cost points, of which none is
+written, and what they take the curves lack: blocks are some three fifths where it is a fifth in place of a half.
+"""
 _DIGITS = 2.0
 """Steps of the last decimal that rounding takes: of the passes, and of the curves."""
 
@@ -57,21 +61,26 @@ class CurvesOverSurfaces:
     tolerance: float
     form: OutputForm = OutputForm.ARCS
 
+    def chords(self, passes: Passes) -> float:
+        """Return the chord tolerance of passes that curves stand for, mm."""
+        return min(passes.chord_tolerance, _CHORDS * self.tolerance)
+
     def tube(self, passes: Passes, sag: float, grid: float) -> float:
         """Return the radius of the tube round passes, mm: half of what is left to the curves.
 
         Args:
-            passes: with their chord tolerance. sag: of facets in place of surfaces, mm. grid: last decimal, mm.
+            passes: with their own chord tolerance. sag: of facets in place of surfaces, mm. grid: last decimal, mm.
 
         Raises:
             InputError: nothing is left.
         """
-        spare = (self.tolerance - passes.chord_tolerance - sag - _DIGITS * grid) / 2
+        chords = self.chords(passes)
+        spare = (self.tolerance - chords - sag - _DIGITS * grid) / 2
         if not spare > 4 * grid:
-            least = passes.chord_tolerance + sag + _DIGITS * grid + 10 * grid
+            least = (sag + _DIGITS * grid + 10 * grid) / (1 - _CHORDS)
             raise InputError(
                 f"{option('smooth', f'{self.tolerance:g}')} mm leaves {max(2 * spare, 0.0):.4g} mm to the curves: "
-                f"chords of {passes.name or 'the passes'} take {passes.chord_tolerance:g} mm, facets of surfaces "
+                f"chords of {passes.name or 'the passes'} take {chords:g} mm, facets of surfaces "
                 f"{sag:g} mm; use more than {least:.3g} mm, or a smaller chord_tolerance."
             )
         return spare
@@ -150,7 +159,8 @@ def standing_off(scene: Scene, how: CurvesOverSurfaces) -> Scene:
     for each in scene.passes:
         off = how.tube(each, sag, grid)
         name = f"{each.name} standing off {off:.6f} mm".strip()
-        passes.append(replace(each, stock_to_leave=each.stock_to_leave + off, name=name))
+        leave = each.stock_to_leave + off
+        passes.append(replace(each, stock_to_leave=leave, chord_tolerance=how.chords(each), name=name))
     return replace(scene, passes=tuple(passes))
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ....core.progress import NO_PROGRESS, Progress
 from ....geometry.primitives import Rows
-from ....raster.frame import PixelCode, Plane
+from ....raster.frame import Plane
 from ....raster.steps import STEPS, StepState
 from ....raster.trace import PixelChain
 from ....raster.walls import Mask
@@ -28,9 +28,6 @@ PHASES = (
     (401, 402, 403, 404, 405, 406, 407),
 )
 """Steps that belong together: within one, the same codes have the same meaning."""
-
-_DASH = (6, 3)
-"""Pixels of a dash, and of the gap behind it."""
 
 _REPEATED = (2, 3)
 """Phases whose steps follow one another many times."""
@@ -181,17 +178,6 @@ class Projector:
         while self.at > at:
             flat[self.film.stills[self.at].pixels] = self.film.stills[self.at].before
             self.at -= 1
-
-
-def dashed(plane: Plane, chains: Sequence[PixelChain]) -> Plane:
-    """Return a plane whose contour pixels along some chains are dashes, as the text draws the contour tool's path."""
-    made = plane.copy()
-    for chain in chains:
-        pixels = chain.pixels()
-        gaps = pixels[np.arange(len(pixels)) % sum(_DASH) >= _DASH[0]]
-        gaps = gaps[made[tuple(gaps.T)] == PixelCode.CONTOUR]
-        made[tuple(gaps.T)] = PixelCode.EMPTY
-    return made
 
 
 def chain_at(chains: Sequence[PixelChain], row: int, col: int) -> int | None:

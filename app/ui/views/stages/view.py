@@ -9,6 +9,8 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
 from PySide6.QtWidgets import QStackedWidget, QWidget
 
+from ....exhibits.code_words import WRONG, word
+from ....exhibits.stage_picture import dashed
 from ....raster.frame import BitmapFrame, Plane
 from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.fields import ChoiceField
@@ -16,7 +18,7 @@ from ...framework.figures import counted
 from ...framework.section import upright_hairline
 from ...framework.theme import LIGHT, Theme
 from . import code_colours
-from .film import Film, FilmFrame, Projector, chain_at, dashed
+from .film import Film, FilmFrame, Projector, chain_at
 from .film_player import FilmPlayer
 from .painting.code_key import CodeRow
 from .painting.pixel_painter import PixelPaint
@@ -233,7 +235,7 @@ class StagesView(QWidget):
         wrong = still.wrong
         if wrong is not None and wrong.any():
             plane = plane.copy()
-            plane[wrong] = code_colours.WRONG
+            plane[wrong] = WRONG
         if still.number == 140:
             plane = dashed(plane, self.film.chains_of(120))
         colours = code_colours.step_colours(self.theme, still.number)
@@ -244,7 +246,7 @@ class StagesView(QWidget):
         )
         codes = [code for code in code_colours.ORDER if code in self.film.codes_near(self.at)]
         if wrong is not None and wrong.any():
-            codes.append(code_colours.WRONG)
+            codes.append(WRONG)
         self.pixels.show_key(tuple(_row(code, still.number, colours) for code in codes))
 
     def _tell_pixel(self, row: int, col: int) -> None:
@@ -253,9 +255,7 @@ class StagesView(QWidget):
             self.hovered.emit(f"Column {col}, row {row}" if row >= 0 else "")
             return
         code = pixels.code(row, col)
-        self.hovered.emit(
-            f"Column {col}, row {row}: {code_colours.LETTERS[code]}, {code_colours.word(code, still.number)}"
-        )
+        self.hovered.emit(f"Column {col}, row {row}: {code_colours.LETTERS[code]}, {word(code, still.number)}")
 
     def _click(self, row: int, col: int, x: float, y: float) -> None:
         still = self.still
@@ -268,7 +268,7 @@ class StagesView(QWidget):
 
 
 def _row(code: int, step: int, colours: dict[int, QColor]) -> CodeRow:
-    return CodeRow(code, code_colours.LETTERS[code], code_colours.word(code, step), colours[code])
+    return CodeRow(code, code_colours.LETTERS[code], word(code, step), colours[code])
 
 
 def _same_place(before: Film | None, at: int, after: Film | None) -> int:
