@@ -70,6 +70,7 @@ QToolButton[role="ribbon"] { padding: 4px 8px; }
 QToolButton[role="word"] { background: $raised; border: 1px solid $edge; border-radius: 9px; padding: 1px 8px 1px 18px; }
 QToolButton[role="word"]:hover { background: $hover; }
 QToolButton[role="chip"] { border: 1px solid $edge; padding: 1px 8px; }
+QToolButton[role="chip"][on="true"] { background: $chosen; border-color: $accent_text; }
 QPushButton { background: $raised; color: $ink; border: 1px solid $edge; border-radius: 4px; padding: 5px 12px; }
 QPushButton:hover { background: $hover; }
 QPushButton:focus { border-color: $accent_text; }
