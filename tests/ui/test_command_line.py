@@ -156,6 +156,8 @@ def test_words_of_the_tool_are_buttons(qtbot, line, entered):
     line.set_options(("copy", "radius"))
     qtbot.mouseClick(line.options["radius"], Qt.MouseButton.LeftButton)
     assert chosen == ["radius"] and entered == []
+    line.set_options(("copy", "radius"), on={"copy"})
+    assert [bool(button.property("on")) for button in line.options.values()] == [True, False]
     line.set_options(())
     assert not line.options
 

@@ -72,3 +72,22 @@ def test_where_it_is_narrow_the_buttons_stand_below_the_sentence(qtbot, notice, 
     text = notice.text
     room = text.fontMetrics().boundingRect(text.contentsRect(), Qt.TextFlag.TextWordWrap, text.text())
     assert text.width() >= 240 and text.height() >= room.height()
+
+
+def test_a_question_that_another_sentence_took_the_place_of_comes_back(qtbot, notice):
+    answered: list[str] = []
+    notice.ask("Work was kept.", [("Recover", lambda: answered.append("Recover"))], stays=True)
+    notice.come_back()
+    notice.ask("Proposed: pocket.", [("Undo", lambda: answered.append("Undo"))], of_job=True)
+    notice.ask("Read back.")
+    notice.hide()
+    assert notice.isVisible() and notice.sentence == "Work was kept."
+    qtbot.mouseClick(notice.buttons[0], Qt.MouseButton.LeftButton)
+    assert answered == ["Recover"] and notice.isHidden(), "it was answered"
+    notice.ask("Work was kept.", [("Recover", lambda: None)])
+    notice.come_back()
+    notice.ask("Proposed: pocket.", [("Undo", lambda: answered.append("Undo"))], of_job=True)
+    qtbot.mouseClick(notice.buttons[0], Qt.MouseButton.LeftButton)
+    assert answered == ["Recover", "Undo"] and notice.sentence == "Work was kept."
+    notice.hide()
+    assert notice.isHidden(), "it was closed"

@@ -231,3 +231,8 @@ def test_what_computing_again_cannot_help_offers_no_such_button(qtbot, wiring):
     qtbot.mouseClick(window.status.badge, Qt.MouseButton.LeftButton)
     told = [label.text() for label in window.findings_list.findChildren(QLabel)]
     assert any("11 mm" in text for text in told), told
+
+
+def test_where_no_scene_is_open_the_prompt_says_how_to_open_one(wiring):
+    wiring.display_controller.show_view(View.SURFACES)
+    assert wiring.window_.command_line.edit.placeholderText().startswith("Open a scene, drop a solid")

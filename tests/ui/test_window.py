@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, QRect, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QApplication, QLabel, QWidget
+from PySide6.QtWidgets import QApplication, QFileDialog, QLabel, QToolButton, QWidget
 
 from app.core.resources import resource
 from app.core.settings import ThemeChoice, load_settings
@@ -403,3 +403,17 @@ def test_words_of_the_window_can_be_typed(qtbot, wiring):
         qtbot.keyClick(line, Qt.Key.Key_Return)
         qtbot.waitUntil(lambda: bool(wiring.document.part.entities), timeout=WAIT_MS)
     qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.RUNNING, timeout=WAIT_MS)
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+def test_buttons_of_a_file_dialog_can_be_seen_by_day_and_by_night(qtbot, wiring, theme):
+    wiring.window_.actions_[f"theme_{theme.name}"].trigger()
+    dialog = QFileDialog(wiring.window_)
+    dialog.open()
+    button = dialog.findChild(QToolButton, "toParentButton")
+    assert button is not None
+    image = button.icon().pixmap(20, 20).toImage()
+    places = [(x, y) for x in range(image.width()) for y in range(image.height())]
+    seen = {image.pixelColor(x, y).name() for x, y in places if image.pixelColor(x, y).alpha() == 255}
+    assert seen == {theme.ink.name()}
+    dialog.reject()

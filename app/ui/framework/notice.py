@@ -25,7 +25,7 @@ def _call(act: Callable[[], None], *_: object) -> None:
 
 
 class Notice(QWidget):
-    """Shows one sentence at a time; a newer one takes its place.
+    """Shows one sentence at a time; a newer one takes its place, and one that comes back is seen again after that.
 
     Attributes:
         sentence: as it was said last, whatever language it is shown in.
@@ -38,6 +38,9 @@ class Notice(QWidget):
         self.text.setWordWrap(True)
         self.buttons: list[QPushButton] = []
         self._stays = self._of_job = False
+        self._again: Callable[[], None] | None = None
+        self._comes_back: Callable[[], None] | None = None
+        self._kept: Callable[[], None] | None = None
         self._seen_with = SeenWith(self)
         self.sentence = ""
         self._answers, self._below = QWidget(), False
@@ -80,6 +83,9 @@ class Notice(QWidget):
         """Close the bar; it does not come back with the view that it spoke of."""
         self._seen_with.follow(None)
         super().hide()
+        kept, self._kept, self._comes_back = self._kept, None, None
+        if kept is not None:
+            kept()
 
     def dismiss(self) -> None:
         """Close the bar, unless its question still needs an answer."""
@@ -108,6 +114,9 @@ class Notice(QWidget):
             stays: True when only an answer, or another sentence, closes the bar.
             of_job: True when it holds of the job as it is now, and is to go when that changes.
         """
+        if self._comes_back is not None:
+            self._kept = self._comes_back
+        self._again, self._comes_back = partial(self.ask, sentence, answers, error, stays, of_job), None
         self._stays, self._of_job, self.sentence = stays, of_job, sentence
         self._seen_with.follow(None)
         for button in self.buttons:
@@ -129,6 +138,17 @@ class Notice(QWidget):
         self._answers.setVisible(bool(self.buttons))
         self._arrange()
         self.show()
+
+    def come_back(self) -> None:
+        """Have the sentence seen again, unanswered, once what takes its place is closed."""
+        again = self._again
+
+        def ask() -> None:
+            if again is not None:
+                again()
+                self.come_back()
+
+        self._comes_back = ask
 
     def show_with(self, view: QWidget) -> None:
         """Be seen only while the view is that the sentence speaks of; the next sentence stands for itself."""

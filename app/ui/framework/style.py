@@ -70,6 +70,7 @@ QToolButton[role="ribbon"] { padding: 4px 8px; }
 QToolButton[role="word"] { background: $raised; border: 1px solid $edge; border-radius: 9px; padding: 1px 8px 1px 18px; }
 QToolButton[role="word"]:hover { background: $hover; }
 QToolButton[role="chip"] { border: 1px solid $edge; padding: 1px 8px; }
+QToolButton[role="chip"][on="true"] { background: $chosen; border-color: $accent_text; }
 QPushButton { background: $raised; color: $ink; border: 1px solid $edge; border-radius: 4px; padding: 5px 12px; }
 QPushButton:hover { background: $hover; }
 QPushButton:focus { border-color: $accent_text; }
@@ -103,6 +104,7 @@ QComboBox::drop-down { border: 0; width: 18px; }
 QComboBox::down-arrow { image: url($arrow); width: 12px; height: 12px; }
 QComboBox QAbstractItemView { background: $raised; color: $ink; border: 1px solid $hairline; outline: 0;
   selection-background-color: $chosen; selection-color: $ink; }
+QPlainTextEdit#chainText { background: $raised; border: 0; border-bottom: 1px solid $edge; }
 QListWidget { background: transparent; border: 0; outline: 0; padding: 0 4px; }
 QListWidget::item { padding: 3px 8px; border-radius: 4px; }
 QListWidget::item:hover { background: $hover; }

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QResizeEvent, QWheelEvent
 
 from ...core.errors import HitofudeError
 from ...drafting.document import Document, DocumentChange
@@ -48,6 +48,7 @@ class SidePanel(SideScroll):
         self.job, self.tools, self.operations = JobSection(), ToolSection(), OperationSection()
         self.job_form, self.tool_form, self.operation_form = JobForm(), ToolForm(), OperationForm()
         self.library, self.advice = LibrarySection(), AdviceSection()
+        self._follows_advice = False
         self._lay_out()
         self._connect()
         self.refresh()
@@ -62,6 +63,7 @@ class SidePanel(SideScroll):
         for sheet in (self.library, self.advice):
             column.addWidget(sheet)
             sheet.hide()
+            sheet.installEventFilter(self)
         column.addStretch(1)
 
     def _connect(self) -> None:
@@ -113,9 +115,27 @@ class SidePanel(SideScroll):
         opened = self.advice.isHidden()
         self.library.hide()
         self.advice.setVisible(opened)
+        self._follows_advice = opened
         self.refresh()
         if opened:
             self.advice_shown.emit()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Keep a sheet that was opened in sight while it grows: advice comes later, other languages are longer."""
+        if event.type() == QEvent.Type.Resize:
+            QTimer.singleShot(0, self, self._fit_library if watched is self.library else self._show_advice)
+        return super().eventFilter(watched, event)
+
+    def _show_advice(self) -> None:
+        """Bring all of the advice into sight, or its head where it is longer than the panel."""
+        if self._follows_advice and not self.advice.isHidden():
+            bar, sheet = self.verticalScrollBar(), self.advice.geometry()
+            bar.setValue(min(sheet.top(), max(bar.value(), sheet.bottom() + 1 - self.viewport().height())))
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
+        """Scroll; from now on the user says what is in sight."""
+        self._follows_advice = False
+        super().wheelEvent(event)
 
     def _fit_library(self) -> None:
         """Give the library's list the room that is left, and bring it into sight."""

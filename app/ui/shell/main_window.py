@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QWidget
+from PySide6.QtWidgets import QApplication, QFileDialog, QHBoxLayout, QLabel, QLayout, QMainWindow, QWidget
 
 from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
@@ -20,6 +20,7 @@ from ..framework.activity import Activity
 from ..framework.arrow import arrow_picture
 from ..framework.boxes import v_box
 from ..framework.computation import Computation
+from ..framework.file_dialogs import dress_file_dialog
 from ..framework.log import Log
 from ..framework.notice import Notice
 from ..framework.preferences import Preferences
@@ -215,6 +216,14 @@ class MainWindow(QMainWindow):
             if hasattr(widget, "set_theme"):
                 widget.set_theme(self.theme)
         self.actions_[f"theme_{choice.value}"].setChecked(True)
+
+    def event(self, event: QEvent) -> bool:
+        """Dress the file dialog that opens now, whoever opens it: it waits over this window."""
+        if event.type() == QEvent.Type.WindowBlocked:
+            dialog = QApplication.activeModalWidget()
+            if isinstance(dialog, QFileDialog):
+                dress_file_dialog(dialog, self.theme)
+        return super().event(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Let what is beside the view have its share of a wide window."""

@@ -90,6 +90,7 @@ class RecoveryController(QObject):
             ],
             stays=True,
         )
+        self._workspace.notice.come_back()
 
     def _decide(self, act: Callable[[], object]) -> None:
         act()

@@ -50,6 +50,7 @@ CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click 
 SURFACES_PROMPT = (
     "Drag turns the scene, the middle button shifts it; what is set at the right is computed at once; Ctrl+E writes it"
 )
+NO_SCENE_PROMPT = "Open a scene, drop a solid anywhere, or begin one with File, New scene"
 SLOW_SURFACES_PROMPT = (
     "Drag turns the scene, the middle button shifts it; F5 computes what is set at the right; Ctrl+E writes it"
 )
@@ -172,6 +173,11 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
             return window.film_panel
         return window.stages_panel if drawn.part.entities else window.side
 
+    def scene_prompt() -> str:
+        if surfaces.state is SceneState.NONE:
+            return NO_SCENE_PROMPT
+        return SURFACES_PROMPT if surfaces.at_once else SLOW_SURFACES_PROMPT
+
     def scene_missing() -> MissingHint:
         return NOTHING if surfaces.shown is not None else _NO_SCENE[surfaces.state]
 
@@ -187,7 +193,7 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         View.SURFACES: ViewPage(
             surfaces,
             surfaces.canvas,
-            lambda: SURFACES_PROMPT if surfaces.at_once else SLOW_SURFACES_PROMPT,
+            scene_prompt,
             scene_missing,
             lambda: surfaces.summary,
             lambda: window.scene_side if window.scene.open else None,

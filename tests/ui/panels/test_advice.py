@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 
 from app.core.resources import resource
 from app.formats.readers import read_drawing
@@ -95,3 +95,17 @@ def test_places_are_shown_and_the_sheet_closes(qtbot, panel, workspace, sheet):
     assert 0 < x < 100 and 0 < y < 100
     qtbot.mouseClick(panel.tools.advice_button, Qt.MouseButton.LeftButton)
     assert sheet.isHidden() and panel.operation_form.isVisible()
+
+
+def test_the_sheet_is_in_sight_once_it_is_filled(qtbot, panel, workspace):
+    panel.resize(328, 500)
+    advising = AdviceController(panel, workspace)
+    qtbot.mouseClick(panel.tools.advice_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: bool(panel.advice._made) and not advising.worker.busy, timeout=3 * WAIT_MS)
+    shown = panel.viewport().rect()
+
+    def top() -> int:
+        return panel.advice.mapTo(panel.viewport(), QPoint(0, 0)).y()
+
+    qtbot.waitUntil(lambda: top() == 0 or top() + panel.advice.height() == shown.height(), timeout=WAIT_MS)
+    assert 0 <= top() < shown.height() // 2

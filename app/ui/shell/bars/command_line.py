@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
 
 from ...framework.boxes import give_ground, put_away, v_box
-from ...framework.labels import Elided
+from ...framework.labels import Elided, restyle
 from ...framework.log_view import LogView
 from ...framework.theme import mono_font, text_font
 from ...framework.themed import Themed
@@ -90,14 +90,17 @@ class CommandLine(Themed, QWidget):
         self._prompt = text
         self.edit.setPlaceholderText(GOES_ON if self._block else text)
 
-    def set_options(self, words: Sequence[str]) -> None:
-        """Offer words that the running tool takes, as buttons at the end of the line."""
-        if list(words) == list(self.options):
-            return
-        for button in self.options.values():
-            self._line.removeWidget(button)
-            put_away(button)
-        self.options = {word: self._option(word) for word in words}
+    def set_options(self, words: Sequence[str], on: Collection[str] = ()) -> None:
+        """Offer words that the running tool takes, as buttons at the end of the line; those that are on are lit."""
+        if list(words) != list(self.options):
+            for button in self.options.values():
+                self._line.removeWidget(button)
+                put_away(button)
+            self.options = {word: self._option(word) for word in words}
+        for word, button in self.options.items():
+            if bool(button.property("on")) != (word in on):
+                button.setProperty("on", word in on)
+                restyle(button)
 
     def _option(self, word: str) -> QToolButton:
         button = QToolButton()

@@ -44,7 +44,8 @@ class CommandLineController(QObject):
 
     def _show_options(self) -> None:
         tool = self._canvas.runner.tool
-        self._command_line.set_options(tool.options if tool is not None else ())
+        on = tool.on if isinstance(tool, PromptTool) else ()
+        self._command_line.set_options(tool.options if tool is not None else (), on)
         before, self._asked = self._asked, tool.ask if isinstance(tool, PromptTool) else None
         if isinstance(tool, TextTool) and "font" in tool.on and self._fonts is None and not self.worker.busy:
             self.worker.start(fonts, 0, self._take_fonts)
