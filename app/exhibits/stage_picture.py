@@ -10,10 +10,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..formats.plot.pixels import Pixels, bgr
+from ..raster.code_words import WRONG, word
 from ..raster.frame import PixelCode, Plane
 from ..raster.steps import StepState
-from ..raster.trace import PixelChain
-from .code_words import WRONG, word
+from ..raster.trace import PixelChain, dashed
 
 SHOWN_PX = 800
 """Pictures are enlarged by a whole factor, as long as they stay no wider than about this."""
@@ -39,8 +39,6 @@ PALETTE: dict[PixelCode, str] = {
 WRONG_COLOUR = "#ff00ff"
 """Colour of pixels in which the published fill errs."""
 
-_DASH = (6, 3)
-"""Pixels of a dash, and of the gap behind it."""
 _SINGLE = {202: PixelCode.TRACED, **dict.fromkeys(range(404, 408), PixelCode.VERTEX)}
 """Codes that single pixels hold at a step: rings round them let them be seen."""
 _RING = 7
@@ -50,17 +48,6 @@ _ROW, _SWATCH, _PAD, _COLUMN = 24, 14, 10, 200
 _INK = "#d8dee6"
 _BAR_SHARE = 0.25
 """Of the picture's width: the scale's bar is as long at most."""
-
-
-def dashed(plane: Plane, chains: Sequence[PixelChain]) -> Plane:
-    """Return a plane whose contour pixels along some chains are dashes, as the text draws the contour tool's path."""
-    made = plane.copy()
-    for chain in chains:
-        pixels = chain.pixels()
-        gaps = pixels[np.arange(len(pixels)) % sum(_DASH) >= _DASH[0]]
-        gaps = gaps[made[tuple(gaps.T)] == PixelCode.CONTOUR]
-        made[tuple(gaps.T)] = PixelCode.EMPTY
-    return made
 
 
 def png(stage: StepState, dashes: Sequence[PixelChain] = ()) -> bytes:

@@ -15,6 +15,10 @@ STEPS = np.array([(0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0), 
 """(row, column) step of directions 0 ... 7: 0 to the right, then counter-clockwise by 45 degrees."""
 
 
+_DASH = (6, 3)
+"""Pixels of a dash, and of the gap behind it."""
+
+
 @dataclass(frozen=True)
 class PixelChain:
     """One closed border of drawn pixels.
@@ -47,6 +51,17 @@ def chain_rows(frame: BitmapFrame, chains: Sequence[PixelChain]) -> Rows:
         own[:, :2], own[:, 2:4] = centres[: len(own)], centres[-len(own) :]
         rows.append(own)
     return np.concatenate(rows)
+
+
+def dashed(plane: Plane, chains: Sequence[PixelChain]) -> Plane:
+    """Return a plane whose contour pixels along some chains are dashes, as the text draws the contour tool's path."""
+    made = plane.copy()
+    for chain in chains:
+        pixels = chain.pixels()
+        gaps = pixels[np.arange(len(pixels)) % sum(_DASH) >= _DASH[0]]
+        gaps = gaps[made[tuple(gaps.T)] == PixelCode.CONTOUR]
+        made[tuple(gaps.T)] = PixelCode.EMPTY
+    return made
 
 
 def trace(plane: Plane) -> tuple[tuple[PixelChain, ...], Plane]:

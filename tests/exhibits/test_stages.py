@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
-from app.exhibits.stage_picture import dashed, keyed_png, png
+from app.exhibits.stage_picture import keyed_png, png
 from app.exhibits.stages import Variant, stages
 from app.geometry.outlines import polygon_contour
 from app.model.job import Job
@@ -18,6 +18,7 @@ from app.raster.fill import fill
 from app.raster.frame import BitmapFrame, PixelCode
 from app.raster.peel import frame_pixels
 from app.raster.steps import STEPS, StepState
+from app.raster.trace import dashed
 from app.usecases.making.bitmap_job import BitmapJob, drawn_job
 from app.usecases.pixels.options import BitmapSize
 from app.usecases.pixels.way import BitmapProgram, compute_on_bitmap

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtGui import QColor
 
-from ....exhibits.code_words import WRONG
+from ....raster.code_words import WRONG
 from ....raster.frame import PixelCode
 from ...framework.theme import Theme, mixed
 

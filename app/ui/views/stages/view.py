@@ -9,9 +9,9 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
 from PySide6.QtWidgets import QStackedWidget, QWidget
 
-from ....exhibits.code_words import WRONG, word
-from ....exhibits.stage_picture import dashed
+from ....raster.code_words import WRONG, word
 from ....raster.frame import BitmapFrame, Plane
+from ....raster.trace import dashed
 from ...framework.boxes import give_ground, h_box, v_box
 from ...framework.fields import ChoiceField
 from ...framework.figures import counted

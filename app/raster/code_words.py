@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..raster.frame import PixelCode
+from .frame import PixelCode
 
 WRONG = len(PixelCode)
 """The code under which pixels are shown in which the published fill errs; no display memory holds it."""
