@@ -198,7 +198,7 @@ def test_a_signal_that_a_library_turns_into_its_own_error_is_still_one(
         except Stopped as stop:
             raise SystemError("returned a result with an exception set") from stop
 
-    monkeypatch.setattr("app.usecases.examine.examine", turned)
+    monkeypatch.setattr("app.cli.commands.check.examine", turned)
     (tmp_path / "a.ngc").write_text(RING)
     assert main(["check", str(tmp_path / "a.ngc")]) == 143
     assert capsys.readouterr().err == "hitofude: cancelled; no file was written\n"
