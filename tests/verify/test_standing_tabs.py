@@ -66,3 +66,9 @@ def test_what_tabs_within_a_contour_hold_is_waste() -> None:
     inner = replace(OUTER, side=Side.INSIDE)
     (told,) = cut_off([circle(20.0)], (inner, PocketOperation(CutParameters(1, 4.0, 4.0))))
     assert not told.counts
+
+
+def test_tabs_of_neighbours_are_where_metal_stands_between_them() -> None:
+    """Discs a cutter's width apart: evenly spread, tabs lie where a neighbour's path, or its lead, cuts them off."""
+    discs = [circle(20.0, 46.0 * (k % 3), 46.0 * (k // 3)) for k in range(6)]
+    assert not cut_off(discs, (replace(OUTER, tabs=Tabs(4, 5.0, 1.0)),))

@@ -266,7 +266,7 @@ def spread(run: PathWithLeads, own: Sequence[float], shape: TabShape, around: Le
     spans = _off_corners(path, clear, corners if path.closed else np.unique([0.0, *corners]))
     good = np.concatenate([np.append(np.arange(low, high, apart / _FINE), high) for low, high in spans])
     good = np.concatenate([good % path.length, even[_in_spans(even, spans, path.length)] % path.length])
-    good = good[(good - first) % path.length <= free + _ROUNDING]
+    good = _with_metal_beyond(path, good[(good - first) % path.length <= free + _ROUNDING], around)
     room = _Room(path, shape, first - half, first + free + half)
     near = good[(_apart(good[:, None], even, path.length) <= _NEAR * apart).any(axis=1)]
     made = _nearest_to(even, room.fitting(near), own, room)  # what is farther takes long to look at
@@ -274,6 +274,27 @@ def spread(run: PathWithLeads, own: Sequence[float], shape: TabShape, around: Le
     if len(made) == count and room.wide(places).all() and (_apart(places, even, path.length) <= _NEAR * apart).all():
         return made
     return _nearest_to(even, room.fitting(good), own, room)
+
+
+def _with_metal_beyond(path: ContourPath, places: Floats, around: LeadContext) -> Floats:
+    """Return the places of a path round a part beside which metal stands on the far side of its cut, to which a tab
+    there is tied; where there is none, all, as of a path within a contour, where what comes loose is waste.
+
+    Round whatever wall, a neighbour's or that of the path's own far side, a path of the same kind clears all that lies
+    within the distance that its centre keeps and the cutter's radius, and its leads as much more as they are long.
+    """
+    if path.area >= 0 or not len(places):
+        return places
+    points, radius = path.points(places), around.tool.radius
+    far, row = around.field.nearest(points)
+    feet = points_at(around.field.rows[row], fractions_at(around.field.rows[row], points))
+    away = (points - feet) / np.maximum(far, _SHORT)[:, None]
+    for leads in (around.size + around.straight, 0.0):
+        beyond = around.field.nearest(points + (radius + leads + _HOLD) * away)[0]
+        held = beyond >= around.need + radius + leads - _SHORT
+        if held.any():
+            return places[held]
+    return places
 
 
 class _Room(NamedTuple):
