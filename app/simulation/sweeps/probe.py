@@ -48,16 +48,17 @@ class PathProbe:
     shapes: Floats
 
     @staticmethod
-    def of(courses: Sequence[Course], cutters: Mapping[int, Cutter]) -> PathProbe:
+    def of(courses: Sequence[Course], cutters: Mapping[int, Cutter], helix_chord: float = 0.0) -> PathProbe:
         """Return what cuts along courses, one after the other.
 
         Args:
             courses: rapids and what is left out do not cut.
             cutters: by T number.
+            helix_chord: how far chords of helices may be off, mm; 0 = as near as of all other curves.
         """
         numbers, found, done = sorted(cutters), [], 0
         for course in courses:
-            found.append(_cutting(course, numbers, done))
+            found.append(_cutting(course, numbers, done, helix_chord))
             done += len(course.motions)
         pieces, owners = np.concatenate([each.rows for each in found]), np.concatenate([each.owners for each in found])
         shapes = np.array([_shape(cutters[number]) for number in numbers]).reshape(-1, 6)
@@ -89,12 +90,12 @@ class _CuttingPieces(NamedTuple):
     owners: NDArray[np.int64]
 
 
-def _cutting(course: Course, numbers: Sequence[int], done: int) -> _CuttingPieces:
+def _cutting(course: Course, numbers: Sequence[int], done: int, helix_chord: float) -> _CuttingPieces:
     """Return the pieces of a course that cut; `done` motions were before it."""
     motions = course.motions
     cuts = (motions.kind != MotionKind.RAPID) & np.isin(course.tool, np.array(numbers))
     cuts[list(course.left_out)] = False
-    pieces = PieceSplitter(motions).pieces(0, len(motions)) if cuts.any() else None
+    pieces = PieceSplitter(motions, helix_chord=helix_chord).pieces(0, len(motions)) if cuts.any() else None
     if pieces is None:
         return _CuttingPieces(np.zeros((0, 9)), np.zeros((0, 2), np.int64))
     some = cuts[pieces.motion]

@@ -39,6 +39,9 @@ from .setup import CELLS, CutOptions, CutSetup
 
 __all__ = ["CELLS", "CutOptions", "CutProgram", "CutSetup", "Engine", "cut"]
 
+_HELIX_CHORD = 1e-3
+"""mm that chords of helices may be off where tabs are asked for: a tenth of what counts of their heights."""
+
 GRAPHICS, AS_USUAL = Graphics(), CutOptions()
 
 
@@ -118,8 +121,9 @@ def _findings(context: CutContext, done: CutOutcome, judgement: Judgement | None
         yield from doubtful_size(setup.part, _fed_box(context))
     if judgement is not None:
         yield from findings_of(judgement, setup.where)
-    if isinstance(setup.part, FlatPart) and options.judge:
-        yield from cut_off_tabs(setup.part, context.lowest, setup.where)
+    if isinstance(setup.part, FlatPart) and setup.part.tabs and options.judge:
+        path = PathProbe.of([known.course for known in context.courses], context.cutters, _HELIX_CHORD)
+        yield from cut_off_tabs(setup.part, path.lowest, setup.where)
     if isinstance(setup.part, SolidPart) and context.closely:
         yield from unseen_walls(setup.part, context.workpiece.grid.pitch)
     yield from _fallen_back(done.engine_report, options.engine)
