@@ -16,6 +16,7 @@ import numpy as np
 from ..core.errors import InputError
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.machine_toml import DEFAULT_MACHINE, load_machine
+from ..gcode.checks.dwells import doubtful_dwells
 from ..gcode.interpreter.dialect import DIALECT_RULES, Dialect
 from ..gcode.interpreter.dialect_guess import guess_dialect
 from ..gcode.interpreter.foreign_codes import names_units
@@ -194,7 +195,12 @@ def examine(name: str, data: bytes, options: ExamineOptions, progress: Progress 
     machine = options.machine or load_machine(DEFAULT_MACHINE)
     time = duration(program, machine)
     fits = misfits(program, machine) if options.machine else ()
-    problems = (*program.problems, *_feedless(program, time), *fits)
+    problems = (
+        *program.problems,
+        *doubtful_dwells(program, data, read.dialect),
+        *_feedless(program, time),
+        *fits,
+    )
     unnamed = options.units is None and len(program.motions) > 0 and not names_units(data)
     return ExaminedProgram(name, read, program, problems, machine, time, unnamed)
 

@@ -13,7 +13,7 @@ from .control import Control
 from .dialect import Dialect
 from .expression import Key, ValueReader, evaluated, whole
 from .flow import Flow, Subroutine
-from .program import BlockFault, EventKind
+from .program import BlockFault
 
 REMEDY = "write out the moves that it makes: the reader stops here."
 """What to do about a code that is known and not followed."""
@@ -35,12 +35,6 @@ _PASSED = {
 
 _ALARM = 3000
 """The parameter that stops the program with a message, whatever it is set to."""
-
-LONG_DWELL_S = 100.0
-"""A dwell of so many whole seconds or more may have been told in milliseconds; nobody waits for a spindle so long."""
-
-SHORT_DWELL_S = 0.01
-"""A dwell below it is over before the control has gone to the next block, and may have been told in seconds."""
 
 _RIGID = "M29"
 """The spindle of the next tapping cycle follows the axis: how it turns, not where the tool goes."""
@@ -186,31 +180,6 @@ def _warn_of_lathe(control: Control, data: bytes) -> None:
     if found is not None and _MILLS.search(data) is None:
         control.line = data.count(b"\n", 0, found.end()) + 1
         control.warn(f"{_LATHE}: it has tools with offsets (T0101), and no Y.", "t")
-
-
-def warn_of_dwells(control: Control) -> None:
-    """Tell of the first dwell that looks as if it were told in another unit than the control counts in."""
-    dwells = [event for event in control.events if event.kind is EventKind.DWELL and event.value > 0]
-    in_seconds = control.rules.dwell_unit_s == 1.0
-    if in_seconds:
-        strange = [event for event in dwells if event.value >= LONG_DWELL_S and event.value.is_integer()]
-    else:
-        strange = [event for event in dwells if event.value < SHORT_DWELL_S]
-    if not strange:
-        return
-    seconds, control.line = strange[0].value, strange[0].line
-    if in_seconds:
-        control.warn(
-            f"the dwell is {seconds:g} s, for {control.rules.title} counts P in seconds; if milliseconds are meant, "
-            f"write P{seconds / 1000:g}.",
-            "p",
-        )
-    else:
-        control.warn(
-            f"the dwell is {seconds * 1000:g} ms, for {control.rules.title} counts one without a decimal point in "
-            f"milliseconds; if seconds are meant, write P{seconds * 1e6:.0f}.",
-            "p",
-        )
 
 
 def warn_of_uncalled(control: Control, flow: Flow) -> None:

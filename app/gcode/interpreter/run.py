@@ -26,7 +26,6 @@ from .foreign_codes import (
     obey_macro,
     stop_at_alarm,
     warn_behind_percent,
-    warn_of_dwells,
     warn_of_numbers,
     warn_of_uncalled,
 )
@@ -140,7 +139,6 @@ class InterpreterRun:
             self._control.compensation.spill(self._control.columns)
         self._warn_of_start()
         self._warn_of_tools()
-        warn_of_dwells(self._control)
         return self._program()
 
     def _read_blocks(self) -> None:

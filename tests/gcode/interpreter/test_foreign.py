@@ -255,28 +255,6 @@ def test_a_feed_that_a_setting_decides_is_told(dialect: Dialect, head: str, step
     assert not warnings(text.replace("F12", "F12."), dialect)
 
 
-@pytest.mark.parametrize(
-    ("dialect", "line", "warning"),
-    [
-        *(
-            (dialect, "G4 P1500", f"the dwell is 1500 s, for {title} counts P in seconds")
-            for dialect, title in [(Dialect.GRBL, "grbl"), (Dialect.LINUXCNC, "LinuxCNC"), (Dialect.MACH3, "Mach3")]
-        ),
-        (Dialect.LINUXCNC, "G4 P[1500]", "if milliseconds are meant, write P1.5."),
-        (Dialect.LINUXCNC, "G82 X1 Z-1 R1 P500 F100", "the dwell is 500 s"),
-        (Dialect.FANUC, "G4 P2", "the dwell is 2 ms, for Fanuc counts one without a decimal point in milliseconds"),
-        (Dialect.HAAS, "G4 P2", "if seconds are meant, write P2000."),
-        *((dialect, "G4 P1.5", "") for dialect in Dialect),
-        (Dialect.GRBL, "G4 P60", ""),
-        (Dialect.HAAS, "G4 P500", ""),
-        (Dialect.HAAS, "G4 P0", ""),
-    ],
-)
-def test_a_dwell_that_looks_like_one_in_another_unit_is_told(dialect: Dialect, line: str, warning: str) -> None:
-    found = [each for each in warnings(f"G21 G90 G17\nG1 Z1. F100.\n{line}\nM30\n", dialect) if "dwell" in each]
-    assert len(found) == bool(warning) and all(warning in each for each in found)
-
-
 def test_commands_of_grbl_itself_are_passed_over() -> None:
     assert ends(read("$H\n$32=1\nG0 X1\n", Dialect.GRBL)) == [(1, 0, 0)]
 
