@@ -385,7 +385,9 @@ def _shape_findings(program: Program, job: Job) -> Iterator[Finding]:
 
     Holes that go through are as wide as they should be where the tool goes on by as much as its end is rounded.
     """
-    moves, operations = program.moves, list(enumerate(job.operations))
+    moves = program.moves
+    used = set(np.unique(moves.operation).tolist())
+    operations = [(k, each) for k, each in enumerate(job.operations) if k in used]
     bare = [k for k, each in operations if each.CARVES or (each.follows_lines and not _needs_square(each, job))]
     tools = [job.tool(number) for number in dict.fromkeys(moves.tool[~np.isin(moves.operation, bare)].tolist())]
     for tool in tools:
@@ -395,40 +397,45 @@ def _shape_findings(program: Program, job: Job) -> Iterator[Finding]:
                 f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter."
             )
             yield Finding(FindingKind.TOOL_SHAPE, text)
-    followed = [each for k, each in operations if each.follows_lines and k in moves.operation]
-    yield from filter(None, (_too_deep_for(each, job.tool(each.cut.tool)) for each in followed))
+    opened = max((each.cut.floor for _, each in operations if not each.HOLES and not each.follows_lines), default=0.0)
+    for _, each in operations:
+        if each.follows_lines:
+            yield from _too_deep_for(each, job.tool(each.cut.tool), opened)
 
 
 def _needs_square(operation: Operation, job: Job) -> bool:
     """Tell whether holes that an operation makes want a tool with a sharp lower edge: they have a floor, or the tool
-    does not go through as far as its end is rounded.
+    does not come out of the stock as far as its end is rounded.
     """
     profile, radius = job.tool(operation.cut.tool).profile, job.tool(operation.cut.tool).radius
     end = profile.fillet + (radius - profile.flat) * profile.cone
-    return operation.HOLES and operation.LEVELS and operation.beyond < end
+    out = operation.cut.floor + operation.beyond - job.stock.thickness
+    return operation.HOLES and operation.LEVELS and out < end
 
 
-def _too_deep_for(operation: Operation, tool: Tool) -> Finding | None:
-    """Return that a cone follows lines deeper than it is high, and no flutes are known above it, or that a drill's
-    flutes do not reach out of the hole.
+def _too_deep_for(operation: Operation, tool: Tool, opened: float) -> Iterator[Finding]:
+    """Yield that a cone goes deeper than it is high, and no flutes are known above it, or that a drill's flutes do not
+    reach out of the hole.
+
+    Args:
+        opened: how deep other operations clear areas, in which holes may begin, mm.
     """
     high, depth = (tool.radius - tool.profile.flat) * tool.profile.cone, operation.cut.floor + operation.beyond
     who = f"T{tool.number} {tool.label}"
-    if operation.HOLES:
-        if not (tool.kind.drills and not operation.CARVES and 0 < tool.flute_length < depth):
-            return None
+    if operation.HOLES and tool.kind.drills:
+        within = depth - opened
+        if not operation.CARVES and 0 < tool.flute_length < within:
+            text = (
+                f"{who} goes {within:g} mm deep, and its flutes are {tool.flute_length:g} mm long: chips do not come "
+                "out of the hole; take a longer tool."
+            )
+            yield Finding(FindingKind.TOOL_SHAPE, text, counts=False, amount=within - tool.flute_length)
+    elif high and not (operation.HOLES and operation.CARVES) and depth > max(high, tool.flute_length) + LEVEL:
         text = (
-            f"{who} goes {depth:g} mm deep, and its flutes are {tool.flute_length:g} mm long: chips do not come out of "
-            "the hole; take a longer tool."
+            f"{who} goes {depth:g} mm deep, and its cone is {high:.3f} mm high: above that it would cut with its "
+            "shank; reduce the depth, or take a wider cutter."
         )
-        return Finding(FindingKind.TOOL_SHAPE, text, counts=False, amount=depth - tool.flute_length)
-    if not high or depth <= max(high, tool.flute_length) + LEVEL:
-        return None
-    text = (
-        f"{who} goes {depth:g} mm deep along lines, and its cone is {high:.3f} mm high: above that it would cut with "
-        "its shank; reduce the depth, or take a wider cutter."
-    )
-    return Finding(FindingKind.TOOL_SHAPE, text, amount=depth - high)
+        yield Finding(FindingKind.TOOL_SHAPE, text, amount=depth - high)
 
 
 def _ring_findings(program: Program) -> tuple[Finding, ...]:
