@@ -46,6 +46,8 @@ _RING = 7
 _ROW, _SWATCH, _PAD, _COLUMN = 24, 14, 10, 200
 """Points: a row of the key, its square of colour, what is left free, a column of the key."""
 _INK = "#d8dee6"
+_LEAST_WIDTH = 340
+"""Points: the key's words and the scale's have room in so many; a narrower picture has paper beside it."""
 _BAR_SHARE = 0.25
 """Of the picture's width: the scale's bar is as long at most."""
 
@@ -67,6 +69,8 @@ def keyed_png(stage: StepState, pitch: float, dashes: Sequence[PixelChain] = ())
     """
     image = _painted(stage, dashes)
     _ring(image, stage)
+    beside = max(_LEAST_WIDTH - image.shape[1], 0)
+    image = np.concatenate([image, np.full((len(image), beside, 3), bgr(PALETTE[PixelCode.EMPTY]), np.uint8)], axis=1)
     return _encoded(np.vstack([image, _key(image.shape[1], stage, pitch)]))
 
 

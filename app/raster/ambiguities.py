@@ -225,10 +225,11 @@ def _ends(chain: PixelChain, thickness: float) -> tuple[Place, ...]:
     )
 
 
-Floats = NDArray[np.float32]
+Thickness = NDArray[np.float32]
+"""Of ink at each pixel, px."""
 
 
-def thickness_px(ink: Mask) -> Floats:
+def thickness_px(ink: Mask) -> Thickness:
     """Return how thick ink is at each of its pixels, px; 0 on paper.
 
     It is the shortest way through the ink along rows, columns or diagonals, from the pixel or one of its neighbours: of
@@ -264,7 +265,7 @@ def _runs(flat: Mask, step: int) -> NDArray[np.int32]:
     return np.ascontiguousarray(lengths.reshape(step, rows).T).ravel()[: len(flat)]
 
 
-def usual_thickness(thickness: Floats, figure: NDArray[np.int32]) -> NDArray[np.float64]:
+def usual_thickness(thickness: Thickness, figure: NDArray[np.int32]) -> NDArray[np.float64]:
     """Return how thick each figure's lines are for half of their length at most, px, by the figure's number; 0 for
     number 0.
 

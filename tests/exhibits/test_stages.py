@@ -224,9 +224,17 @@ def test_the_contour_tool_s_path_is_dashed_and_start_pixels_are_ringed(walk: Wal
         cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
         for data in (png(last(walk, 202)), keyed_png(last(walk, 202), pitch))
     )
-    rows = np.flatnonzero(np.any(keyed[: len(plain)] != plain, axis=(1, 2)))
+    rows = np.flatnonzero(np.any(keyed[: len(plain), : plain.shape[1]] != plain, axis=(1, 2)))
     starts = 2 * np.argwhere(last(walk, 202).plane == PixelCode.TRACED)[:, 0] + 1
     assert len(starts) == 3 and np.abs(rows[:, None] - starts).min(axis=1).max() <= 8
+
+
+def test_the_key_of_a_narrow_picture_is_whole(walk: Walk) -> None:
+    stage = last(walk, 202)
+    narrow = replace(stage, plane=np.ascontiguousarray(stage.plane[:, 60:70]))
+    data = keyed_png(narrow, walk[0].part.frame.pitch)
+    keyed = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
+    assert (keyed[:, -1] == keyed[-1, -1]).all(axis=1).sum() >= len(keyed) - 1, "paper to the right of all words"
 
 
 def test_the_published_rules_stand_beside_the_settled_ones_with_what_they_come_to() -> None:

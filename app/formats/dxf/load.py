@@ -333,7 +333,8 @@ _NAME = 2
 
 
 def without_repeated(sections: dict[str, list[Any]]) -> tuple[str, ...]:
-    """Take later definitions of a block away, from BLOCK to ENDBLK, and return their names.
+    """Take later definitions of a block away, from BLOCK to ENDBLK, and return their names: the first holds, as in CAD
+    programs; the library would draw all of them, one over the other.
 
     Args:
         sections: of a file by name, each the entities of the library, as tags of codes and values.

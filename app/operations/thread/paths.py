@@ -190,7 +190,16 @@ _ROUNDS = 6
 
 
 def flank_error(thread: ThreadSize, radius: float, way: float, place: float) -> float:
-    """Return by how much, mm along the axis, a tooth's flank cuts more than it is meant to.
+    """Return by how much, mm along the axis, a tooth's flank cuts more than it is meant to, for the mill's width.
+
+    A tooth of half width w(d) = (r - d) tan(a) at distance d from the mill's axis, r its radius, a half the angle
+    between the flanks, goes round on a helix of radius R and pitch P. In a plane through the hole's axis, at distance q
+    from that, it is q - R deep at angle 0 of the mill, and at angle t it is P t / 2 pi higher and its distance there is
+    d(t) = sqrt(R^2 + q^2 - 2 R q cos t). So its flank cuts, beside what it is meant to, up to
+
+        f(q) = max over t of  P t / 2 pi - (d(t) - d(0)) tan(a)  >= 0
+
+    which is 0 for a mill without width and grows with r. On a boss the same holds, with R outside.
 
     Args:
         thread: its pitch and form. radius: of the mill, mm. way: radius of its centre's helix, mm.
@@ -207,7 +216,7 @@ def flank_error(thread: ThreadSize, radius: float, way: float, place: float) -> 
 
 def correction(thread: ThreadSize, radius: float, external: bool) -> float:
     """Return by how much farther from the wall a mill keeps than it is wide, mm, so that the thread has its pitch
-    diameter.
+    diameter: by `flank_error` / tan(a) there, so that the flanks are where they should be.
 
     Args:
         thread: that is cut. radius: of the mill, mm. external: on a boss, and not in a hole.

@@ -43,7 +43,7 @@ class MeshEdges:
         return np.flatnonzero(self.count[self.edge] % 2)
 
 
-_PART = 1 << 16
+AT_ONCE = 1 << 16
 """Triangles that are looked at together: what is needed meanwhile stays small."""
 
 
@@ -68,9 +68,9 @@ def numbered_rows(rows: Ints) -> Ints:
 def doubled_areas(triangles: Floats) -> Floats:
     """Return twice the area of each triangle (n, 3, 3), mm2."""
     doubled = np.empty(len(triangles))
-    for first in range(0, len(triangles), _PART):
-        some = triangles[first : first + _PART]
-        doubled[first : first + _PART] = np.linalg.norm(
+    for first in range(0, len(triangles), AT_ONCE):
+        some = triangles[first : first + AT_ONCE]
+        doubled[first : first + AT_ONCE] = np.linalg.norm(
             np.cross(some[:, 1] - some[:, 0], some[:, 2] - some[:, 0]), axis=1
         )
     return doubled

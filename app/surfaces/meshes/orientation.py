@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .edges import MeshEdges, doubled_areas, numbered, numbered_rows
+from .edges import AT_ONCE, MeshEdges, doubled_areas, numbered, numbered_rows
 from .sew import sew_mesh
 
 Floats = NDArray[np.float64]
@@ -30,9 +30,6 @@ _ASKED = 64
 """Triangles of a shell whose corners are asked whether they are in another one; bodies that go through one another are
 each metal.
 """
-
-_PART = 1 << 16
-"""Triangles that are looked at together."""
 
 _NOTHING = 1e-9
 """Of the extent cubed: a surface that encloses no more is folded flat."""
@@ -284,9 +281,9 @@ def _turned_over(triangles: Floats, turned: NDArray[np.bool_]) -> Floats:
 def _volumes(triangles: Floats) -> Floats:
     """Return the volume (n,) between each triangle and the middle of all corners, mm3, by part of them."""
     middle, volume = triangles.reshape(-1, 3).mean(axis=0), np.empty(len(triangles))
-    for first in range(0, len(triangles), _PART):
-        own = triangles[first : first + _PART] - middle
-        volume[first : first + _PART] = np.einsum("ij,ij->i", own[:, 0], np.cross(own[:, 1], own[:, 2])) / 6.0
+    for first in range(0, len(triangles), AT_ONCE):
+        own = triangles[first : first + AT_ONCE] - middle
+        volume[first : first + AT_ONCE] = np.einsum("ij,ij->i", own[:, 0], np.cross(own[:, 1], own[:, 2])) / 6.0
     return volume
 
 

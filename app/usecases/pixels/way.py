@@ -364,7 +364,9 @@ def _without_path(part: BitmapPart, paths: Sequence[OperationPaths], job: Job) -
 
 
 _PIXEL_S = 5e-8
-"""A pixel of a bitmap that an operation shrinks and traces."""
+"""A pixel of a bitmap that an operation shrinks and traces; measured, as the two below, on bitmaps of 512 to 4,096
+pixels a side with paths of 19,000 to 280,000.
+"""
 _CHAIN_S = 2e-5
 """A pixel along a path that is smoothed, and proven to keep clear: straight walls take a third of it, waves twice."""
 _ON_PIXELS_S = 0.07

@@ -162,7 +162,7 @@ def _with_certificate(done: SmoothedProgram, context: SmoothContext, written: _W
 
 
 _POINT_S = {OutputForm.LINES: 6e-6, OutputForm.ARCS: 6e-5, OutputForm.NURBS: 2e-4}
-"""A point of a stretch that is fitted anew and proven."""
+"""A point of a stretch that is fitted anew and proven; measured on programs of 20,000 to 100,000 points."""
 
 
 def smooth_effort(stretches: Sequence[FeedStretch], form: OutputForm, effective: EffectiveMethod | None) -> Reckoning:
