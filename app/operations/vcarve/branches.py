@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +42,7 @@ class AxisBranch:
     @property
     def length(self) -> float:
         """Seen from above, mm."""
-        return float(lengths_along(*joined([self]))[0])
+        return float(joined([self]).lengths()[0])
 
     def backwards(self) -> AxisBranch:
         """Return it from its end to its beginning."""
@@ -62,25 +63,41 @@ class AxisBranch:
         return [*found, AxisBranch(np.array(points))] if len(points) > 1 else found
 
 
-def joined(branches: Sequence[AxisBranch]) -> tuple[Floats, NDArray[np.int64]]:
-    """Return the discs (n, 3) of branches, one after the other, and the number (m + 1,) of the first one of each."""
-    discs = np.concatenate([np.zeros((0, 3)), *[branch.discs for branch in branches]])
-    return discs, np.cumsum([0, *[len(branch.discs) for branch in branches]], dtype=np.int64)
+class JoinedBranches(NamedTuple):
+    """Branches, or ways, one after the other.
 
-
-def lengths_along(discs: Floats, upto: NDArray[np.int64]) -> Floats:
-    """Return the length (m,) of each of some branches that are joined, seen from above, mm.
-
-    Those of as many chords are summed together, each as it would be alone: of branches as long the first counts, and
-    where they stand must not tell.
+    Attributes:
+        discs: (n, 3) of all.
+        upto: (m + 1,) the number of the first disc of each, and how many there are.
     """
-    chords = np.hypot(*np.diff(discs[:, :2], axis=0).T)
-    counts = np.diff(upto) - 1
-    found = np.zeros(len(counts))
-    for count in np.unique(counts).tolist():
-        same = np.flatnonzero(counts == count)
-        found[same] = chords[upto[same, None] + np.arange(count)].sum(axis=1)
-    return found
+
+    discs: Floats
+    upto: NDArray[np.int64]
+
+    def lengths(self) -> Floats:
+        """Return the length (m,) of each, seen from above, mm.
+
+        Those of as many chords are summed together, each as it would be alone: of branches as long the first counts,
+        and where they stand must not tell.
+        """
+        chords = np.hypot(*np.diff(self.discs[:, :2], axis=0).T)
+        counts = np.diff(self.upto) - 1
+        found = np.zeros(len(counts))
+        for count in np.unique(counts).tolist():
+            same = np.flatnonzero(counts == count)
+            found[same] = chords[self.upto[same, None] + np.arange(count)].sum(axis=1)
+        return found
+
+    def ends(self) -> Floats:
+        """Return the discs (2 m, 3) at which each begins and ends."""
+        ends: Floats = self.discs[np.stack([self.upto[:-1], self.upto[1:] - 1], axis=1).ravel()]
+        return ends
+
+
+def joined(branches: Sequence[AxisBranch]) -> JoinedBranches:
+    """Return branches one after the other."""
+    discs = np.concatenate([np.zeros((0, 3)), *[branch.discs for branch in branches]])
+    return JoinedBranches(discs, np.cumsum([0, *[len(branch.discs) for branch in branches]], dtype=np.int64))
 
 
 def between(branches: Sequence[AxisBranch], low: float, high: float) -> list[AxisBranch]:

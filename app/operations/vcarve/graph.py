@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.near_points import groups_within
-from .branches import AxisBranch, Floats, joined, lengths_along
+from .branches import AxisBranch, Floats, JoinedBranches, joined
 
 _SAME = 1e-5
 """mm; ends that are as near are one node."""
@@ -29,15 +29,14 @@ class BranchGraph:
         discs: (n, 3) x, y and radius of each node, mm: of the end that made it.
         ends: from node and to node of each branch.
         at: numbers of the branches at each node.
-        joined: the discs (k, 3) of all branches, one branch after the other, and the number (m + 1,) of the first one
-            of each.
+        joined: the branches one after the other.
     """
 
     branches: list[AxisBranch]
     discs: Floats
     ends: list[tuple[int, int]]
     at: list[list[int]]
-    joined: tuple[Floats, NDArray[np.int64]]
+    joined: JoinedBranches
 
     def remove(self, number: int) -> None:
         """Take out a branch."""
@@ -54,7 +53,7 @@ def graph_of(branches: Iterable[AxisBranch]) -> BranchGraph:
     """Return branches as a graph."""
     branches = list(branches)
     whole = joined(branches)
-    discs = _ends(*whole)
+    discs = whole.ends()
     number = groups_within(discs[:, :2], np.arange(len(discs)), len(discs), _SAME)
     _, first = np.unique(number, return_index=True)
     ends = [(a, b) for a, b in number.reshape(-1, 2).tolist()]
@@ -67,12 +66,7 @@ def graph_of(branches: Iterable[AxisBranch]) -> BranchGraph:
 
 def end_discs(branches: Sequence[AxisBranch]) -> Floats:
     """Return the discs (2 n, 3) at which branches begin and end, one branch after the other."""
-    return _ends(*joined(branches))
-
-
-def _ends(discs: Floats, upto: NDArray[np.int64]) -> Floats:
-    ends: Floats = discs[np.stack([upto[:-1], upto[1:] - 1], axis=1).ravel()]
-    return ends
+    return joined(branches).ends()
 
 
 def prune(graph: BranchGraph) -> list[Floats]:
@@ -124,21 +118,22 @@ def trails(graph: BranchGraph) -> list[AxisBranch]:
         np.array(graph.ends),
         np.append(0, np.cumsum(degree)),
         at,
-        lengths_along(*graph.joined),
+        graph.joined.lengths(),
         shallowest[degree[shallowest] % 2 == 1],
         shallowest[degree[shallowest] > 0],
         steps,
     )
-    return _along(*graph.joined, steps)
+    return _along(graph.joined, steps)
 
 
-def _along(discs: Floats, upto: NDArray[np.int64], steps: NDArray[np.int64]) -> list[AxisBranch]:
+def _along(whole: JoinedBranches, steps: NDArray[np.int64]) -> list[AxisBranch]:
     """Return the ways that go along branches one after the other.
 
     Args:
-        discs, upto: of the branches, see `joined`.
-        steps: (k, 3) number of a branch, 1 where it is gone along backwards, and 1 where a way begins with it.
+        whole: the branches.
+        steps: (k, 3) what `walked` writes.
     """
+    discs, upto = whole
     branch, back, begins = steps.T
     skipped = 1 - begins  # the disc at which the branch before ended
     first, last = upto[branch] + np.where(back, 0, skipped), upto[branch + 1] - 1 - np.where(back, skipped, 0)

@@ -9,7 +9,6 @@ from itertools import pairwise
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
@@ -28,7 +27,7 @@ from ...toolpath.build import MovesBuilder, Stroke, StrokeLabel
 from ...toolpath.depth import DepthLevels
 from ...toolpath.operation_context import OperationContext, check_depth, levels_of
 from ..engrave.open_line import clear_parts, runs_of_parts
-from .branches import AxisBranch, Floats, between, branches, joined
+from .branches import AxisBranch, Floats, JoinedBranches, between, branches, joined
 from .graph import end_discs, graph_of, prune, trails
 
 _TOLD = 20
@@ -152,7 +151,7 @@ def _followed(axes: Sequence[MedialAxis]) -> tuple[list[AxisBranch], list[Floats
     """
     whole: list[AxisBranch] = []
     lone: list[Floats] = []
-    known: dict[int, tuple[tuple[Floats, NDArray[np.int64]], list[Floats]]] = {}
+    known: dict[int, tuple[JoinedBranches, list[Floats]]] = {}
     for axis in axes:
         # the axes keep their pieces alive, so that no other ones get the same id
         if id(axis.pieces) not in known:
