@@ -17,7 +17,8 @@ from app.model.motion_path import anchored
 from app.ui.framework.theme import LIGHT
 from app.ui.views.canvas.view_transform import ViewTransform
 from app.ui.views.nc.motion_hover import describe_motion, nearest_motion
-from app.ui.views.nc.motion_shapes import ViewSide, shape_motions
+from app.ui.views.nc.motion_shapes import MotionLineStyle, ViewSide, shape_motions
+from app.ui.views.nc.painting.motion_chunks import contour_chunks
 from app.ui.views.nc.painting.motion_layer import MotionColourBy, MotionLayer, MotionPaint
 from app.ui.views.nc.state_words import state_items
 
@@ -73,6 +74,34 @@ def test_a_second_pass_keeps_the_dashes_of_the_first():
     again = "G1 X20\nX40\nG0 Z5\nY9\nX0\nY5\nG1 Z-1\n" * 5 + "G1 X20\nX40\n"
     once = row_of_pixels(shapes_of(START + contour + "G1 X40\nM2\n"))
     assert (row_of_pixels(shapes_of(START + contour + again + "M2\n")) == once).mean() > 0.97
+
+
+def test_passes_without_a_lift_between_keep_the_dashes_of_the_first():
+    contour, loop = "(Contour T1: depth 1 mm)\n", "G1 X20 Y5\nX40\nY6.37\nX0\nY5\n"
+    ramp = "G1 X13 Y5\n"
+    once = row_of_pixels(shapes_of(START + contour + loop + "M2\n"))
+    down = row_of_pixels(shapes_of(START + contour + ramp + "X0\n" + loop * 7 + "M2\n"))
+    assert (down[170:] == once[170:]).mean() > 0.97
+
+
+def test_passes_without_a_lift_between_are_cut_alike():
+    """Fine pens count dashes in steps of pixels along the longer axis: only paths cut alike have them alike."""
+    turns = np.linspace(0, 2 * np.pi, 201)[1:]
+    blocks = [f"G1 X{10 * np.cos(t):.3f} Y{10 * np.sin(t):.3f}\n" for t in turns]
+    ramp, loop = "".join(blocks[:25]) + "X10 Y0\n", "".join(blocks)
+    text = f"G21 G90\nT1 M6\nG0 X10 Y0 Z5\nG1 Z0 F100\n(Contour T1: depth 1 mm)\n{ramp}{loop * 3}M2\n"
+    shapes = shapes_of(text)
+    rows = np.flatnonzero(shapes.look == MotionLineStyle.CONTOUR)
+    begins = [round(each.begins_at, 6) for each in contour_chunks(shapes, ViewSide.XY, rows, by_kind=False).chunks]
+    assert begins[-9:-6] == begins[-6:-3] == begins[-3:] and begins[-3] == 0 < begins[-2] < begins[-1]
+
+
+def test_a_pass_over_tabs_keeps_the_dashes_of_those_above():
+    contour = "(Contour T1: depth 1 mm)\n"
+    tabs = "G1 X12.7\nZ1\nX17.9\nZ0\nX31.1\nZ1\nX33\nZ0\nX40\n"
+    once = row_of_pixels(shapes_of(START + contour + "G1 X12.7\nX17.9\nX31.1\nX33\nX40\nM2\n"))
+    both = f"G1 X12.7\nX17.9\nX31.1\nX33\nX40\nG0 Z5\nY9\nX0\nY5\nG1 Z0\n{tabs}"
+    assert (row_of_pixels(shapes_of(START + contour + both + "M2\n")) == once).mean() > 0.97
 
 
 HOMING = "G21 G90\nG0 X1 Y1 Z5\nG1 Z0 F100\nX9 Z1\n{home}\nG0 X9 Y9\nG1 Z1\nX0 Y9 Z1\nM30\n"

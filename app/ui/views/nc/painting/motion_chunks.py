@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import chain, pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,12 @@ _MOST_RUNS = 5_000
 """So many changes from lines to arcs and back are told apart along contours; of more, no eye could see where dashes
 meet.
 """
+
+_SAME_PLACE = 1e-3
+"""mm; a path that comes so near a place is there again."""
+
+_MIX = (0x9E3779B97F4A7C1, 0xC2B2AE3D27D4EB5, 0x165667B19E3779F)
+"""Odd numbers that spread what they multiply over 64 bits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,9 +90,12 @@ def contour_chunks(shapes: MotionShapes, side: ViewSide, rows: Ints, by_kind: bo
         return chunks_by_style(shapes, side, rows)
     parts = []
     for own in _alike(rows, shapes.tool[rows]):
-        heads = np.arange(len(own)) % RUN == 0
+        begun = _begun(shapes, side, own)
+        # counted from where a path begins, so that all passes are cut alike: fine pens count dashes in steps of pixels
+        count = np.arange(len(own))
+        heads = (count - np.maximum.accumulate(np.where(begun, count, 0))) % RUN == 0
         heads[1:] |= by_kind & (np.diff(kinds[own]) != 0)
-        parts.append(_cut(shapes, side, own, _with_ends(np.flatnonzero(heads), shapes.breaks(own))))
+        parts.append(_cut(shapes, side, own, _with_ends(np.flatnonzero(heads), begun)))
     return MotionChunks.joined(parts)
 
 
@@ -131,7 +141,7 @@ def _cut(shapes: MotionShapes, side: ViewSide, own: Ints, heads: Ints) -> Motion
 
 
 def _begins(shapes: MotionShapes, side: ViewSide, own: Ints, heads: Ints) -> list[float]:
-    """Return how long the path is before each head, from where it last began anew, as it is seen, mm; 0 but for
+    """Return how long the path is before each head, from where its dashes last began anew, as it is seen, mm; 0 but for
     contours.
     """
     if shapes.look[own[0]] != MotionLineStyle.CONTOUR:
@@ -141,5 +151,59 @@ def _begins(shapes: MotionShapes, side: ViewSide, own: Ints, heads: Ints) -> lis
     before = np.concatenate(
         [[0.0], np.cumsum(np.where(motions.kind[own] == MotionKind.LINE, chord, shapes.length[own]))]
     )
-    begun = np.flatnonzero(shapes.breaks(own))
-    return list((before[heads] - before[begun[np.searchsorted(begun, heads, side="right") - 1]]).tolist())
+    begun = np.flatnonzero(_begun(shapes, side, own))
+    at_begin = _phases(before, begun, _numbers(_places(shapes, side, own)).first)
+    last = np.searchsorted(begun, heads, side="right") - 1
+    return list((before[heads] - before[begun[last]] + at_begin[last]).tolist())
+
+
+def _phases(before: Floats, begun: Ints, first: Ints) -> Floats:
+    """Return how far in its dashes each path begins, mm: at a place where one was before, as far as that one was there,
+    so that all passes over a contour have theirs over each other.
+
+    Args:
+        before: (n + 1,) length before each motion, mm.
+        begun: numbers of the motions with which paths begin.
+        first: (n,) the first motion that begins at the place of each.
+    """
+    phases = np.zeros(len(begun))
+    of_first = np.searchsorted(begun, first[begun], side="right") - 1
+    for k in np.flatnonzero(first[begun] < begun).tolist():
+        j = of_first[k]
+        phases[k] = before[first[begun[k]]] - before[begun[j]] + phases[j]
+    return phases
+
+
+class _Numbers(NamedTuple):
+    """Of each of some keys (n,): which number it is of the different ones, how often it is there, and where first."""
+
+    number: Ints
+    times: Ints
+    first: Ints
+
+
+def _numbers(keys: Ints) -> _Numbers:
+    _, first, number, counts = np.unique(keys, return_index=True, return_inverse=True, return_counts=True)
+    return _Numbers(number, counts[number], first[number])
+
+
+def _places(shapes: MotionShapes, side: ViewSide, own: Ints) -> Ints:
+    """Return a number (n,) for the place at which each motion begins: one, as rows of two take ten times as long to
+    sort; two places that had the same would shift some dashes.
+    """
+    x, y = np.round(shapes.program.motions.start[own][:, list(side.value)] / _SAME_PLACE).astype(np.int64).T
+    mixed: Ints = (x * _MIX[0]) ^ (y * _MIX[1])
+    return mixed
+
+
+def _begun(shapes: MotionShapes, side: ViewSide, own: Ints) -> NDArray[np.bool_]:
+    """Tell of motions along contours (n,) where dashes begin anew: where another path begins, and where a path comes by
+    the first of its places that it comes by again, so that all passes of one that goes down without a lift have their
+    dashes over each other.
+    """
+    begun = shapes.breaks(own)
+    path = np.cumsum(begun)
+    found = _numbers((path * _MIX[2]) ^ _places(shapes, side, own))
+    again = np.flatnonzero(found.times > 1)
+    _, first = np.unique(path[again], return_index=True)
+    return begun | np.isin(found.number, found.number[again[first]])
