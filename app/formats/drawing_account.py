@@ -19,7 +19,7 @@ from ..geometry.chaining.pieces import FARTHEST, straightened, within_reach
 from ..geometry.sample import bounds, bounds_of_all
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from ..model.finding import Finding, FindingKind
-from ..model.layer_names import known_layer, known_layers
+from ..model.layer_names import known_layers, spelled
 from ..model.notes import Mark
 from ..model.part import Entity, Part, Units
 from ..model.reading import ReadingOptions
@@ -252,12 +252,11 @@ def on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:
     if not layers:
         return part
     known = [layer.name for layer in part.layers]
-    missing = [layer for layer in layers if known_layer(layer, known) is None]
+    found = spelled(layers, known)
+    missing = [layer for layer, there in found.items() if there is None]
     if missing:
-        raise InputError(
-            f"{name}: there is no layer {missing[0]}; the drawing has {', '.join(layer.name for layer in part.layers)}."
-        )
-    requested = known_layers(layers, known)
+        raise InputError(f"{name}: there is no layer {missing[0]}; the drawing has {', '.join(known)}.")
+    requested = {there.casefold() for there in found.values() if there is not None}
     kept = tuple(entity for entity in part.entities if entity.layer.casefold() in requested)
     notes = tuple(note for note in part.notes if note.layer.casefold() in requested)
     if not kept and not any(isinstance(each.shape, Mark) for each in notes):

@@ -8,7 +8,7 @@ from pathlib import PurePath
 from ..core.errors import InputError
 from ..core.options import option
 from ..core.wording import together
-from ..model.layer_names import known_layer, known_layers
+from ..model.layer_names import spelled
 from ..model.part import Units
 from ..model.read_options import AS_DRAWN, OPTION_OF, DrawingOptions
 from ..model.reading import ReadingOptions
@@ -124,14 +124,12 @@ def _without_layers(drawing: Drawing, how: DrawingOptions, name: str) -> Drawing
     if not layers:
         return drawing
     part = drawing.part
-    there = [layer.name for layer in part.layers]
-    missing = [layer for layer in layers if known_layer(layer, there) is None]
-    gone = known_layers(layers, there)
+    known = [layer.name for layer in part.layers]
+    found = spelled(layers, known)
+    missing = [layer for layer, there in found.items() if there is None]
     if missing and not how.lenient:
-        raise InputError(
-            f"{name}: there is no layer {missing[0]} to leave out; the drawing has "
-            f"{', '.join(layer.name for layer in part.layers)}."
-        )
+        raise InputError(f"{name}: there is no layer {missing[0]} to leave out; the drawing has {', '.join(known)}.")
+    gone = {there.casefold() for there in found.values() if there is not None}
     kept = tuple(entity for entity in part.entities if entity.layer.casefold() not in gone)
     if not kept:
         raise InputError(f"{name}: without layer {', '.join(layers)} nothing is left to machine; leave out less.")

@@ -8,7 +8,7 @@ from fnmatch import fnmatchcase
 
 from ..core.errors import ParameterError
 from .drawn_depths import UNIT, size_of
-from .layer_names import typed_name
+from .layer_names import typed_name, typed_pattern
 from .operation import Operation
 from .part import Layer
 
@@ -69,8 +69,13 @@ class LayerRule:
     def takes(self, layer: Layer) -> bool:
         """Tell whether it is of a layer."""
         colour = COLOURS.get(self.colour.lower(), self.colour.lower())
-        named = any(fnmatchcase(layer.name.casefold(), name.casefold()) for name in (self.name, typed_name(self.name)))
-        return named and colour in ("", layer.colour.lower())
+        return self._names(layer.name.casefold()) and colour in ("", layer.colour.lower())
+
+    def _names(self, name: str) -> bool:
+        """Tell whether its own name means a layer's, casefolded; a layer's whole name means that layer."""
+        own = self.name.casefold(), typed_name(self.name).casefold()
+        patterns = self.name.casefold(), typed_pattern(self.name).casefold()
+        return name in own or any(fnmatchcase(name, pattern) for pattern in patterns)
 
 
 def depth_in(name: str) -> float | None:

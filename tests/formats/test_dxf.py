@@ -188,8 +188,13 @@ def outline(*corners: tuple[float, float, float]) -> Draw:
             outline((0, 0, 0), (40, 0, 0), (20, 0, 30))(space),
             space.add_circle((20, 9, 0), 5, dxfattribs={"extrusion": FRONT}),
         ),
+        lambda space: space.add_lwpolyline(
+            [(0, 0), (40, 0), (40, 30), (0, 30)], close=True, dxfattribs={"extrusion": FRONT}
+        ),
+        lambda space: space.add_lwpolyline([(0, 0), (40, 0), (9, 30)], close=True, dxfattribs={"extrusion": FRONT}),
+        lambda space: space.add_polyline2d([(0, 0), (40, 0), (9, 30)], close=True, dxfattribs={"extrusion": FRONT}),
     ],
-    ids=["front", "side, no line along Z", "front with a hole"],
+    ids=["front", "side, no line along Z", "front with a hole", "polyline", "leaning polyline", "heavy polyline"],
 )
 def test_a_part_that_is_drawn_upright_is_no_part_from_above_and_said(draw: Draw) -> None:
     (found,) = [each for each in read(draw).findings if "upright" in each.text]
@@ -211,6 +216,73 @@ def test_upright_lines_of_a_flat_part_are_told_and_count_for_nothing() -> None:
     )
     (found,) = [each for each in drawing.findings if "upright" in each.text]
     assert found.text.startswith("1 entity stands upright and cannot be seen from above") and not found.counts
+
+
+def at_depths(*lines: tuple[tuple[float, float, float], tuple[float, float, float]], also: Draw | None = None) -> Draw:
+    def draw(space: Any) -> None:
+        for start, end in lines:
+            space.add_line(start, end)
+        if also is not None:
+            also(space)
+
+    return draw
+
+
+@pytest.mark.parametrize(
+    "draw",
+    [
+        at_depths(((0, 0, -2), (50, 0, -2)), ((60, 0, -5), (100, 0, -5))),
+        at_depths(((0, 0, 0), (20, 0, 0)), ((20, 0, 0), (30, 0, -5)), ((30, 0, -5), (60, 0, -5))),
+        lambda space: (
+            outline((0, 0, 0), (40, 0, 0), (40, 0, 30), (0, 0, 30))(space),
+            [setattr(each.dxf, "layer", "FRONT") for each in space],
+            space.doc.layers.add("FRONT").off(),
+            space.add_line((0, 50, 0), (40, 50, 0)),
+            space.add_line((50, 50, 0), (90, 50, 0)),
+        ),
+        lambda space: space.add_lwpolyline([(0, 3), (40, 3)], dxfattribs={"extrusion": FRONT, "elevation": 5}),
+    ],
+    ids=["two depths", "a ramp between depths", "front view on a layer that is off", "level line in an upright plane"],
+)
+def test_level_cuts_on_one_line_are_a_sound_drawing(draw: Draw) -> None:
+    assert not [each for each in read(draw).findings if "upright" in each.text or each.counts]
+
+
+def test_a_few_upright_lines_on_one_line_with_flat_ones_count_for_nothing() -> None:
+    flat = [((x, 0, 0), (x + 5, 0, 0)) for x in (0, 10, 20)]
+    (found,) = [each for each in read(at_depths(*flat, ((0, 0, 0), (0, 0, -5)))).findings if "upright" in each.text]
+    assert found.text.startswith("1 entity stands upright") and not found.counts
+
+
+@pytest.mark.parametrize(
+    "stand",
+    [
+        lambda space: space.add_circle((5, 5), 3, dxfattribs={"extrusion": FRONT}),
+        lambda space: space.add_line((5, 5, 0), (5, 5, -9)),
+        lambda space: space.add_line((5, 5, 0), (5, 5 + 1e-12, -9)),
+        lambda space: space.add_polyline3d([(5, 5, 0), (5, 5, -9)]),
+        lambda space: space.add_spline([(5, 5, 0), (5, 5, -4), (5, 5, -9)]),
+        lambda space: space.add_text("HI", height=3, dxfattribs={"extrusion": FRONT}),
+        lambda space: space.add_solid([(0, 0), (5, 0), (0, 5)], dxfattribs={"extrusion": FRONT}),
+    ],
+    ids=["circle", "line", "nearly", "polyline", "spline", "text", "area"],
+)
+def test_what_stands_upright_is_told_once_and_not_as_without_length(stand: Draw) -> None:
+    drawing = read(lambda space: (space.add_circle((50, 50), 9), stand(space)))
+    told = [each.text for each in drawing.findings if "Z runs from" not in each.text]
+    assert len(drawing.part.entities) == 1 and len(told) == 1 and told[0].startswith("1 entity stands upright")
+
+
+def test_height_of_an_upright_polyline_is_that_of_its_points() -> None:
+    level = {"extrusion": FRONT, "elevation": 5}
+    drawing = read(
+        lambda space: (
+            space.add_line((0, 0), (9, 0)),
+            space.add_lwpolyline([(0, -3), (40, -3)], dxfattribs=level),
+        )
+    )
+    (depth,) = drawing.part.depths
+    assert depth.depth == pytest.approx(3) and depth.words == "Z -3 mm"
 
 
 def test_a_single_line_that_leans_is_a_line() -> None:

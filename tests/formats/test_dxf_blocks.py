@@ -93,6 +93,72 @@ def test_inserted_from_below() -> None:
     )
 
 
+FRONT = {"extrusion": (0, -1, 0)}
+"""Of a block that is inserted as it is seen from the front."""
+
+
+def upright(drawing: Drawing) -> list[tuple[str, bool]]:
+    """Return what is said of what has no length, or stands upright, and whether it counts."""
+    told = [each for each in drawing.findings if "no length" in each.text or "upright" in each.text]
+    return [(each.text.split(" and ")[0], each.counts) for each in told]
+
+
+def box(block: Any) -> None:
+    corners = [(0, 0), (50, 0), (50, 30), (0, 30)]
+    for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
+        block.add_line(start, end)
+
+
+@pytest.mark.parametrize("turned", [0, 20])
+@pytest.mark.parametrize(
+    "draw",
+    [
+        lambda block: (box(block), block.add_circle((25, 15), 5)),
+        lambda block: block.add_lwpolyline([(0, 0), (50, 0), (20, 30)], close=True),
+        lambda block: (block.add_line((0, 0), (50, 0)), block.add_spline([(0, 0), (9, 30), (30, 40), (50, 0)])),
+    ],
+    ids=["box with a hole", "triangle", "line and spline"],
+)
+def test_a_front_view_that_is_an_upright_block_is_said(draw: Any, turned: float) -> None:
+    document = new()
+    draw(document.blocks.new("B"))
+    document.modelspace().add_blockref("B", (10, 20), dxfattribs=FRONT | {"rotation": turned})
+    assert upright(read(document)) == [("All of the drawing stands upright", True)]
+
+
+def test_an_upright_block_beside_a_flat_part_is_told_once() -> None:
+    document = new()
+    block = document.blocks.new("B")
+    box(block)
+    block.add_circle((25, 15), 5)
+    block.add_text("FRONT", height=3)
+    document.modelspace().add_blockref("B", (10, 20), dxfattribs=FRONT)
+    document.modelspace().add_circle((0, 0), 9)
+    assert upright(read(document)) == [("4 entities stand upright", False)]
+
+
+def test_a_level_line_of_an_upright_block_lies_as_high_as_it_is_drawn() -> None:
+    document = new()
+    document.blocks.new("B").add_line((0, 3), (50, 3))
+    document.modelspace().add_blockref("B", (0, 0), dxfattribs=FRONT)
+    document.modelspace().add_line((0, 9, 5), (50, 9, 5))
+    drawing = read(document)
+    assert not upright(drawing) and [each.depth for each in drawing.part.depths] == [pytest.approx(2)]
+
+
+def test_upright_entities_are_counted_for_each_copy_and_not_as_without_length() -> None:
+    document = new()
+    block = document.blocks.new("B")
+    block.add_line((5, 5, 0), (5, 5, -9))
+    block.add_circle((0, 0), 5, dxfattribs=FRONT)
+    outer = document.blocks.new("C")
+    outer.add_circle((0, 0), 5)
+    outer.add_blockref("B", (0, 0))
+    for x in (0, 30, 60):
+        document.modelspace().add_blockref("C", (x, 0))
+    assert upright(read(document)) == [("6 entities stand upright", False)]
+
+
 def test_rows_and_columns_follow_the_rotation_not_the_scale() -> None:
     document = new()
     document.blocks.new("B").add_circle((0, 0), 1)

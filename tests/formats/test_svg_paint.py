@@ -70,6 +70,9 @@ def test_outlines_that_are_areas_are_told_with_their_widths() -> None:
         ('<rect width="9" height="9" filter="url(#f)"/>', 1),
         ('<g style="filter:blur(2px)"><rect width="9" height="9"/><path d="M10 10h9" stroke="red"/></g>', 2),
         ('<rect width="9" height="9" filter="none"/>', 0),
+        ('<rect width="9" height="9" filter="initial"/>', 0),
+        ('<rect width="9" height="9" filter="url(#f)" style="filter:unset"/>', 0),
+        ('<g filter="url(#f)"><rect width="9" height="9" filter="initial"/></g>', 1),
     ],
 )
 def test_filters_are_told_and_what_they_are_laid_on_is_read(body: str, count: int) -> None:
@@ -77,6 +80,13 @@ def test_filters_are_told_and_what_they_are_laid_on_is_read(body: str, count: in
     shapes = "1 shape has" if count == 1 else f"{count} shapes have"
     expected = [f"{shapes} a filter such as a blur or a shadow, which is not read."] * bool(count)
     assert drawing.part.entities and [each.text for each in drawing.findings] == expected
+
+
+@pytest.mark.parametrize("word", ["initial", "unset", "UNSET", "revert"])
+@pytest.mark.parametrize("name", ["filter", "clip-path", "mask", "opacity", "offset-path", "marker"])
+def test_words_that_take_back_what_is_said_of_a_shape_are_told_as_nothing(name: str, word: str) -> None:
+    drawing = read(f'<rect width="9" height="9" style="{name}:{word}"/>')
+    assert drawing.part.entities and not drawing.findings
 
 
 @pytest.mark.parametrize("tag", ["animate", "animateTransform", "animateMotion", "set", "script"])

@@ -84,6 +84,25 @@ def test_rules_take_layers_by_name_and_colour_in_any_case() -> None:
             LayerRule(pocket, **wrong)
 
 
+@pytest.mark.parametrize(
+    ("rule", "layer", "taken"),
+    [
+        ("A_x2A_", "A*", True),
+        ("A_x2A_", "ABC", False),
+        ("A_x3F_", "A?", True),
+        ("A_x3F_", "AB", False),
+        ("Cut_x5B_6mm_x5D_", "Cut[6mm]", True),
+        ("Cut_x5B_6mm_x5D_", "Cut6", False),
+        ("Cut[6mm]", "CUT[6mm]", True),
+        ("Cut_x5B_*", "Cut[9mm]", True),
+        ("L_x0020_*", "L 1", True),
+        ("L_x0020_*", "l_x0020_1", True),
+    ],
+)
+def test_letters_that_a_rule_writes_as_numbers_are_those_letters_alone(rule: str, layer: str, taken: bool) -> None:
+    assert LayerRule(PocketOperation(CutParameters(1)), rule).takes(Layer(layer)) == taken
+
+
 def test_a_template_makes_the_operations_of_a_drawing() -> None:
     result = made(drawing(colours={"Marks": 5}), template())
     own = result.job.operations

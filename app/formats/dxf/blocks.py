@@ -14,9 +14,10 @@ from typing import Any, NamedTuple
 from ...core.errors import HitofudeError, InputError
 from ...core.options import option
 from ...geometry.affine import Affine, transformed
-from ...model.curves import Curve, Point
+from ...geometry.sample import bounds
+from ...model.curves import Curve, Line, Point
 from ..drawing import LeftOutReason, LeftOutSort
-from ..drawing_account import LEVEL_ZERO, MOST_CURVES, LayeredCurve
+from ..drawing_account import LEVEL_ZERO, MOST_CURVES, CurveHeights, LayeredCurve
 from .block_clips import hidden_layers
 from .curves import (
     DamagedCurveError,
@@ -26,8 +27,11 @@ from .curves import (
     drawn_heights,
     ensure_whole,
     heights_of,
+    is_edge_on,
+    is_lost,
     line_type_of,
     plane_of,
+    seen_from_above,
     stands_upright,
     widths_of,
 )
@@ -156,6 +160,7 @@ class DxfContent:
         points: its points, each on its layer. letterings: what its texts draw. hatches: boundaries of its hatches.
         left_out: entities that are no curves.
         without_length: places of entities that draw nothing, None where there is no place.
+        upright: how many entities are seen edge-on from above, wholly or in part, by layer.
         hidden: blocks inserted on frozen layers.
         negative: circles and arcs that nobody knows how to draw.
         bands: polylines with a width. broken: curves with gaps.
@@ -170,6 +175,7 @@ class DxfContent:
     hatches: list[Hatch] = field(default_factory=list)
     left_out: Counter[LeftOutSort] = field(default_factory=Counter)
     without_length: list[Point | None] = field(default_factory=list)
+    upright: Counter[str] = field(default_factory=Counter)
     hidden: list[HiddenInsert] = field(default_factory=list)
     negative: list[NegativeRadius] = field(default_factory=list)
     bands: list[WidePolyline] = field(default_factory=list)
@@ -193,6 +199,7 @@ class DxfContent:
             or self.points
             or self.letterings
             or self.without_length
+            or self.upright
             or self.hidden
             or self.negative
             or self.unread
@@ -232,6 +239,67 @@ class DxfContent:
             self.any_height = True
 
 
+class _Lie(NamedTuple):
+    """Where along Z an inserted block lies.
+
+    Attributes:
+        z: of its own zero, drawing units.
+        x, y: how far it climbs along its own axes, drawing units per unit of the block; both 0 but where it is seen
+            edge-on from above.
+    """
+
+    z: float = 0.0
+    x: float = 0.0
+    y: float = 0.0
+
+    @property
+    def is_edge_on(self) -> bool:
+        """Whether it is seen edge-on from above."""
+        return bool(self.x or self.y)
+
+    def heights(self, curve: Curve) -> CurveHeights:
+        """Return where along Z a curve of a block lies that is seen edge-on."""
+        x0, y0, x1, y1 = bounds(curve)
+        corners = (curve.start, curve.end) if isinstance(curve, Line) else ((x0, y0), (x1, y0), (x0, y1), (x1, y1))
+        heights = [self.z + self.x * x + self.y * y for x, y in corners]
+        return CurveHeights(min(heights), max(heights))
+
+
+_LEVEL = _Lie()
+
+
+def _lie_of(insert: Any) -> _Lie:
+    """Return where along Z the block of an insert lies."""
+    if not is_edge_on(insert):
+        return _Lie(float(insert.dxf.insert.z))
+    matrix = insert.matrix44()
+    origin, x, y = (float(matrix.transform(at).z) for at in ((0, 0, 0), (1, 0, 0), (0, 1, 0)))
+    return _Lie(origin, x - origin, y - origin)
+
+
+def _lay(inner: DxfContent, place: Affine, outer: str, content: DxfContent, lift: float) -> None:
+    """Add the curves of a block that lies flat, so much higher, drawing units."""
+    for curve, layer, heights in inner.curves:
+        moved = transformed(curve, place)
+        if moved is None:
+            content.without_length.append(place.point(curve.start))
+        else:
+            lies = heights.lifted(lift) if lift else heights
+            content.curves.append(LayeredCurve(moved, outer if layer == "0" else layer, lies))
+
+
+def _stand(inner: DxfContent, place: Affine, outer: str, content: DxfContent, lie: _Lie) -> None:
+    """Add the curves of a block that is seen edge-on from above, and count those of which nothing is seen."""
+    for curve, layer, _ in inner.curves:
+        moved, own = transformed(curve, place), outer if layer == "0" else layer
+        if moved is None or is_lost(curve, moved):
+            content.upright[own] += 1
+        else:
+            lies = lie.heights(curve)
+            content.see((lies.low, lies.high))
+            content.curves.append(LayeredCurve(moved, own, lies))
+
+
 class DxfWalker:
     """Reads spaces of one document; every block is read once."""
 
@@ -254,8 +322,6 @@ class DxfWalker:
         self._open: list[str] = []
         self.types: set[str] = set()
         """Types of the entities that were met, also of those that were left out."""
-        self.upright = 0
-        """How many of them draw nothing because they are seen edge-on from above."""
         self._read: dict[str, None] = {}  # types of texts that are
 
     def content(self, entities: Iterable[Any]) -> DxfContent:
@@ -298,8 +364,10 @@ class DxfWalker:
             made = self._letterings(entity, kind) if self._is_text(entity, kind) else _filled(entity, kind)
             curves = [] if made else curves_of(entity)
         except NoLengthError as nothing:
-            content.without_length.append(nothing.args[0])
-            self.upright += stands_upright(entity)
+            if stands_upright(entity):
+                content.upright[entity.dxf.layer] += 1
+            else:
+                content.without_length.append(nothing.args[0])
             return
         except DamagedCurveError as damaged:
             sort, at = LeftOutSort(kind, LeftOutReason.DAMAGED), damaged.args[0]
@@ -318,7 +386,13 @@ class DxfWalker:
         if curves is None:
             content.left_out[_sort_of(kind)] += 1
             return
-        self.upright += kind == "LINE" and curves[0].start == curves[0].end and stands_upright(entity)
+        if made and is_edge_on(entity):
+            content.upright[entity.dxf.layer] += 1
+            return
+        seen = seen_from_above(entity, curves)
+        if len(seen) < len(curves):
+            content.upright[entity.dxf.layer] += 1
+            curves = seen
         content.see(heights_of(entity))
         lies = drawn_heights(entity) if curves else LEVEL_ZERO
         widths = widths_of(entity)
@@ -374,8 +448,9 @@ class DxfWalker:
             return
         for sort, count in inner.left_out.items():
             content.left_out[sort] += count * places
-        if inner.any_height:
-            content.see(z + insert.dxf.insert.z for z in inner.heights)
+        lie = _lie_of(insert)
+        if inner.any_height and not lie.is_edge_on:
+            content.see(z + lie.z for z in inner.heights)
         points = self._points(inner, places, content)
         if inner.is_empty and not points and not insert.attribs:
             return
@@ -392,7 +467,7 @@ class DxfWalker:
             clip = ClippedBlock(insert.dxf.name, _inserted_at(insert, copies[0]), _on(clipped, insert.dxf.layer))
             content.clipped.append(clip)
         for place in copies:
-            self._copy(inner, place, insert.dxf.layer, content, float(insert.dxf.insert.z))
+            self._copy(inner, place, insert.dxf.layer, content, lie)
         self._attributes(insert, copies, content)
 
     def _points(self, inner: DxfContent, places: int, content: DxfContent) -> list[LayeredPoint]:
@@ -420,8 +495,10 @@ class DxfWalker:
         layer = insert.dxf.layer.casefold()
         return layer in self._frozen and not (self._open and layer == "0")
 
-    def _copy(self, inner: DxfContent, place: Affine, outer: str, content: DxfContent, lift: float = 0.0) -> None:
-        """Add what a block draws in one place, `lift` higher, on the layer `outer` where it names none."""
+    def _copy(self, inner: DxfContent, place: Affine, outer: str, content: DxfContent, lie: _Lie = _LEVEL) -> None:
+        """Add what a block draws in one place, on the layer `outer` where it names none."""
+        for layer, count in inner.upright.items():
+            content.upright[outer if layer == "0" else layer] += count
         content.without_length += [None if p is None else place.point(p) for p in inner.without_length]
         content.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
         content.negative += [
@@ -429,7 +506,7 @@ class DxfWalker:
             for each in inner.negative
         ]
         content.clipped += [each.moved(place, outer) for each in inner.clipped]
-        content.bands += [each.moved(place, outer) for each in inner.bands]
+        content.bands += [each.moved(place, outer) for each in inner.bands if not lie.is_edge_on]
         content.unread += [
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.unread
@@ -438,15 +515,13 @@ class DxfWalker:
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.broken
         ]
-        for each in inner.more():
-            content.add(each.moved(place, outer))
-        for curve, layer, heights in inner.curves:
-            moved = transformed(curve, place)
-            if moved is None:
-                content.without_length.append(place.point(curve.start))
-            else:
-                lies = heights.lifted(lift) if lift else heights
-                content.curves.append(LayeredCurve(moved, outer if layer == "0" else layer, lies))
+        if lie.is_edge_on:
+            content.upright.update(_on((each.layer for each in inner.more()), outer))
+            _stand(inner, place, outer, content, lie)
+        else:
+            for each in inner.more():
+                content.add(each.moved(place, outer))
+            _lay(inner, place, outer, content, lie.z)
         self._bounded(
             max(len(content.hidden), len(content.negative), len(content.unread), len(content.clipped), content.size)
         )

@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 from ...geometry.affine import IDENTITY, Affine, ellipse, transformed
+from ...geometry.sample import bounds
 from ...model.curves import Arc, Circle, Curve, Line, Point
 from ..drawing_account import LEVEL_ZERO, CurveHeights
 from .splines import spline_curve
@@ -29,6 +30,8 @@ _NEEDED = {
     "TRACE": ("vtx0", "vtx1", "vtx2"),
 }
 """What each kind has to tell, its place first."""
+_SOLID = ("LINE", "SPLINE", "HELIX")
+"""Kinds whose curves have a height at each of their points, and are drawn in no plane."""
 _SPLINE_FRAME = 16
 """Flag of a POLYLINE vertex that only steers the curve and is not on it."""
 
@@ -76,8 +79,12 @@ def heights_of(entity: Any) -> Iterable[float]:
     if kind == "LINE":
         return entity.dxf.start.z, entity.dxf.end.z
     if kind == "LWPOLYLINE":
+        if is_edge_on(entity):
+            return [float(place.z) for place in entity.vertices_in_wcs()]
         return (entity.dxf.elevation * entity.dxf.extrusion.z,)
     if kind == "POLYLINE":
+        if entity.is_2d_polyline and is_edge_on(entity):
+            return [float(place.z) for place in entity.points_in_wcs()]
         return [v.dxf.location.z for v in entity.vertices] if entity.is_3d_polyline else (entity.dxf.elevation.z,)
     if kind in ("SPLINE", "HELIX"):
         return [p[2] for p in (entity.control_points or entity.fit_points)]
@@ -271,12 +278,43 @@ def polar(centre: Point, radius: float, degrees: float) -> Point:
     return centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)
 
 
+def is_edge_on(entity: Any) -> bool:
+    """Tell whether the plane that an entity is drawn in is seen edge-on from above; a line has none."""
+    if entity.dxftype() == "LINE" or not entity.dxf.hasattr("extrusion"):
+        return False
+    extrusion = entity.dxf.extrusion
+    return bool(abs(extrusion.z) < _EDGE_ON * extrusion.magnitude)
+
+
 def stands_upright(entity: Any) -> bool:
-    """Tell whether an entity, or the plane that it is drawn in, is seen edge-on from above."""
-    if entity.dxftype() == "LINE":
-        return bool(entity.dxf.start.z != entity.dxf.end.z)
-    extrusion = entity.dxf.extrusion if entity.dxf.hasattr("extrusion") else None
-    return extrusion is not None and abs(extrusion.z) < _EDGE_ON * extrusion.magnitude
+    """Tell whether an entity that has no length from above has one when it is seen from the side."""
+    return is_edge_on(entity) or rise_of(entity) > 0
+
+
+def rise_of(entity: Any) -> float:
+    """Return how far an entity climbs, drawing units."""
+    heights = [float(z) for z in heights_of(entity)]
+    return max(heights) - min(heights) if heights else 0.0
+
+
+def seen_from_above(entity: Any, curves: list[Curve]) -> list[Curve]:
+    """Return the curves of an entity without those that are seen end-on, as a line along Z is."""
+    if entity.dxftype() not in _SOLID and not is_edge_on(entity):
+        return curves
+    least = _EDGE_ON * rise_of(entity)
+    return curves if not 0 < least < math.inf else [each for each in curves if not _span(each) <= least]
+
+
+def is_lost(curve: Curve, seen: Curve) -> bool:
+    """Tell whether nothing is left of a curve that has a length, as it is seen in a plane edge-on from above."""
+    span = _span(curve)
+    return span > 0 and _span(seen) <= _EDGE_ON * span
+
+
+def _span(curve: Curve) -> float:
+    """Return the longer side of the box round a curve, drawing units."""
+    x0, y0, x1, y1 = bounds(curve)
+    return max(x1 - x0, y1 - y0)
 
 
 _READERS: dict[str, Callable[[Any], list[Curve] | None]] = {

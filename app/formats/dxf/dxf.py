@@ -16,6 +16,7 @@ from ...geometry.affine import Affine, scaled
 from ...geometry.chaining.pieces import FARTHEST
 from ...model.drawn_depths import DepthSource, DrawnDepth, depth_words
 from ...model.finding import Finding, FindingKind
+from ...model.layer_names import spelled, typed_name
 from ...model.notes import Mark, Note
 from ...model.part import Entity, Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
@@ -123,15 +124,16 @@ def read_dxf(
     loaded = load(data, name)
     document, reading = loaded.document, ReadingOptions(units, layers, how)
     unit = _unit(document, data, units, how.overrule)
-    walker = DxfWalker(document, name, layers, how.without_types)
+    requested, without = (_in_table(document, names) for names in (layers, how.without_layers))
+    walker = DxfWalker(document, name, requested, how.without_types)
     content = walker.content(layout_named(document, how.layout, name))
-    machined = _machined(document, layers, how.without_layers)
+    machined = _machined(document, requested, without)
     dxf = _DrawnDxf(document, content, all_drawn(content, machined, unit.size), unit, machined)
     found, papers = dxf.usable(how.to_zero), paper(document)
     others = Counter() if how.layout else papers
     if not found.entities and not any(machined(each.layer) for each in content.points):
         raise UndecidedError(
-            f"{name}: {_nothing(content, found, others, walker.upright)}", _asked(content, found, others, reading, unit)
+            f"{name}: {_nothing(content, found, others)}", _asked(content, found, others, reading, unit)
         )
     whole = _part(dxf, found, name)
     part = on_layers(whole, layers, name)
@@ -142,11 +144,6 @@ def read_dxf(
         *_file_findings(loaded),
         *placement_findings(found),
         *_content_findings(dxf, found),
-        *upright_findings(
-            walker.upright,
-            [each.curve for each in found.entities],
-            (content.heights[1] - content.heights[0]) * unit.size,
-        ),
         *layer_findings(document, Counter(each.layer for each in part.entities if machined(each.layer))),
         *switched_off(part, layers),
         *all_left_out(left_out),
@@ -227,6 +224,19 @@ def _content_findings(dxf: _DrawnDxf, found: UsableCurves) -> Iterator[Finding]:
     yield from hatch_findings(dxf.drawn)
     yield from band_findings([each for each in content.bands if machined(each.layer)], size)
     yield from broken_line_findings([each for each in content.broken if machined(each.layer)], size)
+    yield from _upright(dxf, found)
+
+
+def _upright(dxf: _DrawnDxf, found: UsableCurves) -> Iterator[Finding]:
+    """Yield what is seen edge-on from above, of layers that are machined."""
+    count = sum(number for layer, number in dxf.content.upright.items() if dxf.machined(layer))
+    low, high = dxf.content.heights
+    least = tolerances.CURVE / dxf.unit.size
+    if count or high - low > least:
+        sources = zip(found.entities, found.sources, strict=True)
+        shown = [(each.curve, dxf.drawn.curves[row].heights) for each, row in sources if dxf.machined(each.layer)]
+        climbs = any(heights.high - heights.low > least for _, heights in shown)
+        yield from upright_findings(count, [curve for curve, _ in shown], climbs)
 
 
 def _asked(
@@ -274,6 +284,16 @@ def _unit(document: Any, data: bytes, given: Units | None, overrule: bool) -> _U
     return _Unit(unit.value, unit, named=False)
 
 
+def _in_table(document: Any, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the names of layers as the document has them; one that its table lacks, as it stands and as it was
+    typed, for an entity may lie on it all the same.
+    """
+    found = spelled(names, [layer.dxf.name for layer in document.layers])
+    return tuple(
+        each for name, layer in found.items() for each in ((name, typed_name(name)) if layer is None else (layer,))
+    )
+
+
 def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
     requested, gone = ({layer.casefold() for layer in names} for names in (layers, without))
@@ -284,7 +304,7 @@ def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) 
     )
 
 
-def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str], upright: int) -> str:
+def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> str:
     """Return why a drawing has nothing to machine, and what to do."""
     left_out = (
         content.left_out + found.missing + Counter({PAPER: others.total(), LeftOutSort("POINT"): len(content.points)})
@@ -305,7 +325,7 @@ def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str], upr
             f"model space has no lines, arcs or curves to machine, but layout {layout} has something: say "
             f"{asked}{said}."
         )
-    if upright:
+    if content.upright.total():
         return (
             f"the drawing stands upright, and nothing of it is seen from above{said}; lay it into the XY plane in the "
             "CAD program and save it again."

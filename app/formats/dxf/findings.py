@@ -11,7 +11,7 @@ from typing import Any
 from ...core import tolerances
 from ...core.options import option
 from ...core.wording import in_plane, together
-from ...geometry.sample import bounds_of_all
+from ...geometry.sample import bounds, bounds_of_all
 from ...model.curves import Curve
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
@@ -168,15 +168,14 @@ def _hidden(inserts: list[HiddenInsert], size: float) -> Finding:
     )
 
 
-def upright_findings(count: int, curves: Sequence[Curve], rise: float) -> Iterator[Finding]:
+def upright_findings(count: int, curves: Sequence[Curve], climbs: bool) -> Iterator[Finding]:
     """Say that entities are seen edge-on; it counts where all of the drawing is, which then is no part.
 
     Args:
-        count: of entities that draw nothing for it. curves: what is read, mm. rise: from the lowest to the highest
-            place, mm.
+        count: of entities that are seen edge-on, wholly or in part. curves: what is machined, mm.
+        climbs: whether one of these curves does, by itself.
     """
-    box = bounds_of_all(curves) if len(curves) > 1 and (count or rise > tolerances.CURVE) else None
-    if box is not None and min(box[2] - box[0], box[3] - box[1]) <= tolerances.CURVE:
+    if len(curves) > 1 and (count or climbs) and _is_a_view(count, curves, climbs):
         text = (
             "All of the drawing stands upright and is seen edge-on from above; lay it into the XY plane in the CAD "
             "program and save it again."
@@ -189,6 +188,19 @@ def upright_findings(count: int, curves: Sequence[Curve], rise: float) -> Iterat
             "plane in the CAD program and save it again.",
             float(count),
         )
+
+
+def _is_a_view(count: int, curves: Sequence[Curve], climbs: bool) -> bool:
+    """Tell whether curves are those of a front or a side view: all on one line, and there are half as many upright
+    entities, or the curves climb and lie over one another; slots of several depths, and ramps between them, lie beside
+    one another.
+    """
+    box = bounds_of_all(curves)
+    if box is None or min(box[2] - box[0], box[3] - box[1]) > tolerances.CURVE:
+        return False
+    spans = (max(x1 - x0, y1 - y0) for x0, y0, x1, y1 in map(bounds, curves))
+    along = max(box[2] - box[0], box[3] - box[1])
+    return 2 * count >= len(curves) or (climbs and sum(spans) > along + tolerances.CURVE)
 
 
 def clip_findings(clipped: Sequence[ClippedBlock], size: float) -> Iterator[Finding]:

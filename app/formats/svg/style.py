@@ -56,6 +56,11 @@ _OF_SHEETS = frozenset((*_READ, *_GEOMETRY, *_UNFOLLOWED, *INDIVIDUAL))
 
 _COLOURS = ("fill", "stroke", "color")
 
+_INHERITED = ("inherit", "unset", "revert", "revert-layer")
+"""Words by which a property is as where nothing is said of it: that of the element round it, or its first value."""
+_OWN = ("clip-path", "mask", "opacity", "filter", *_UNFOLLOWED)
+"""What no element takes over from the one round it, so that its first value is that of one of which nothing is said."""
+
 _VISIBILITY = {"visible": True, "initial": True, "hidden": False, "collapse": False}
 """What else is said says nothing."""
 
@@ -143,7 +148,7 @@ class SvgStyle:
     @property
     def marked(self) -> bool:
         """True when something is drawn on its corners or ends."""
-        return any(value != "none" for value in self.markers.values())
+        return any(value.strip().lower() not in ("none", "initial") for value in self.markers.values())
 
     @property
     def ink(self) -> str:
@@ -227,7 +232,7 @@ class StyleSheet:
         in_force = {
             each.name: each.value for important in (False, True) for each in declared if each.important is important
         }
-        return _with(outer, {key: value for key, value in in_force.items() if value != "inherit"})
+        return _with(outer, {key: value for key, value in in_force.items() if _says(key, value)})
 
     def _matching(self, node: Node) -> list[_StyleRule]:
         if not self._count:
@@ -296,6 +301,14 @@ def _resolved(value: str, variables: Mapping[str, str]) -> str:
     return ""
 
 
+def _says(name: str, value: str) -> bool:
+    """Tell whether a value makes a property another than it is where nothing is said of it."""
+    word = value.strip().lower()
+    if name in _GEOMETRY:  # a style that says nothing of a place still takes the attribute's away
+        return word != "inherit"
+    return word not in _INHERITED and not (word == "initial" and name in _OWN)
+
+
 def _is_zero(opacity: str | None) -> bool:
     return opacity is not None and _ZERO.fullmatch(opacity) is not None
 
@@ -313,12 +326,12 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
     declared = {
         key: value
         for key, written in declared.items()
-        if key not in own and (value := _resolved(written, variables)) and value != "inherit"
+        if key not in own and (value := _resolved(written, variables)) and _says(key, value)
     }
     visible = _VISIBILITY.get(declared.get("visibility", "").lower(), outer.visible)
     size = declared.get("font-size", "") or size_of_font(f"{declared.get('font', '')} ")
     markers = {key: value for key, value in declared.items() if key.startswith("marker")}
-    clips = tuple(declared[key] for key in ("clip-path", "mask") if declared.get(key, "none") != "none")
+    clips = tuple(declared[key] for key in ("clip-path", "mask") if declared.get(key, "none").strip().lower() != "none")
     opacities = [declared[key] for key in ("opacity", "fill-opacity") if key in declared]
     return replace(
         outer,
@@ -346,7 +359,7 @@ def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
         dashed=any("1" <= digit <= "9" for digit in declared["stroke-dasharray"])
         if "stroke-dasharray" in declared
         else outer.dashed,
-        filtered=outer.filtered or declared.get("filter", "none").lower() != "none",
+        filtered=outer.filtered or declared.get("filter", "none").strip().lower() != "none",
         markers=({} if "marker" in markers else {**outer.markers}) | markers if markers else outer.markers,
         unfollowed=tuple(key for key in _UNFOLLOWED if declared.get(key, "none") not in ("none", "auto")),
     )

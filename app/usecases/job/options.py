@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,7 @@ from ...formats.tools.materials import stock_material
 from ...model.curve_selectors import OnLayer, Selector, layer_names
 from ...model.fields import parameters_of, with_values
 from ...model.job import Job, OriginXY, OriginZ, Stock
-from ...model.layer_names import known_layer
+from ...model.layer_names import spelled
 from ...model.layer_rules import LayerRule
 from ...model.machine import Machine
 from ...model.operation import LEAST_LENGTH, Operation, Order, Side
@@ -292,8 +292,11 @@ def with_layers_spelled(job: Job) -> Job:
     Raises:
         InputError: the part has no such layer.
     """
+    enabled = [each for each in job.operations if each.cut.enabled]
+    own = (each.name for operation in enabled for each in operation.cut.curves if isinstance(each, OnLayer))
+    spelling = _spelling((*own, *job.layer_names, *job.keep_out_layers), job.part)
     operations = tuple(
-        replace(each, cut=replace(each.cut, curves=_curves_spelled(each.cut.curves, job.part)))
+        replace(each, cut=replace(each.cut, curves=_curves_spelled(each.cut.curves, spelling)))
         if each.cut.enabled
         else each
         for each in job.operations
@@ -301,27 +304,29 @@ def with_layers_spelled(job: Job) -> Job:
     return replace(
         job,
         operations=operations,
-        layer_names=_spelled(job.layer_names, job.part),
-        keep_out_layers=_spelled(job.keep_out_layers, job.part),
+        layer_names=tuple(dict.fromkeys(spelling[name] for name in job.layer_names)),
+        keep_out_layers=tuple(dict.fromkeys(spelling[name] for name in job.keep_out_layers)),
     )
 
 
-def _curves_spelled(curves: Iterable[Selector], part: Part) -> tuple[Selector, ...]:
+def _curves_spelled(curves: Iterable[Selector], spelling: Mapping[str, str]) -> tuple[Selector, ...]:
     """Return selectors whose layers are called as the part calls them."""
-    return tuple(
-        dict.fromkeys(OnLayer(*_spelled((each.name,), part)) if isinstance(each, OnLayer) else each for each in curves)
-    )
+    return tuple(dict.fromkeys(OnLayer(spelling[each.name]) if isinstance(each, OnLayer) else each for each in curves))
 
 
-def _spelled(names: Iterable[str], part: Part) -> tuple[str, ...]:
+def _spelling(names: Iterable[str], part: Part) -> dict[str, str]:
+    """Return for each name the layer that it means, as the part calls it.
+
+    Raises:
+        InputError: the part has no such layer.
+    """
     known = [layer.name for layer in part.layers]
-    found: dict[str, None] = {}
-    for name in names:
-        layer = known_layer(name, known)
+    found: dict[str, str] = {}
+    for name, layer in spelled(names, known).items():
         if layer is None:
             raise InputError(f"{part.name}: there is no layer '{name}'; the drawing has {', '.join(known) or 'none'}.")
-        found[layer] = None
-    return tuple(found)
+        found[name] = layer
+    return found
 
 
 # The job that lies in the file of a drawing.
