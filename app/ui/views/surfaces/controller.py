@@ -417,7 +417,7 @@ class SceneController(Controller):
 
     def _on_stands(self) -> None:
         self._view.at_once = self.work.at_once
-        self._view.show_standing(self.work.state, self.work.verdict, self.work.findings)
+        self._view.show_standing(self.work.state, self.work.verdict, self.work.findings, self.work.may_retry)
         self.changed.emit()
 
     def _program(self) -> SceneProgram | None:
