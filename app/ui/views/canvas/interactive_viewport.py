@@ -22,6 +22,7 @@ from .modes import CanvasTool
 from .painting.grid import grid_steps
 from .painting.part_layer import PartLayer
 from .selection import SelectionCycle, band_line, click_line
+from .prompt_tool import PromptTool
 from .snap import SNAP_NAMES, SNAP_WORDS, best
 from .snap_state import SnapState
 from .snapped_point import SnappedPoint, rounded
@@ -106,7 +107,7 @@ class InteractiveViewport(Viewport):
         self._held_from: MousePress | None = None
         self._marks_from: MousePress | None = None
         self._carried: Point | None = None
-        self._told = (self.runner.prompt, CanvasTool.SELECT)
+        self._told = (self.runner.prompt, CanvasTool.SELECT, self._switched())
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
 
@@ -504,14 +505,19 @@ class InteractiveViewport(Viewport):
         except InputError as error:
             self.message.emit(reason_of(error))
 
+    def _switched(self) -> frozenset[str]:
+        """Return the options of the running tool that are on; where a selection is asked for no prompt tells them."""
+        tool = self.runner.tool
+        return frozenset(tool.on) if isinstance(tool, PromptTool) else frozenset()
+
     def _tell(self) -> None:
-        """Say what has changed of tool and prompt."""
+        """Say what has changed of tool, prompt and options."""
         if isinstance(self.runner.tool, DragTool) and not self.runner.tool.points:
             self.runner.start(CanvasTool.SELECT)
-        before, self._told = self._told, (self.prompt, self.runner.kind)
+        before, self._told = self._told, (self.prompt, self.runner.kind, self._switched())
         if before[1] is not self.runner.kind:
             self.tool_changed.emit(self.runner.kind)
-        if before[0] != self.prompt:
+        if (before[0], before[2]) != (self.prompt, self._told[2]):
             self.prompt_changed.emit(self.prompt)
         self.entry.refresh()
         self._show_cursor()

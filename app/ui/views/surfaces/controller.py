@@ -313,7 +313,7 @@ class SceneController(Controller):
         self._begin(text, path)
 
     def _begin(self, text: str, path: Path | None, stem: str = UNTITLED) -> None:
-        self._workspace.notice.hide()
+        self._workspace.notice.turn_over()
         self.front_requested.emit()
         self._side.panel.subject = ("scene", 0)
         self.work.begin(text, path, stem)
