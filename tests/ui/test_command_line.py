@@ -321,3 +321,16 @@ def test_fonts_are_offered_when_one_is_asked_for(qtbot, wiring):
     assert begun == "serif bold it" and [offer.word for offer in found] == ["DejaVu Serif Bold Italic"]
     line.entered.emit("DejaVu Serif Bold Italic")
     assert wiring.log.lines[-1].command == 'text 5,5 10 "Mt Fuji" font "DejaVu Serif Bold Italic"'
+
+
+def test_an_option_is_lit_also_while_a_selection_is_asked_for(qtbot, wiring):
+    """The prompt does not tell of it then, and nothing else was looked at."""
+    canvas, line = wiring.window_.canvas, wiring.window_.command_line
+    wiring.document.run("rect 0,0 60,40")
+    canvas.set_tool(CanvasTool.ROTATE)
+    assert not line.options["copy"].property("on")
+    qtbot.mouseClick(line.options["copy"], Qt.MouseButton.LeftButton)
+    assert line.options["copy"].property("on")
+    line.edit.setText("copy")
+    qtbot.keyClick(line.edit, Qt.Key.Key_Return)
+    assert not line.options["copy"].property("on"), "typed, it is switched off again"

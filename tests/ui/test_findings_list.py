@@ -6,8 +6,9 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QLabel, QPushButton
 
+from app.core.memory import within
 from app.model.finding import Finding, FindingKind
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
@@ -82,3 +83,20 @@ def test_a_layer_of_lines_that_bound_nothing_is_hidden_by_its_finding(qtbot, wir
     assert not [finding for finding in wiring.display_controller.findings if finding.counts]
     wiring.document.undo()
     assert next(layer for layer in wiring.document.part.layers if layer.name == "CENTER").visible
+
+
+def test_a_run_that_failed_says_why_before_what_is_known_of_the_drawing(qtbot, wiring) -> None:
+    """The view sent to the badge, whose list was headed "No findings, 1 remark" and did not have the reason."""
+    wiring.document.run("rect 0,0 60,40")
+    wiring.computation.forget((Finding(FindingKind.LEFT_OUT, "Left out: 2 TEXT.", counts=False),))
+    wiring.display_controller.show_view(View.PATHS)
+    with within(1_000), qtbot.waitSignal(wiring.computation.failed, timeout=WAIT_MS) as told:
+        wiring.computation.start()
+    empty, error = wiring.window_.views.empty, told.args[0]
+    assert "memory" in error and empty.sentence.text() == error
+    assert empty.button.isVisible() and empty.button.text() == "Compute again", "there may be more of it by then"
+    wiring.display_controller.open_findings()
+    said = [label.text() for label in wiring.window_.findings_list.findChildren(QLabel)]
+    assert said[:3] == ["Could not be computed", error, "No findings, 1 remark"] and "Left out: 2 TEXT." in said
+    qtbot.mouseClick(empty.button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)

@@ -91,3 +91,16 @@ def test_a_question_that_another_sentence_took_the_place_of_comes_back(qtbot, no
     assert answered == ["Recover", "Undo"] and notice.sentence == "Work was kept."
     notice.hide()
     assert notice.isHidden(), "it was closed"
+
+
+def test_what_is_opened_closes_a_question_about_what_was_before_and_no_offer_that_comes_back(notice):
+    notice.ask("It has no units.", [("Inches", lambda: None)], stays=True)
+    notice.turn_over()
+    assert notice.isHidden()
+    notice.ask("Work was kept.", [("Recover", lambda: None)], stays=True)
+    notice.come_back()
+    notice.turn_over()
+    assert notice.isVisible() and notice.sentence == "Work was kept."
+    notice.ask("It has no units.", [("Inches", lambda: None)], stays=True)
+    notice.turn_over()
+    assert notice.isVisible() and notice.sentence == "Work was kept."

@@ -115,6 +115,18 @@ def test_a_start_offers_it_over_the_last_files(qtbot, wiring, crashed):
     assert not wiring.window_.views.starting
 
 
+def test_what_is_opened_instead_leaves_the_offer(qtbot, wiring, crashed):
+    """The window's own close of the bar took it away for good, as if the user had closed it."""
+    wiring.recovery_controller.offer()
+    wiring.files.new()
+    notice = wiring.window_.notice
+    assert notice.isVisible() and "ended before plate.hito" in notice.sentence
+    wiring.files.open_sample()
+    qtbot.waitUntil(lambda: "fig. 2 of the 1986 patent" in notice.sentence, timeout=WAIT_MS)
+    notice.hide()
+    assert notice.isVisible() and "ended before plate.hito" in notice.sentence
+
+
 def test_a_start_with_a_file_offers_it_once_that_is_open(qtbot, wiring, crashed):
     start.begin(wiring, crashed)
     qtbot.waitUntil(lambda: "ended before plate.hito" in wiring.window_.notice.text.text(), timeout=WAIT_MS)

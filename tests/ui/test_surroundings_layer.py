@@ -17,6 +17,7 @@ from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.operation_groups import BY_HAND
 from app.ui.panels.side_panel import SidePanel
 from app.ui.views.canvas.canvas import Canvas
+from app.ui.views.canvas.interactive_viewport import PICK_PX
 from app.ui.views.canvas.marker_mode import MarkerMode
 from app.ui.views.canvas.painting.stock_outline import DASH_PERIOD, edges_seen
 
@@ -179,6 +180,31 @@ def test_tabs_are_put_moved_and_taken_away_by_clicks(qtbot, wiring):
     assert document.job.operations[index].tabs == Tabs(places=(place,))
     qtbot.keyClick(canvas, Qt.Key.Key_Escape)
     assert hand.text() == BY_HAND
+
+
+def drag_and_zoom(qtbot, canvas, start: QPoint, end: QPoint) -> None:
+    """Drag from one px to another, and turn the wheel there before the button goes up."""
+    qtbot.mousePress(canvas, Qt.MouseButton.LeftButton, pos=start)
+    qtbot.mouseMove(canvas, end)
+    canvas.zoom_by(3.0, QPointF(end))
+    assert canvas.marker_mode is None or canvas.marked_places == [canvas.view.to_world(QPointF(end))]
+    qtbot.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=end)
+
+
+def test_a_place_is_moved_from_where_the_button_went_down_though_the_view_moves(qtbot, canvas):
+    """Kept in px, the start was elsewhere after a turn of the wheel: another tab was put, and none moved."""
+    moved: list[tuple] = []
+    canvas.mark(MarkerMode("Places", lambda: [(20.0, 0.0)], lambda *_: None, move=lambda *way: moved.append(way)))
+    start, end = canvas.view.to_screen((20.3, 0.3)).toPoint(), QPoint(300, 200)
+    at, reach = canvas.view.to_world(QPointF(start)), PICK_PX / canvas.view.scale
+    drag_and_zoom(qtbot, canvas, start, end)
+    assert moved == [(at, canvas.view.to_world(QPointF(end)), reach)]
+
+
+def test_a_window_selects_from_where_the_button_went_down_though_the_view_moves(qtbot, canvas):
+    start, end = (canvas.view.to_screen(place).toPoint() for place in ((-5.0, 45.0), (45.0, -5.0)))
+    drag_and_zoom(qtbot, canvas, start, end)
+    assert canvas.document.selection == frozenset(range(1, 9))
 
 
 def test_the_stock_grows_with_copies_and_not_with_clamps(qtbot, document):

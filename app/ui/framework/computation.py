@@ -80,7 +80,7 @@ class Computation(QObject):
     Attributes:
         made: the last result of this document, also when it is out of date; None before the first.
         picture: its moves as `prepare` has made them ready for painting.
-        error: why the last run failed, or "".
+        error: why the last run failed, or "". may_retry: whether the same run may do better another time.
         drawing_findings: what reading the drawing had to say.
         pixels: a part that came from a picture, and its pixels: it is computed on these; None = there was no picture.
     """
@@ -99,7 +99,7 @@ class Computation(QObject):
         self._compared: tuple[Job, Job, bool] | None = None
         self.made: MakeResult | None = None
         self.picture: object = None
-        self.error = ""
+        self.error, self.may_retry = "", False
         self.drawing_findings: tuple[Finding, ...] = ()
         self.pixels: tuple[Part, BitmapPart] | None = None
         worker.done.connect(self._on_done)
@@ -234,7 +234,7 @@ class Computation(QObject):
     def _on_failed(self, answer: JobOutcome) -> None:
         if answer.job_id == self._job_id:
             self._end()
-            self.error = answer.error or ""
+            self.error, self.may_retry = answer.error or "", answer.again
             self.changed.emit()
             self.failed.emit(self.error)
 

@@ -92,6 +92,13 @@ class Notice(QWidget):
         if not self._stays:
             self.hide()
 
+    def turn_over(self) -> None:
+        """Close the bar because something else is open from now on, even a question about what was before; one that
+        comes back is about neither, and stays.
+        """
+        if self._comes_back is None:
+            self.hide()
+
     def lapse(self) -> None:
         """Close the bar, with its buttons, if it speaks of the job as it was before it changed."""
         if self._of_job:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QResizeEvent, QWheelEvent
+from PySide6.QtGui import QResizeEvent
 
 from ...core.errors import HitofudeError
 from ...drafting.document import Document, DocumentChange
@@ -88,6 +88,7 @@ class SidePanel(SideScroll):
         self.advice.closed.connect(self.switch_advice)
         self.library.added.connect(self._add_from_library)
         self.library.put.connect(self._put_from_library)
+        self.verticalScrollBar().actionTriggered.connect(lambda _: self._let_user_scroll())
         self._document.subscribe(self._on_change)
 
     def choose(self, subject: Subject) -> None:
@@ -132,10 +133,14 @@ class SidePanel(SideScroll):
             bar, sheet = self.verticalScrollBar(), self.advice.geometry()
             bar.setValue(min(sheet.top(), max(bar.value(), sheet.bottom() + 1 - self.viewport().height())))
 
-    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
-        """Scroll; from now on the user says what is in sight."""
+    def focusNextPrevChild(self, forward: bool) -> bool:  # noqa: N802 (Qt's name)
+        """Go to the next field, and scroll to it."""
+        self._let_user_scroll()
+        return super().focusNextPrevChild(forward)
+
+    def _let_user_scroll(self) -> None:
+        """From now on the user says what is in sight."""
         self._follows_advice = False
-        super().wheelEvent(event)
 
     def _fit_library(self) -> None:
         """Give the library's list the room that is left, and bring it into sight."""

@@ -348,6 +348,11 @@ class DisplayController(QObject):
             self._window.findings_list.show_findings(other.findings, self._window.status.badge, said, mends=other.mends)
             return
         shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
+        if self._computation.state is ComputationState.FAILED:
+            self._window.findings_list.show_failure(
+                self._computation.error, self.findings, self._window.status.badge, shown
+            )
+            return
         mends = self._mends if self._computation.state is ComputationState.CURRENT else None
         self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown, mends)
 
@@ -359,7 +364,6 @@ class DisplayController(QObject):
         sentences = {
             ComputationState.NONE: "Nothing was computed yet. Press F5.",
             ComputationState.STALE: "The paths are out of date. Press F5.",
-            ComputationState.FAILED: computing.error,
             ComputationState.RUNNING: "The paths are being computed.",
         }
         return sentences.get(computing.state, "No gouge, nothing left that a tool could reach, no rapid in material.")

@@ -171,7 +171,7 @@ class FileController(QObject):
         self._document.load(replace(self._document.job, part=Part()))
         self._computation.forget()
         self._log.note("new", "Empty drawing, same tools.")
-        self._window.notice.hide()
+        self._window.notice.turn_over()
         self._showing.show_view(View.DRAW)
         self.begun.emit()
 
@@ -263,7 +263,7 @@ class FileController(QObject):
         self.save_controller.known = opened.stamp
         self._computation.forget(opened.drawing.findings)
         self._log.note(f"open {opened.path.name}", self._opened_sentence(opened))
-        window.notice.hide()
+        window.notice.turn_over()
         self.reread_controller.know(opened)
         if opened.project is not None:
             self.save_controller.beside.mark_saved(opened.project.beside)

@@ -54,6 +54,6 @@ class StagesCoordinator(QObject):
 
     def _on_picture_taken(self, path: Path) -> None:
         self._window.workspace.preferences.add_recent(path)
-        self._window.notice.hide()
+        self._window.notice.turn_over()
         self._display.show_view(View.STAGES)
         self._window.canvas.fit()

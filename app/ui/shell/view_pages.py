@@ -8,7 +8,7 @@ from typing import Protocol
 from PySide6.QtWidgets import QWidget
 
 from ..framework.computation import ComputationState
-from ..framework.missing import NOTHING, MissingHint
+from ..framework.missing import NOTHING, MissingHint, failed_hint
 from ..framework.view import View, ViewPage, views
 from ..views.canvas.modes import CanvasTool
 from ..views.surfaces.scene_computation import SceneState
@@ -19,7 +19,6 @@ NO_DRAWING = MissingHint(
 )
 NO_PART = MissingHint("Nothing is drawn yet. Draw a part, type  rect 0,0 60,40  or open a drawing.", "Open a drawing")
 NO_PATHS = MissingHint("There are no tool paths yet.", "Compute  F5", "compute")
-PATHS_FAILED = MissingHint("The paths could not be computed; the badge below tells why.")
 NO_CUT = MissingHint("There is no cut yet.", "Compute  F5", "compute")
 CUTTING = MissingHint("The program is being cut.", "Cancel  Shift+F5", "cancel")
 CUT_PREPARED = MissingHint("The cut is being made ready to be looked at.")
@@ -33,7 +32,6 @@ NO_SCENE = MissingHint(
     "scene_compound",
 )
 WRONG_SCENE = MissingHint("The scene's text is wrong; the line is marked at the right.", "Open another scene")
-SCENE_FAILED = MissingHint("The scene could not be computed; the badge below tells why.")
 SCENE_WAITS = MissingHint("The scene is not computed yet.", "Compute  F5", "compute")
 SCENE_COMPUTING = MissingHint("The scene is being computed.", "Cancel  Shift+F5", "cancel")
 SCENE_UNPROVEN = MissingHint(
@@ -57,7 +55,6 @@ SLOW_SURFACES_PROMPT = (
 _NO_SCENE = {
     SceneState.NONE: NO_SCENE,
     SceneState.WRONG: WRONG_SCENE,
-    SceneState.FAILED: SCENE_FAILED,
     SceneState.CHANGED: SCENE_WAITS,
     SceneState.COMPUTING: SCENE_COMPUTING,
     SceneState.PROVING: SCENE_COMPUTING,
@@ -179,7 +176,11 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         return SURFACES_PROMPT if surfaces.at_once else SLOW_SURFACES_PROMPT
 
     def scene_missing() -> MissingHint:
-        return NOTHING if surfaces.shown is not None else _NO_SCENE[surfaces.state]
+        if surfaces.shown is not None:
+            return NOTHING
+        if surfaces.state is SceneState.FAILED:
+            return failed_hint(surfaces.verdict.tip, surfaces.may_retry, "compute")
+        return _NO_SCENE[surfaces.state]
 
     return {
         View.STAGES: ViewPage(
@@ -226,5 +227,5 @@ def _of_job(
     if window.computation.state is ComputationState.RUNNING:
         return COMPUTING
     if window.computation.state is ComputationState.FAILED:
-        return PATHS_FAILED
+        return failed_hint(window.computation.error, window.computation.may_retry, "compute")
     return otherwise if window.document.part.entities else none_drawn()

@@ -5,15 +5,21 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.core.progress import Progress
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.operation import CutParameters, PocketOperation
 from app.model.tool import Tool
 from app.ui.framework.computation import ComputationState
+from app.ui.framework.verdict import VerdictLevel
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.window_controller import WindowController
+from app.ui.views.cut.cell_colours import CutColourBy
+from app.ui.views.cut.controller import trial_shown
 from app.ui.views.cut.cut_player import PlaybackStep
+from app.ui.views.cut.findings import title_of
+from app.usecases.mending import Mend
 from tests.part_shapes import layered_part, square
 
 
@@ -99,3 +105,20 @@ def test_a_mend_is_one_step_that_is_computed_and_can_be_taken_back(qtbot: QtBot,
     wiring.document.undo()
     assert wiring.document.job.operations[0].cut == cut
     assert wiring.computation.state is ComputationState.STALE
+
+
+def test_a_preview_is_headed_by_the_verdict_on_the_whole_program(qtbot: QtBot, wiring: WindowController) -> None:
+    """It was "Clean" where the drawing had an open contour, which is found on its way into paths, not in the cut."""
+    for line in ("rect 0,0 20,20", "line 4,4 9,4"):
+        wiring.document.run(line)
+    job = Job(wiring.document.part, (Tool(1, 6.0),), (PocketOperation(CutParameters(1, depth=1.0)),))
+    control, panel = wiring.cut_controller, wiring.window_.cut_panel
+    making = wiring.computation.making(job)
+    trial = trial_shown(Mend("Depth 1 mm", "depth 2 to 1 mm", job), making, CutColourBy.DEPTH, Progress())
+    assert any(each.kind is FindingKind.OPEN_CONTOUR and each.counts for each in trial.findings)
+    assert trial.cut is not None and title_of(trial.cut) == "Clean", "the cut alone does not know of it"
+    control._show_trial(trial, wiring.document.revision)
+    told = control.shown_document
+    assert told is not None and told.verdict is not None and told.findings == trial.findings
+    assert panel.title.text() == told.verdict.text == f"Preview · {trial.told.text}" != "Preview · Clean"
+    assert told.verdict.level is trial.told.level is not VerdictLevel.OK

@@ -15,7 +15,7 @@ from app.ui.views.canvas.painting.curve_path import ELEMENT
 from app.ui.views.nc.line_marks import CUT, line_marks
 from app.ui.views.nc.motion_hover import describe_motion, nearest_motion, outline
 from app.ui.views.nc.motion_shapes import CONTOUR_INK, MotionLineStyle, ViewSide, shape_motions, tool_inks
-from app.ui.views.nc.painting.motion_layer import MotionLayer
+from app.ui.views.nc.painting.motion_layer import MotionLayer, MotionPaint
 from tests.ui.nc.hand_made import motions_of, program_of
 
 CCW, CW, LINE, RAPID = MotionKind.ARC_CCW, MotionKind.ARC_CW, MotionKind.LINE, MotionKind.RAPID
@@ -150,6 +150,18 @@ def test_contours_have_the_colour_of_the_paths_view_whatever_tool_cuts_them():
     cuts = [3, 5, 8, 11]
     assert [code - CUT for code in line_marks(13, shapes).by_tool[cuts].tolist()] == [0, CONTOUR_INK, 2, CONTOUR_INK]
     assert LIGHT.tools[:3] == (LIGHT.pocket, LIGHT.contour, LIGHT.rest)
+
+
+def test_a_second_tool_for_contours_alone_has_its_own_colour_in_text_picture_and_cut():
+    """Text and picture had both in that of contours, while the cut told them apart."""
+    text = "G21 G90\nT1 M6\n(Contour T1: depth 1 mm)\nG1 X1 F100\nT2 M6\n(Contour T2: depth 1 mm)\nG1 X3\nM2\n"
+    program = read_program(text.encode(), ReadOptions())
+    shapes = shape_motions(program, contour_motions(text.encode(), program))
+    inks = tool_inks(shapes)
+    assert inks == {1: CONTOUR_INK, 2: 0}
+    assert [code - CUT for code in line_marks(8, shapes).by_tool[[3, 6]].tolist()] == [inks[1], inks[2]]
+    key = MotionLayer(shapes, ViewSide.XY).key(MotionPaint(LIGHT))
+    assert [row.colour for row in key] == [LIGHT.tools[inks[1]], LIGHT.tools[inks[2]]]
 
 
 def test_a_program_that_does_not_tell_its_contours_has_the_cycle_of_tools():

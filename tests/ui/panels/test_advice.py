@@ -1,9 +1,13 @@
 """The sheet "Which tool?": filled from the drawing on a worker, used by clicks, undone like anything else."""
 
 from dataclasses import replace
+from functools import partial
 
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractSlider, QApplication, QScrollBar, QWidget
 
 from app.core.resources import resource
 from app.formats.readers import read_drawing
@@ -97,15 +101,67 @@ def test_places_are_shown_and_the_sheet_closes(qtbot, panel, workspace, sheet):
     assert sheet.isHidden() and panel.operation_form.isVisible()
 
 
-def test_the_sheet_is_in_sight_once_it_is_filled(qtbot, panel, workspace):
+@pytest.fixture
+def low_sheet(qtbot, panel, workspace):
+    """The sheet, filled and in sight, in a panel that does not hold all that is above it."""
     panel.resize(328, 500)
     advising = AdviceController(panel, workspace)
     qtbot.mouseClick(panel.tools.advice_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: bool(panel.advice._made) and not advising.worker.busy, timeout=3 * WAIT_MS)
-    shown = panel.viewport().rect()
+    sheet = panel.advice
+    qtbot.waitUntil(lambda: sheet.height() >= sheet.sizeHint().height() and in_sight(panel), timeout=WAIT_MS)
+    return sheet
 
-    def top() -> int:
-        return panel.advice.mapTo(panel.viewport(), QPoint(0, 0)).y()
 
-    qtbot.waitUntil(lambda: top() == 0 or top() + panel.advice.height() == shown.height(), timeout=WAIT_MS)
-    assert 0 <= top() < shown.height() // 2
+def in_sight(panel) -> bool:
+    """Return whether the whole sheet is seen, or its head at the top where it is higher than the panel."""
+    top = panel.advice.mapTo(panel.viewport(), QPoint(0, 0)).y()
+    return top == 0 or (top > 0 and top + panel.advice.height() <= panel.viewport().height())
+
+
+def test_the_sheet_is_in_sight_once_it_is_filled(panel, low_sheet):
+    """While it fills, it grows: seen whole at first, then its head alone."""
+    assert low_sheet.height() > panel.viewport().height() > 0
+    assert low_sheet.mapTo(panel.viewport(), QPoint(0, 0)).y() == 0
+
+
+@pytest.mark.parametrize("way", ["bar", "page", "wheel", "tab"])
+def test_the_panel_stays_where_the_user_scrolled_it(qtbot, panel, low_sheet, way):
+    """Only the wheel counted: dragged by its bar, or moved by keys, the panel jumped back as soon as the sheet grew."""
+    bar = panel.verticalScrollBar()
+    assert bar.value() > 0
+    ways = {
+        "bar": partial(drag_to_top, bar),
+        "page": partial(bar.triggerAction, QAbstractSlider.SliderAction.SliderToMinimum),
+        "wheel": partial(turn_wheel, panel.viewport()),
+        "tab": partial(tab_to_top, panel),
+    }
+    ways[way]()
+    at = bar.value()
+    assert not in_sight(panel)
+    low_sheet.setMinimumHeight(low_sheet.height() + 40)
+    qtbot.waitUntil(lambda: low_sheet.height() == low_sheet.minimumHeight(), timeout=WAIT_MS)
+    QApplication.processEvents()
+    assert bar.value() == at
+
+
+def drag_to_top(bar: QScrollBar) -> None:
+    bar.setSliderDown(True)
+    bar.setSliderPosition(bar.minimum())
+    bar.setSliderDown(False)
+
+
+def turn_wheel(viewport: QWidget) -> None:
+    at = QPointF(viewport.rect().center())
+    buttons, keys = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier
+    phase = Qt.ScrollPhase.NoScrollPhase
+    turn = QWheelEvent(at, viewport.mapToGlobal(at), QPoint(), QPoint(0, 12000), buttons, keys, phase, False)
+    QApplication.sendEvent(viewport, turn)
+
+
+def tab_to_top(panel: SidePanel) -> None:
+    """Go on from field to field by Tab until the first one is in sight again."""
+    for _ in range(200):
+        QTest.keyClick(panel.focusWidget() or panel, Qt.Key.Key_Backtab)
+        if panel.verticalScrollBar().value() == 0:
+            return

@@ -136,12 +136,35 @@ class FindingsList(QFrame):
         """
         self._clear()
         self._layers, self._mends = layers, mends or _no_mends
-        counting = sum(f.counts for f in findings)
-        remarks = counted(len(findings) - counting, "remark") if len(findings) > counting else ""
-        title = heading(", ".join(filter(None, (counted(counting, "finding") if counting else "No findings", remarks))))
+        self._add_title(_count_words(findings))
+        self._column.addWidget(self._list(findings) if findings else self._sentence(empty))
+        self._open_above(above)
+
+    def show_failure(
+        self, error: str, findings: tuple[Finding, ...], above: QWidget, layers: frozenset[str] = frozenset()
+    ) -> None:
+        """Open above a widget, headed by why nothing could be computed.
+
+        Args:
+            error: why, a sentence.
+            findings: what is known all the same, such as of the drawing. above, layers: as of `show_findings`.
+        """
+        self._clear()
+        self._layers, self._mends = layers, _no_mends
+        self._add_title("Could not be computed")
+        self._column.addWidget(self._sentence(error))
+        if findings:
+            self._add_title(_count_words(findings))
+            self._column.addWidget(self._list(findings))
+        self._open_above(above)
+
+    def _add_title(self, words: str) -> None:
+        title = heading(words)
         title.setContentsMargins(16, 0, 16, 6)
         self._column.addWidget(title)
-        self._column.addWidget(self._list(findings) if findings else self._sentence(empty))
+
+    def _open_above(self, above: QWidget) -> None:
+        """Be as large as what is listed, with the right edge at that of a widget."""
         self.setFixedWidth(520)
         self.adjustSize()
         corner = above.mapToGlobal(QPoint(above.width() - self.width(), -self.height() - 4))
@@ -214,6 +237,13 @@ class FindingsList(QFrame):
     def _pick(self, finding: Finding) -> None:
         self.hide()
         self.picked.emit(finding)
+
+
+def _count_words(findings: tuple[Finding, ...]) -> str:
+    """Return how many findings there are, and remarks: "2 findings, 1 remark"."""
+    counting = sum(f.counts for f in findings)
+    remarks = counted(len(findings) - counting, "remark") if len(findings) > counting else ""
+    return ", ".join(filter(None, (counted(counting, "finding") if counting else "No findings", remarks)))
 
 
 def _no_mends(_: Finding) -> tuple[OfferedMend, ...]:

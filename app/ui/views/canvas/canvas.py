@@ -321,7 +321,7 @@ class Canvas(InteractiveViewport):
             self._paint_tool(painter)
         self._paint_marks(painter)
         if self.banding and self.band_from is not None and self.mouse is not None:
-            overlay.paint_band(painter, self.band_from, self.mouse, theme)
+            overlay.paint_band(painter, self.view.to_screen(self.band_from.at), self.mouse, theme)
         painter.setClipping(False)
         if self.mouse is not None and self.area.contains(self.mouse):
             paint_ruler_marks(painter, self.mouse, theme)

@@ -22,6 +22,7 @@ from .modes import CanvasTool
 from .painting.grid import grid_steps
 from .painting.part_layer import PartLayer
 from .selection import SelectionCycle, band_line, click_line
+from .prompt_tool import PromptTool
 from .snap import SNAP_NAMES, SNAP_WORDS, best
 from .snap_state import SnapState
 from .snapped_point import SnappedPoint, rounded
@@ -46,6 +47,19 @@ class MouseAnswers:
 
     look_at: Callable[[Point | None], None]
     fit: Callable[[], None]
+
+
+@dataclass(frozen=True, slots=True)
+class MousePress:
+    """Where a button went down; the view may move while it is held.
+
+    Attributes:
+        position: on the canvas, px. at: in the drawing, mm. reach: how near counted as on a thing then, mm.
+    """
+
+    position: QPointF
+    at: Point
+    reach: float
 
 
 class InteractiveViewport(Viewport):
@@ -85,15 +99,15 @@ class InteractiveViewport(Viewport):
         self.entry = ValueEntry(self.runner, edited, self._size)
         self.mouse: QPointF | None = None
         self.aim: SnappedPoint | None = None
-        self.band_from: QPointF | None = None
+        self.band_from: MousePress | None = None
         self.marker_mode: MarkerMode | None = None
         self.snap_state, self.grips, self.turns = SnapState(self.picture, self), Grips(), SelectionCycle()
         self.snap_state.changed.connect(self._aim_again)
         self._space = False
-        self._held_from: QPointF | None = None
-        self._marks_from: QPointF | None = None
+        self._held_from: MousePress | None = None
+        self._marks_from: MousePress | None = None
         self._carried: Point | None = None
-        self._told = (self.runner.prompt, CanvasTool.SELECT)
+        self._told = (self.runner.prompt, CanvasTool.SELECT, self._switched())
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
 
@@ -139,7 +153,7 @@ class InteractiveViewport(Viewport):
             return []
         places = list(mode.places())
         if mode.move is not None and self._marks_from is not None and _apart(self._marks_from, self.mouse):
-            carried = place_near(places, self.view.to_world(self._marks_from), PICK_PX / self.view.scale)
+            carried = place_near(places, self._marks_from.at, self._marks_from.reach)
             if carried is not None and self.mouse is not None:
                 places[places.index(carried)] = self.view.to_world(self.mouse)
         return places
@@ -147,14 +161,13 @@ class InteractiveViewport(Viewport):
     def _let_mark(self, position: QPointF) -> None:
         """Mark where the button was pressed, or move what was dragged from there."""
         begun, self._marks_from = self._marks_from, None
-        mode, reach = self.marker_mode, PICK_PX / self.view.scale
+        mode = self.marker_mode
         if mode is None or begun is None:
             return
-        start = self.view.to_world(begun)
         if mode.move is not None and _apart(begun, position):
-            mode.move(start, self.view.to_world(position), reach)
+            mode.move(begun.at, self.view.to_world(position), begun.reach)
         else:
-            mode.click(start, reach)
+            mode.click(begun.at, begun.reach)
         self.update()
 
     def set_tool(self, tool: CanvasTool) -> None:
@@ -260,7 +273,7 @@ class InteractiveViewport(Viewport):
         elif button is Qt.MouseButton.LeftButton and self.area.contains(event.position()):
             self._move_to(event)
             if self.marker_mode is not None:
-                self._marks_from = event.position()
+                self._marks_from = self._press(event.position())
             elif self.aim is None:
                 self._take_hold(event.position(), self._adds(event))
             else:
@@ -427,6 +440,10 @@ class InteractiveViewport(Viewport):
             self.runner.click(found.point)
         self._tell()
 
+    def _press(self, position: QPointF) -> MousePress:
+        """Return what is kept of a button that goes down at a position, px."""
+        return MousePress(QPointF(position), self.view.to_world(position), PICK_PX / self.view.scale)
+
     def _take_hold(self, position: QPointF, adding: bool) -> None:
         """Take what is under the mouse in hand: a grip at once, the selection as soon as the mouse moves, else begin a
         window.
@@ -434,10 +451,10 @@ class InteractiveViewport(Viewport):
         reach = PICK_PX / self.view.scale
         grip = self.grips.at(self.view.to_world(position), GRIP_PX / self.view.scale)
         if grip is not None and not adding:
-            self._held_from = position
+            self._held_from = self._press(position)
             self._hold(pull_tool(self.document, grip))
             return
-        self.band_from = position
+        self.band_from = self._press(position)
         at = self.view.to_world(position)
         if self.runner.tool is None and any(thing.id in self.document.selection for thing in self.candidates()):
             snap = best(self.picture.near_points(at, reach), at, reach)
@@ -478,7 +495,8 @@ class InteractiveViewport(Viewport):
     def _band_line(self, event: QMouseEvent) -> str:
         """Return the line that selects by the window dragged."""
         assert self.band_from is not None
-        a, b = (rounded(self.view.to_world(p), self.view.scale) for p in (self.band_from, event.position()))
+        end = self.view.to_world(event.position())
+        a, b = (rounded(point, self.view.scale) for point in (self.band_from.at, end))
         return band_line((a, b), self._adds(event))
 
     def _run(self, line: str) -> None:
@@ -487,20 +505,27 @@ class InteractiveViewport(Viewport):
         except InputError as error:
             self.message.emit(reason_of(error))
 
+    def _switched(self) -> frozenset[str]:
+        """Return the options of the running tool that are on; where a selection is asked for no prompt tells them."""
+        tool = self.runner.tool
+        return frozenset(tool.on) if isinstance(tool, PromptTool) else frozenset()
+
     def _tell(self) -> None:
-        """Say what has changed of tool and prompt."""
+        """Say what has changed of tool, prompt and options."""
         if isinstance(self.runner.tool, DragTool) and not self.runner.tool.points:
             self.runner.start(CanvasTool.SELECT)
-        before, self._told = self._told, (self.prompt, self.runner.kind)
+        before, self._told = self._told, (self.prompt, self.runner.kind, self._switched())
         if before[1] is not self.runner.kind:
             self.tool_changed.emit(self.runner.kind)
-        if before[0] != self.prompt:
+        if (before[0], before[2]) != (self.prompt, self._told[2]):
             self.prompt_changed.emit(self.prompt)
         self.entry.refresh()
         self._show_cursor()
         self._aim_again()
 
 
-def _apart(a: QPointF | None, b: QPointF | None) -> bool:
-    """Return whether the mouse has been dragged from one position to another."""
-    return a is not None and b is not None and (a - b).manhattanLength() > _DRAG_PX
+def _apart(begun: MousePress | None, position: QPointF | None) -> bool:
+    """Return whether the mouse has been dragged from where a button went down to another position."""
+    if begun is None or position is None:
+        return False
+    return (begun.position - position).manhattanLength() > _DRAG_PX

@@ -51,10 +51,16 @@ def job_shown(made: MakeResult, name: str, colour: CutColourBy, progress: Progre
 
 @dataclass(frozen=True, eq=False)
 class MendTrial:
-    """A mend, and the cut as it would be with it; None where nothing would be cut."""
+    """A mend, and what would come of it.
+
+    Attributes:
+        cut: as it would be; None where nothing would be cut. findings, told: on the whole program, the badge's verdict.
+    """
 
     mend: Mend
     cut: ShownCut | None
+    findings: tuple[Finding, ...]
+    told: VerdictSummary
 
 
 def trial_shown(
@@ -66,7 +72,8 @@ def trial_shown(
         HitofudeError: the job cannot be made. Cancelled: it was asked to stop.
     """
     made = making(progress.part(0.0, 0.8))
-    return MendTrial(mend, job_shown(made, made.job.part.name, colour, progress.part(0.8, 1.0)))
+    cut = job_shown(made, made.job.part.name, colour, progress.part(0.8, 1.0))
+    return MendTrial(mend, cut, made.findings, verdict_summary(made.findings, made.report.data))
 
 
 class CutController(Controller):
@@ -151,8 +158,9 @@ class CutController(Controller):
         """
         foreign, cut, trial = self._foreign, self.cut, self._trial
         if trial is not None and cut is not None:
-            told = VerdictSummary(level_of(cut), f"Preview · {title_of(cut)}", sentences_of(cut))
-            return ShownDocument(f"{trial.mend.words} · preview", False, told, tuple(cut.cut.findings), self._look_at)
+            title, level = title_of(cut, trial.told), level_of(cut, trial.told)
+            told = VerdictSummary(level, f"Preview · {title}", sentences_of(cut))
+            return ShownDocument(f"{trial.mend.words} · preview", False, told, trial.findings, self._look_at)
         if foreign is None:
             return None
         if cut is None or cut.given is None or self.foreign_worker.busy:
@@ -333,7 +341,7 @@ class CutController(Controller):
 
         entry, made = self._panel.chosen, self._made
         if self._trial is not None:
-            self._panel.show_trial(self._trial.mend)
+            self._panel.show_trial(self._trial.mend, self._trial.told)
             return
         if entry is None or made is None or self.cut is not self._own or self._computation.outdated:
             self._panel.show_mends(())

@@ -250,12 +250,12 @@ class CutPanel(Themed, QWidget):
             self.looks.append(row.look)
             self._add_mend(row)
 
-    def show_trial(self, mend: Mend) -> None:
-        """Say that what is shown is what a mend would make, and ask whether it is taken."""
+    def show_trial(self, mend: Mend, told: VerdictSummary) -> None:
+        """Say that what is shown is what a mend would make, and ask whether it is taken; `told` is the verdict on it."""
         self._clear_mends()
         if self.shown is not None:
-            self.title.setText(f"Preview · {title_of(self.shown)}")
-            set_role(self.title, _ROLES[level_of(self.shown)])
+            self.title.setText(f"Preview · {title_of(self.shown, told)}")
+            set_role(self.title, _ROLES[level_of(self.shown, told)])
         self.name.setText(mend.words)
         row = TrialRow(mend)
         row.take.clicked.connect(partial(self._mend, mend))

@@ -242,7 +242,7 @@ class NcController(Controller):
         self._view.show_program(shown)
         self._show_heads(shown.guessed)
         if not again:
-            self._workspace.notice.hide()
+            self._workspace.notice.turn_over()
             self._log.note(f"open {source.name}", _sentence(shown), error=shown.program.error is not None)
             self.front_requested.emit()
             self._view.setFocus()

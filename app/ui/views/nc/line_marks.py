@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ....gcode.interpreter.program import ProgramProblem
 from ....model.motion import MotionKind
-from .motion_shapes import CONTOUR_INK, MotionLineStyle, MotionShapes, tool_inks
+from .motion_shapes import MotionLineStyle, MotionShapes, contour_inks, tool_inks
 
 Ints = NDArray[np.int64]
 
@@ -57,10 +57,12 @@ def line_marks(count: int, shapes: MotionShapes | None = None, problems: Sequenc
 
 
 def _codes(shapes: MotionShapes) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
-    inks = tool_inks(shapes)
     tools, at = np.unique(shapes.tool, return_inverse=True)
-    of_tool = np.array([CUT + min(inks.get(int(tool), 0), 200) for tool in tools])[at]
-    of_tool = np.where(shapes.look == MotionLineStyle.CONTOUR, CUT + CONTOUR_INK, of_tool)
+    of_tool, of_contour = (
+        np.array([CUT + min(inks.get(int(tool), 0), 200) for tool in tools])[at]
+        for inks in (tool_inks(shapes), contour_inks(shapes))
+    )
+    of_tool = np.where(shapes.look == MotionLineStyle.CONTOUR, of_contour, of_tool)
     plain = np.where(shapes.look == MotionLineStyle.RAPID, RAPID, PLUNGE)
     cuts = (shapes.look == MotionLineStyle.CUT) | (shapes.look == MotionLineStyle.CONTOUR)
     kinds = shapes.program.motions.kind.astype(np.int64)

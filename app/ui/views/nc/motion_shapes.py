@@ -148,8 +148,8 @@ def tool_inks(*files: MotionShapes) -> dict[int, int]:
     """Return the place in the theme's cycle of tools of what each tool of a program feeds, by T number.
 
     Places go by the order of first cuts. Where it is known which motions go along contours, these have a place of
-    their own, whatever tool cuts them, and it is left free for them: so nothing has another colour than in the Paths
-    view.
+    their own, and it is left free for them: so nothing has another colour than in the Paths view. The first tool that
+    cuts nothing else has it, too; the next ones have places as any tool, since a tool has one colour.
 
     Args:
         files: of the program, in the order of cutting.
@@ -161,6 +161,17 @@ def tool_inks(*files: MotionShapes) -> dict[int, int]:
     alone = [tool for tool in tools if tool not in others]
     rest = [*(tool for tool in tools if tool in others), *alone[1:]]
     return dict.fromkeys(alone[:1], CONTOUR_INK) | {tool: at + (at >= CONTOUR_INK) for at, tool in enumerate(rest)}
+
+
+def contour_inks(*files: MotionShapes) -> dict[int, int]:
+    """Return the place in the theme's cycle of tools of what each tool cuts along contours, by T number: that of the
+    contours, but that of the tool where it cuts nothing else.
+
+    Args:
+        files: of the program, in the order of cutting.
+    """
+    others = {tool for shapes in files for tool in _tools_off_contours(shapes)}
+    return {tool: CONTOUR_INK if tool in others else ink for tool, ink in tool_inks(*files).items()}
 
 
 def _tools_off_contours(shapes: MotionShapes) -> list[int]:

@@ -313,7 +313,7 @@ class SceneController(Controller):
         self._begin(text, path)
 
     def _begin(self, text: str, path: Path | None, stem: str = UNTITLED) -> None:
-        self._workspace.notice.hide()
+        self._workspace.notice.turn_over()
         self.front_requested.emit()
         self._side.panel.subject = ("scene", 0)
         self.work.begin(text, path, stem)
@@ -417,7 +417,7 @@ class SceneController(Controller):
 
     def _on_stands(self) -> None:
         self._view.at_once = self.work.at_once
-        self._view.show_standing(self.work.state, self.work.verdict, self.work.findings)
+        self._view.show_standing(self.work.state, self.work.verdict, self.work.findings, self.work.may_retry)
         self.changed.emit()
 
     def _program(self) -> SceneProgram | None:

@@ -19,6 +19,7 @@ from ....model.finding import Finding
 from ....model.scene import Scene
 from ...framework.figures import clock, counted
 from ...framework.verdict import VerdictLevel, VerdictSummary
+from ...framework.worker import JobOutcome
 from ..nc.program_reader import ProgramReader
 from .scene_document import UNTITLED, SceneDocument
 from .shown_scene import ShownScene, shown_scene
@@ -64,6 +65,7 @@ class SceneComputation(QObject):
     Attributes:
         document: its text. scene: what the text says, as far as it was right last. shown: what was computed last.
         proven: of what is shown; None until it is. state, problem: where it stands, and what is wrong, a sentence.
+        may_retry: whether what failed may do better another time.
     """
 
     began = Signal()
@@ -80,13 +82,13 @@ class SceneComputation(QObject):
         self.scene: Scene | None = None
         self.shown: ShownScene | None = None
         self.proven: ProvenScene | None = None
-        self.state, self.problem = SceneState.NONE, ""
+        self.state, self.problem, self.may_retry = SceneState.NONE, "", False
         self._took_s, self._began, self._again = 0.0, 0.0, False
         self._resting = QTimer(self)
         self._resting.setSingleShot(True)
         self._resting.setInterval(REST_MS)
         self._resting.timeout.connect(self._follow)
-        self.reading.failed.connect(self._on_failed)
+        self.reading.worker.failed.connect(self._on_failed)
         document.changed.connect(self._on_changed)
 
     def begin(self, text: str, path: Path | None, stem: str = UNTITLED) -> None:
@@ -147,8 +149,10 @@ class SceneComputation(QObject):
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What is wrong with the program, once it is proven."""
-        return self.proven.written.findings() if self.proven is not None else ()
+        """What is wrong with the program, once it is proven; nothing where the last run failed, which says why."""
+        if self.proven is None or self.state is SceneState.FAILED:
+            return ()
+        return self.proven.written.findings()
 
     @property
     def verdict(self) -> VerdictSummary:
@@ -221,12 +225,13 @@ class SceneComputation(QObject):
         self.proven = proven
         self._stand(SceneState.PROVEN)
 
-    def _on_failed(self, sentence: str) -> None:
-        self._stand(SceneState.FAILED, sentence)
+    def _on_failed(self, outcome: JobOutcome) -> None:
+        sentence = outcome.error or ""
+        self._stand(SceneState.FAILED, sentence, outcome.again)
         self.failed.emit(sentence)
 
-    def _stand(self, state: SceneState, problem: str = "") -> None:
-        self.state, self.problem = state, problem
+    def _stand(self, state: SceneState, problem: str = "", may_retry: bool = False) -> None:
+        self.state, self.problem, self.may_retry = state, problem, may_retry
         self.stands.emit()
 
 

@@ -58,7 +58,8 @@ class SurfacesView(QWidget):
     Attributes:
         shown: the scene, or None. points: its boundary points. look: how it is looked at. plane: slider over all
             passes' planes.
-        state: where the scene stands. verdict, findings: on its program. at_once: changes are computed at once.
+        state: where the scene stands. verdict, findings: on its program. may_retry: what failed may do better another
+            time. at_once: changes are computed at once.
     """
 
     point_picked = Signal(int)
@@ -70,7 +71,7 @@ class SurfacesView(QWidget):
         super().__init__()
         self.shown: ShownScene | None = None
         self.points: tuple[BoundaryPoint, ...] = ()
-        self.look, self.state, self.at_once = ViewDirection.SPACE, SceneState.NONE, True
+        self.look, self.state, self.at_once, self.may_retry = ViewDirection.SPACE, SceneState.NONE, True, False
         self.verdict, self.findings = VerdictSummary(VerdictLevel.NONE, "Not computed"), tuple[Finding, ...]()
         self.canvas, self.looks = SceneCanvas(), ChoiceField("", _NAMES)
         self.looks.show_value(self.look)
@@ -148,9 +149,11 @@ class SurfacesView(QWidget):
         self.name.setText("")
         self.canvas.show_picture(None)
 
-    def show_standing(self, state: SceneState, verdict: VerdictSummary, findings: tuple[Finding, ...]) -> None:
-        """Know where the scene stands, and what is to be said of its program."""
-        self.state, self.verdict, self.findings = state, verdict, findings
+    def show_standing(
+        self, state: SceneState, verdict: VerdictSummary, findings: tuple[Finding, ...], may_retry: bool = False
+    ) -> None:
+        """Know where the scene stands, what is to be said of its program, and whether a failure may pass."""
+        self.state, self.verdict, self.findings, self.may_retry = state, verdict, findings, may_retry
 
     def show_point(self, number: int) -> None:
         """Have a boundary point stand out: on its plane, or where it is in space."""

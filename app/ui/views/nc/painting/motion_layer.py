@@ -22,7 +22,16 @@ from ...canvas.painting.pens import FINE, screen_pen
 from ...canvas.painting.program_chunks import rapids_path
 from ...canvas.painting.program_layer import CONTOUR_DASHES, CUT_WIDTH, RAPID_DOTS, RAPID_WIDTH, paint_plunges
 from ...canvas.view_transform import ViewTransform
-from ..motion_shapes import CONTOUR_INK, Floats, Ints, MotionLineStyle, MotionShapes, ViewSide, tool_inks, tools_of
+from ..motion_shapes import (
+    Floats,
+    Ints,
+    MotionLineStyle,
+    MotionShapes,
+    ViewSide,
+    contour_inks,
+    tool_inks,
+    tools_of,
+)
 from .motion_chunks import MotionChunk, MotionChunks, chunks_by_style, contour_chunks
 from .path_key import KeyMark, KeyRow
 
@@ -118,7 +127,7 @@ class MotionLayer:
     def __init__(self, shapes: MotionShapes, side: ViewSide, only: Ints | None = None) -> None:
         """Build every path once, in mm."""
         self.shapes, self.side, self.only, self.tools = shapes, side, only, tools_of(shapes)
-        self._inks = tool_inks(shapes)
+        self._inks, self._contour_inks = tool_inks(shapes), contour_inks(shapes)
         columns, motions = list(side.value), shapes.program.motions
         rows = shapes.seen(side, only)
         look = shapes.look[rows]
@@ -169,9 +178,8 @@ class MotionLayer:
         words, colour = _tool_name(tool, note), tool_colour(self._inks[tool], theme)
         contour = (tool, MotionLineStyle.CONTOUR) in self._looks
         rows = [KeyRow(words, colour)] if (tool, MotionLineStyle.CUT) in self._looks or not contour else []
-        return (
-            [*rows, KeyRow(f"{words}, contour", tool_colour(CONTOUR_INK, theme), KeyMark.DASHES)] if contour else rows
-        )
+        along = tool_colour(self._contour_inks[tool], theme)
+        return [*rows, KeyRow(f"{words}, contour", along, KeyMark.DASHES)] if contour else rows
 
     def box_of(self, motions: Ints | None) -> Box | None:
         """Return x0, y0, x1, y1 of some motions seen from this side, mm."""
@@ -242,7 +250,7 @@ class MotionLayer:
         if how.colour is MotionColourBy.MOTION:
             return motion_colour(chunk.kind, how.theme)
         contour = chunk.look is MotionLineStyle.CONTOUR
-        return tool_colour(CONTOUR_INK if contour else self._inks[chunk.tool], how.theme)
+        return tool_colour((self._contour_inks if contour else self._inks)[chunk.tool], how.theme)
 
 
 def _once(rows: Floats) -> Floats:
