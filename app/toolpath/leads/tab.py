@@ -373,7 +373,7 @@ def tabs_at(path: ContourPath, places: Sequence[float], shape: TabShape) -> list
     where = np.array(places, dtype=np.float64)
     widths = shape.tabs.width + 2 * (shape.halves(path, where) - shape.half)
     return [
-        Tab(x, y, width, shape.top, shape.tool.diameter)
+        Tab(x, y, width, shape.top, shape.tool.diameter, holds_part=path.area < 0)
         for (x, y), width in zip(path.points(where).tolist(), widths.tolist(), strict=True)
     ]
 
