@@ -118,3 +118,9 @@ def test_a_part_in_a_hole_is_no_waste_though_the_holes_wall_is_nearer() -> None:
     hole = replace(OUTER, side=Side.INSIDE, tabs=Tabs(), cut=replace(OUTER.cut, curves=B))
     (told,) = cut_off([circle(20.0)], (part, hole), [circle(25.8)])
     assert told.counts and told.text.startswith("4 tabs do not stand")
+
+
+def test_tabs_on_the_lines_are_where_no_neighbour_is() -> None:
+    """Squares whose channels meet: of each one three sides are free."""
+    on = replace(OUTER, side=Side.ON, tabs=Tabs(4, 5.0, 1.0))
+    assert not cut_off([square(40.0), square(40.0, 44.0, 0.0)], (on,))
