@@ -144,6 +144,7 @@ class Tab:
         width: of the metal along the path, mm.
         top: height of its top, mm, < 0.
         diameter: of the cutter that went over it, mm.
+        holds_part: whether a part hangs on it; what a tab within a contour holds is waste.
     """
 
     x: float
@@ -151,6 +152,7 @@ class Tab:
     width: float
     top: float
     diameter: float
+    holds_part: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -123,19 +123,35 @@ class OperationProof(Protocol):
         """Return what counts."""
 
 
+class PlainCuts(Protocol):
+    """What all operations of a program cut whose tools cut no thread, asked at single points."""
+
+    def lowest(self, points: Floats) -> Floats:
+        """Return the lowest heights (m,) that are cut at points (m, 2), mm, part coordinates; infinite where nothing
+        is.
+        """
+
+    def spacing(self, depth: float) -> float:
+        """Return how far apart points may be, mm, for none of the cutters to pass unseen between two of them whose tip
+        is so many mm below what is asked for.
+        """
+
+
 @dataclass(frozen=True, eq=False)
 class ProofInput:
     """What an operation is proven on.
 
     Attributes:
-        program: that was written; of it what was drawn counts, and what other operations cut. job: what was asked.
+        program: that was written; of it what was drawn counts. job: what was asked.
         index: of the operation in the job. motions: that the control makes for it, part coordinates.
+        plain: what is cut beside threads.
     """
 
     program: Program
     job: Job
     index: int
     motions: OperationMotions
+    plain: PlainCuts
 
     @property
     def operation(self) -> Operation:

@@ -8,18 +8,12 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.wording import in_plane
-from ..geometry.primitives import boxes, distances
 from ..model.curves import Point
 from ..model.finding import Finding, FindingKind
-from ..model.job import Job
 from ..model.motion import Floats
-from ..model.moves import Moves
 from ..model.thread_sizes import ThreadSize
-from ..model.tool import Tool
-from ..toolpath.coverage.areas import move_rows
 from .registry import ProofInput
 
 REPORTED = 0.01
@@ -81,7 +75,7 @@ class ThreadProof:
 
 
 _AROUND = 24
-"""Places round an axis, at the pitch diameter, that are asked for how deep others cut."""
+"""Places at least round an axis, at the pitch diameter, that are asked for how deep others cut."""
 
 
 class ThreadLoss(NamedTuple):
@@ -101,7 +95,7 @@ class ThreadLoss(NamedTuple):
     deepest: float
 
     def finding(self, thread: ThreadSize) -> Finding:
-        """Return it in words; it counts where not a turn stands all round."""
+        """Return it in words; it counts where not a turn stands all round: one that is open on a side holds little."""
         stands = max(self.depth - self.whole, 0.0)
         what = f"Of the {self.depth:g} mm of {thread.value} at {in_plane(self.x, self.y)}"
         others = "" if self.threads == 1 else f", the worst of {self.threads} threads,"
@@ -114,7 +108,7 @@ class ThreadLoss(NamedTuple):
             f"{what}{others} {how}; the depth counts from Z 0.",
             self.x,
             self.y,
-            counts=stands < thread.pitch,
+            counts=self.depth - self.deepest < thread.pitch,
             amount=self.deepest,
         )
 
@@ -125,57 +119,20 @@ def thread_loss(evidence: ProofInput, axes: Sequence[Point], thread: ThreadSize)
     """
     operation = evidence.operation
     depth = operation.cut.floor + operation.beyond
-    cuts = _OtherCuts.of(evidence.program.moves, evidence.job, evidence.index)
-    angles = np.linspace(0.0, math.tau, _AROUND, endpoint=False)
-    ring = np.column_stack([np.cos(angles), np.sin(angles)]) * thread.pitch_diameter / 2
-    deep = np.array([np.minimum(cuts.depths(ring + axis), depth) for axis in axes])
-    lost = deep.max(axis=1)
+    ring = _ring(thread, evidence.plain.spacing(thread.pitch))
+    heights = evidence.plain.lowest((np.array(axes)[:, None] + ring).reshape(-1, 2))
+    deep = np.clip(-heights, 0.0, depth).reshape(len(axes), len(ring))
+    whole, lost = deep.min(axis=1), deep.max(axis=1)
     if not (lost > thread.pitch).any():
         return None
-    worst = max(range(len(axes)), key=lambda k: (float(deep[k].min()), float(lost[k])))
+    worst = max(range(len(axes)), key=lambda k: (float(lost[k]), float(whole[k])))
     x, y = axes[worst]
-    return ThreadLoss(int((lost > thread.pitch).sum()), x, y, depth, float(deep[worst].min()), float(lost[worst]))
+    return ThreadLoss(int((lost > thread.pitch).sum()), x, y, depth, float(whole[worst]), float(lost[worst]))
 
 
-class _OtherCuts(NamedTuple):
-    """Moves that cut: rows (n, 8) and boxes (n, 4) of the cutter's centre, heights of their tips (n,), and the flat
-    radius, the rounding, the rise of the cone and the radius of each cutter, (n, 4).
-    """
-
-    rows: Floats
-    around: Floats
-    tips: Floats
-    shapes: Floats
-
-    @staticmethod
-    def of(moves: Moves, job: Job, index: int) -> _OtherCuts:
-        """Return the moves below Z 0 of all operations but one, and but those that cut threads, too."""
-        threads = [tool.number for tool in job.tools if tool.kind.threads]
-        low = np.minimum(moves.start[:, 2], moves.end[:, 2])
-        chosen = np.flatnonzero((low < 0) & (moves.operation != index) & ~np.isin(moves.tool, threads))
-        rows = move_rows(moves, chosen)
-        upright = (rows[:, :2] == rows[:, 2:4]).all(axis=1) & (rows[:, 7] == 0)
-        high = np.maximum(moves.start[chosen, 2], moves.end[chosen, 2])
-        shapes = {tool.number: _shape(tool) for tool in job.tools}
-        own = np.array([shapes[number] for number in moves.tool[chosen].tolist()]).reshape(-1, 4)
-        return _OtherCuts(rows, boxes(rows), np.where(upright, low[chosen], high), own)
-
-    def depths(self, points: Floats) -> Floats:
-        """Return how deep is cut at points (m, 2) near one another, mm: of a slope what its upper end cuts."""
-        low, high = points.min(axis=0), points.max(axis=0)
-        wide = self.shapes[:, 3:]
-        near: NDArray[np.bool_] = (self.around[:, :2] - wide <= high).all(axis=1)
-        near &= (self.around[:, 2:] + wide >= low).all(axis=1)
-        rows, tips, shapes = self.rows[near], self.tips[near], self.shapes[near]
-        found = np.zeros(len(points))
-        for k, point in enumerate(points):
-            beyond = distances(rows, np.broadcast_to(point, (len(rows), 2))) - shapes[:, 0]
-            rise = np.where(beyond <= 0, 0.0, shapes[:, 1] + beyond * shapes[:, 2])
-            cut = np.where(beyond + shapes[:, 0] < shapes[:, 3], -(tips + rise), 0.0)
-            found[k] = cut.max(initial=0.0)
-        return found
-
-
-def _shape(tool: Tool) -> tuple[float, float, float, float]:
-    profile = tool.profile
-    return profile.flat, profile.fillet, profile.cone, tool.radius
+def _ring(thread: ThreadSize, spacing: float) -> Floats:
+    """Return places (n, 2) round an axis at the pitch diameter, no farther apart than a spacing, mm."""
+    count = max(_AROUND, math.ceil(math.pi * thread.pitch_diameter / spacing))
+    angles = np.linspace(0.0, math.tau, count, endpoint=False)
+    found: Floats = np.column_stack([np.cos(angles), np.sin(angles)]) * thread.pitch_diameter / 2
+    return found

@@ -8,6 +8,7 @@ several convex pieces, each swept for itself: the lowest of their heights.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -132,6 +133,19 @@ class Cutter:
         if not math.isinf(self.slope):
             heights = heights + self.slope * (beyond - rounded)
         return np.where(np.asarray(radii) <= self.radius, heights, math.inf)
+
+
+_FINEST = 0.05
+"""mm; places are no nearer to one another for the sake of a pointed cutter, which is as narrow as one likes."""
+
+
+def sure_spacing(cutters: Iterable[Cutter], depth: float) -> float:
+    """Return how far apart places along a line may be, mm, for none of the cutters to pass between two of them unseen
+    whose tip is deeper than so many mm below it.
+
+    What it cuts there is twice as wide as this at least, so it is met beside its middle, too.
+    """
+    return max(min((cutter.radius_at(depth) for cutter in cutters), default=math.inf), _FINEST)
 
 
 def cutter_of(tool: Tool) -> Cutter:

@@ -91,6 +91,14 @@ def test_short_paths_have_fewer_and_that_is_told() -> None:
     assert not none.tabs and any(finding.counts for finding in none.findings if "no tab" in finding.text)
 
 
+def test_paths_with_neighbours_on_two_sides_have_fewer_for_want_of_metal_and_that_is_told() -> None:
+    program = compute(job_with(Tabs(8), [square(40, 44.0 * k, 0.0) for k in range(3)]))
+    (told,) = [finding.text for finding in program.findings if "fewer than 8 tabs" in finding.text]
+    assert told.startswith("1 path of T2") and "because no metal stands on the far side of the cut" in told
+    alone = compute(job_with(Tabs(8, width=9.0), [square(40)]))
+    assert about(alone, "fewer than 8 tabs") and not about(alone, "no metal stands")
+
+
 @pytest.mark.parametrize("lead", [Lead(), Lead(LeadKind.NONE)])
 def test_paths_that_clamps_cut_open_are_held_too(lead: Lead) -> None:
     clamps = [square(10, 15, -5)]

@@ -297,6 +297,29 @@ def test_a_slot_that_crosses_a_thread_is_told_and_a_countersink_is_not() -> None
     assert sunk.clean and not [each for each in sunk.findings if each.text.startswith("Of the ")]
 
 
+@pytest.mark.parametrize("thread", [TAP, THREAD.replace("depth = 8", "depth = 10")], ids=["tapped", "milled"])
+def test_a_thread_that_is_open_on_one_side_all_the_way_down_counts(thread: str) -> None:
+    pocket = '[[operation]]\nkind = "pocket"\ntool = 1\ndepth = 10\ncurves = ["layer:b"]\n'
+    drawing = "layer a\n" + PLATE + "layer b\nrectangle 15,10 27,30\n"
+    made = made_of(thread.replace("[[operation]]\n", '[[operation]]\ncurves = ["layer:a"]\n') + pocket, drawing)
+    (told,) = [each for each in made.findings if each.text.startswith("Of the ")]
+    assert told.counts and "take 10.000 mm on a part of the way round" in told.text
+
+
+@pytest.mark.parametrize("y", [20.0, 21.8])
+def test_a_narrow_cut_through_a_wide_thread_is_seen_wherever_it_goes(y: float) -> None:
+    tools = TOOLS.replace("diameter = 4.0", "diameter = 16.0").replace("thickness = 10.0", "thickness = 20.0")
+    tools += "[[tool]]\nnumber = 8\ndiameter = 3.0\n[[tool]]\nnumber = 9\ndiameter = 12.0\n"
+    thread = (
+        '[[operation]]\nkind = "bore"\ntool = 9\ndepth = 20\nstepdown = 4\ndiameter = 26.5\ncurves = ["layer:a"]\n'
+        '[[operation]]\nkind = "thread"\ntool = 6\ndepth = 18\nthread = "M30"\ncurves = ["layer:a"]\n'
+    )
+    line = '[[operation]]\nkind = "contour"\ntool = 8\ndepth = 20\nstepdown = 4\nside = "on"\ncurves = ["layer:b"]\n'
+    made = made_of(thread + line, f"layer a\ncircle 30,20 15\nlayer b\nline 5,{y} 55,{y}\n", tools=tools)
+    (told,) = [each for each in made.findings if each.text.startswith("Of the ")]
+    assert told.counts and "take 18.000 mm on a part of the way round" in told.text
+
+
 def test_a_thread_on_a_boss() -> None:
     pocket = '[[operation]]\nkind = "pocket"\ntool = 1\ndepth = 9\n'
     thread = '[[operation]]\nkind = "thread"\ntool = 6\ndepth = 8\nthread = "M16"\nexternal = true\n'

@@ -96,7 +96,7 @@ def own_notes(comments: Comments) -> ProgramNotes:
             tuple(_name(values) for _, values in noted.get("keep_out", [])),
             _first(noted.get("keep_out_height_mm", [])) or 0.0,
         ),
-        tabs=tuple(Tab(*numbers) for numbers in _fives(noted.get("tab", []))),
+        tabs=tuple(_tabs(noted.get("tab", []))),
         dog_bones=tuple(DogBone(*numbers) for numbers in _fives(noted.get("dog_bone", []))),
         reading=_reading(noted),
         plunge_rates=tuple(
@@ -224,6 +224,15 @@ def _copies(noted: list[NotedValues]) -> Copies | None:
             with suppress(ParameterError):
                 return Copies(int(numbers[0]), int(numbers[1]), numbers[2], numbers[3])
     return None
+
+
+def _tabs(noted: list[NotedValues]) -> Iterator[Tab]:
+    """Yield tabs: five numbers, and a sixth one, 0, where what they hold is waste; earlier versions wrote none."""
+    for _, values in noted:
+        numbers = _floats(values)
+        if len(numbers) in (5, 6):
+            x, y, width, top, diameter = numbers[:5]
+            yield Tab(x, y, width, top, diameter, holds_part=len(numbers) == 5 or numbers[5] != 0)
 
 
 def _fives(noted: list[NotedValues]) -> Iterator[list[float]]:

@@ -321,7 +321,8 @@ def _copies_and_clamps_note(job: Job) -> Iterator[str]:
 def _on_purpose(program: Program) -> Iterator[str]:
     """Yield where metal was left standing, and where walls were cut into."""
     for tab in program.tabs:
-        yield f"tab={plain_numbers(tab.x, tab.y, tab.width, tab.top, tab.diameter)}"
+        waste = () if tab.holds_part else (0.0,)
+        yield f"tab={plain_numbers(tab.x, tab.y, tab.width, tab.top, tab.diameter, *waste)}"
     for dog_bone in program.dog_bones:
         yield f"dog_bone={plain_numbers(dog_bone.x0, dog_bone.y0, dog_bone.x1, dog_bone.y1, dog_bone.diameter)}"
 

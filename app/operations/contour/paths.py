@@ -252,19 +252,23 @@ def _finish(work: _ContourJob, paths: Sequence[ContourPath], ways: Sequence[Corn
 def _finish_over_tabs(work: _ContourJob, paths: Sequence[ContourPath], ways: Sequence[CornerRelief]) -> _ContourStrokes:
     """Return the paths along the walls with tabs by hand and automatic ones, and say which of them do not hold."""
     context, shape = work.context, TabShape.of(work.operation, work.tool)
-    own, left_out = by_hand(paths, shape, context.job.copies.shifts, _followed(work, paths))
+    walls = _followed(work, paths)
+    own, left_out = by_hand(paths, shape, context.job.copies.shifts, walls)
     context.findings.extend(left_out)
     taken = [spans_of(path, places, shape) for path, places in zip(paths, own, strict=True)]
     around = work.around(work.wall)
     made = runs(paths, taken, around)
-    tabs = tuple((*places, *spread(run, places, shape, around)) for run, places in zip(made, own, strict=True))
+    beside = around
+    if work.operation.side is Side.ON and walls is not None:
+        beside = replace(around, field=walls, need=0.0)
+    by_path = [spread(run, places, shape, beside) for run, places in zip(made, own, strict=True)]
+    tabs = tuple((*places, *found.places) for places, found in zip(own, by_path, strict=True))
     context.findings.extend(lead_findings(made, around))
     context.findings.extend(far_tab_findings(paths, shape, context.job.copies.shifts))
-    context.findings.extend(tab_findings(made, tabs, shape, work.operation))
+    context.findings.extend(tab_findings(made, tabs, [found.lacks_metal for found in by_path], shape, work.operation))
     context.findings.extend(narrow_tab_findings(made, tabs, shape))
     bridges = [tab for run, places in zip(made, tabs, strict=True) for tab in tabs_at(run.path, places, shape)]
     context.tabs.extend(bridges)
-    walls = _followed(work, paths)
     if work.operation.side is Side.OUTSIDE and walls is not None:
         box = stock_box(context.job, context.regions)
         context.findings.extend(unheld_findings(bridges, walls, box))

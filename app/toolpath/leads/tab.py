@@ -15,7 +15,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.primitives import points_at
 from ...model.contour_operation import ContourOperation
 from ...model.curves import Point
-from ...model.entry import Tabs
+from ...model.entry import LeadKind, Tabs
 from ...model.finding import Finding, FindingKind
 from ...model.moves import Tab
 from ...model.operation import LEAST_LENGTH
@@ -236,9 +236,16 @@ def by_hand(
     return found, reported
 
 
-def spread(run: PathWithLeads, own: Sequence[float], shape: TabShape, around: LeadContext) -> list[float]:
-    """Return where an operation's tabs go on a path that goes round something, mm along it, besides those that are put
-    there by hand.
+class SpreadTabs(NamedTuple):
+    """Where tabs are spread on a path, mm along it, and whether there would be more if metal stood beside all of it."""
+
+    places: list[float]
+    lacks_metal: bool
+
+
+def spread(run: PathWithLeads, own: Sequence[float], shape: TabShape, around: LeadContext) -> SpreadTabs:
+    """Return where an operation's tabs go on a path that goes round something, besides those that are put there by
+    hand.
 
     A path that clamps cut open gets as many as a whole one; open lines get none. They are spread evenly over what the
     leads leave, then each is moved off corners as little as possible. Between two tabs at least a cutter's width is
@@ -246,17 +253,17 @@ def spread(run: PathWithLeads, own: Sequence[float], shape: TabShape, around: Le
 
     Args:
         own: where tabs by hand are.
-        around: what the leads went by.
+        around: what the leads went by; of a path on the lines, which keeps 0 mm off them, the lines.
     """
     path, half, beside = run.path, shape.half, reach(around)
     if not shape.tabs.count or not goes_round(path):
-        return []
+        return SpreadTabs([], False)
     overlap = run.stop - run.start - path.length
     free = path.length - overlap - 2 * (beside + half)
     apart = 2 * half + shape.tool.diameter
     count = min(shape.tabs.count, int(free / apart) + 1 if free >= 0 else 0)
     if count <= 0:
-        return []
+        return SpreadTabs([], False)
     first = run.start + overlap + beside + half
     even = run.start + overlap / 2 + (np.arange(count) + 0.5) * path.length / count
     if even[0] < first or even[-1] > first + free:
@@ -266,12 +273,21 @@ def spread(run: PathWithLeads, own: Sequence[float], shape: TabShape, around: Le
     spans = _off_corners(path, clear, corners if path.closed else np.unique([0.0, *corners]))
     good = np.concatenate([np.append(np.arange(low, high, apart / _FINE), high) for low, high in spans])
     good = np.concatenate([good % path.length, even[_in_spans(even, spans, path.length)] % path.length])
-    good = _with_metal_beyond(path, good[(good - first) % path.length <= free + _ROUNDING], around)
+    good = good[(good - first) % path.length <= free + _ROUNDING]
+    held = _with_metal_beyond(path, good, around)
     room = _Room(path, shape, first - half, first + free + half)
-    near = good[(_apart(good[:, None], even, path.length) <= _NEAR * apart).any(axis=1)]
+    made = _placed(even, held, own, room)
+    dropped = len(made) < count and len(held) < len(good)
+    return SpreadTabs(made, dropped and len(_placed(even, good, own, room)) > len(made))
+
+
+def _placed(even: Floats, good: Floats, own: Sequence[float], room: _Room) -> list[float]:
+    """Return the good places that are taken for the even ones, those of wide metal that lie near them, if they do."""
+    path, most = room.path, _NEAR * (2 * room.shape.half + room.shape.tool.diameter)
+    near = good[(_apart(good[:, None], even, path.length) <= most).any(axis=1)]
     made = _nearest_to(even, room.fitting(near), own, room)  # what is farther takes long to look at
     places = np.array(made)
-    if len(made) == count and room.wide(places).all() and (_apart(places, even, path.length) <= _NEAR * apart).all():
+    if len(made) == len(even) and room.wide(places).all() and (_apart(places, even, path.length) <= most).all():
         return made
     return _nearest_to(even, room.fitting(good), own, room)
 
@@ -281,20 +297,26 @@ def _with_metal_beyond(path: ContourPath, places: Floats, around: LeadContext) -
     there is tied; where there is none, all, as of a path within a contour, where what comes loose is waste.
 
     Round whatever wall, a neighbour's or that of the path's own far side, a path of the same kind clears all that lies
-    within the distance that its centre keeps and the cutter's radius, and its leads as much more as they are long.
+    within the distance that its centre keeps and the cutter's radius, and its leads as much more as they are long. A
+    path on the lines has its own line beside it: no other one is to be as near to what lies beyond, on either side.
     """
     if path.area >= 0 or not len(places):
         return places
     points, radius = path.points(places), around.tool.radius
-    far, row = around.field.nearest(points)
-    feet = points_at(around.field.rows[row], fractions_at(around.field.rows[row], points))
-    away = (points - feet) / np.maximum(far, _SHORT)[:, None]
-    for leads in (around.size + around.straight, 0.0):
-        beyond = around.field.nearest(points + (radius + leads + _HOLD) * away)[0]
-        held = beyond >= around.need + radius + leads - _SHORT
+    away = path.headings(places)[:, ::-1] * (-around.away, around.away)
+    sides = (1.0,) if around.need else (1.0, -1.0)
+    for leads in (_clear_of_leads(around), 0.0):
+        far = radius + leads + _HOLD
+        beyond: Floats = np.min([around.field.nearest(points + side * far * away)[0] for side in sides], axis=0)
+        held: NDArray[np.bool_] = beyond >= max(around.need, _HOLD) + radius + leads - _SHORT
         if held.any():
             return places[held]
     return places
+
+
+def _clear_of_leads(around: LeadContext) -> float:
+    """Return how far leads go away from a path, mm."""
+    return around.straight + (around.size if around.lead.kind is not LeadKind.NONE else 0.0)
 
 
 class _Room(NamedTuple):
@@ -373,29 +395,35 @@ def tabs_at(path: ContourPath, places: Sequence[float], shape: TabShape) -> list
     where = np.array(places, dtype=np.float64)
     widths = shape.tabs.width + 2 * (shape.halves(path, where) - shape.half)
     return [
-        Tab(x, y, width, shape.top, shape.tool.diameter)
+        Tab(x, y, width, shape.top, shape.tool.diameter, holds_part=path.area < 0)
         for (x, y), width in zip(path.points(where).tolist(), widths.tolist(), strict=True)
     ]
 
 
 def tab_findings(
-    made: Sequence[PathWithLeads], tabs: Sequence[Sequence[float]], shape: TabShape, operation: ContourOperation
+    made: Sequence[PathWithLeads],
+    tabs: Sequence[Sequence[float]],
+    lacks_metal: Sequence[bool],
+    shape: TabShape,
+    operation: ContourOperation,
 ) -> list[Finding]:
     """Return what there is to say about tabs: which paths have fewer than asked for, and tabs that are as high as the
     cut is deep.
 
     It counts where a path round a part, from which it comes loose, has none at all; of one that clamps cut open, where
     no piece has any.
+
+    Args:
+        lacks_metal: of each path whether it would have more if metal stood beside all of it.
     """
     held = {run.path.ring for run, places in zip(made, tabs, strict=True) if places and not run.path.closed}
-    loose: list[ContourPath] = []
-    few: list[ContourPath] = []
-    for run, places in zip(made, tabs, strict=True):
+    few: dict[tuple[bool, bool], list[ContourPath]] = {}
+    for run, places, lacking in zip(made, tabs, lacks_metal, strict=True):
         path = run.path
         if goes_round(path) and len(places) < shape.tabs.count:
             alone = not places and path.area < 0 and (path.closed or path.ring not in held)
-            (loose if alone else few).append(path)
-    findings = [_too_few(paths, shape, paths is loose) for paths in (loose, few) if paths]
+            few.setdefault((alone, lacking), []).append(path)
+    findings = [_too_few(few[each], shape, *each) for each in sorted(few, reverse=True)]
     if shape.tabs.enabled and shape.tabs.height >= operation.cut.floor:
         findings.append(
             Finding(
@@ -433,16 +461,23 @@ def narrow_tab_findings(
     return [Finding(FindingKind.LEFT_OUT, text, x, y, counts=least <= 0, amount=max(least, 0.0))]
 
 
-def _too_few(paths: Sequence[ContourPath], shape: TabShape, loose: bool) -> Finding:
-    """Return what there is to say of paths with fewer tabs than asked for; `loose`: a part comes loose there."""
+def _too_few(paths: Sequence[ContourPath], shape: TabShape, loose: bool, lacks_metal: bool) -> Finding:
+    """Return what there is to say of paths with fewer tabs than asked for.
+
+    Args:
+        loose: a part comes loose there.
+        lacks_metal: it is for want of metal that tabs would be tied to, not of length.
+    """
     x, y = paths[0].rows[0, :2]
     what = "no tab though a part comes loose there" if loose else f"fewer than {shape.tabs.count} tabs"
     who = f"of T{shape.tool.number} {shape.tool.label}"
+    why = "it is too short for them" if len(paths) == 1 else "they are too short for them"
+    if lacks_metal:
+        why = "no metal stands on the far side of the cut"
     text = (
-        f"1 path {who} has {what}, because it is too short for them; it begins at {in_plane(x, y)}."
+        f"1 path {who} has {what}, because {why}; it begins at {in_plane(x, y)}."
         if len(paths) == 1
-        else f"{len(paths)} paths {who} have {what}, because they are too short for them; the first begins at "
-        f"{in_plane(x, y)}."
+        else f"{len(paths)} paths {who} have {what}, because {why}; the first begins at {in_plane(x, y)}."
     )
     return Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=loose, amount=float(len(paths)))
 

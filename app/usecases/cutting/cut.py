@@ -123,7 +123,7 @@ def _findings(context: CutContext, done: CutOutcome, judgement: Judgement | None
         yield from findings_of(judgement, setup.where)
     if isinstance(setup.part, FlatPart) and setup.part.tabs and options.judge:
         path = PathProbe.of([known.course for known in context.courses], context.cutters, _HELIX_CHORD)
-        yield from cut_off_tabs(setup.part, path.lowest, setup.where)
+        yield from cut_off_tabs(setup.part, path, context.cutters.values(), setup.where)
     if isinstance(setup.part, SolidPart) and context.closely:
         yield from unseen_walls(setup.part, context.workpiece.grid.pitch)
     yield from _fallen_back(done.engine_report, options.engine)

@@ -75,7 +75,7 @@ def test_what_a_part_depends_on_is_read_again(name: str) -> None:
         DrillOperation(CutParameters(2, 5.0), least=2.5, most=3.0, through=0.5),
         DrillOperation(CutParameters(2, 6.0)),
     )
-    tabs = tuple(Tab(10.5 * k, -0.125, 5.0, -1.5, 3.0) for k in range(3))
+    tabs = tuple(Tab(10.5 * k, -0.125, 5.0, -1.5, 3.0, holds_part=k != 1) for k in range(3))
     bones = (DogBone(1.0, 2.0, 1.25, 2.25, 3.0),)
     copies = Copies(7, 3, 40.1 / 3, -25.4)
     path = two_tools()

@@ -12,6 +12,7 @@ from ....model.job import Job
 from ....model.moves import Program
 from ....operations.registry import OperationProof, ProofInput, method_of
 from ..written import WrittenMotions, WrittenProgram
+from .plain_cuts import WrittenPlainCuts
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,9 +65,10 @@ def prove(program: Program, job: Job, written: WrittenProgram, progress: Progres
 
 def _of_their_own(program: Program, job: Job, motions: WrittenMotions) -> Iterable[tuple[int, OperationProof]]:
     """Yield what the folders of operations prove of theirs."""
+    plain = WrittenPlainCuts(job, motions)
     for index, operation in enumerate(job.operations):
         prove_one = method_of(operation).proof
         if operation.cut.enabled and prove_one is not None:
             own = motions.done_for(index).moved(motions.origin)
-            if (proof := prove_one(ProofInput(program, job, index, own))) is not None:
+            if (proof := prove_one(ProofInput(program, job, index, own, plain))) is not None:
                 yield index, proof
