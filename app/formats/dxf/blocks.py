@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 from ...core.errors import HitofudeError, InputError
 from ...core.options import option
 from ...geometry.affine import Affine, transformed
-from ...geometry.sample import bounds
-from ...model.curves import Curve, Line, Point
+from ...model.curves import Curve, Point
 from ..drawing import LeftOutReason, LeftOutSort
 from ..drawing_account import LEVEL_ZERO, MOST_CURVES, CurveHeights, LayeredCurve
 from .block_clips import hidden_layers
@@ -27,6 +26,7 @@ from .curves import (
     drawn_heights,
     ensure_whole,
     heights_of,
+    held_by,
     is_edge_on,
     is_lost,
     line_type_of,
@@ -259,9 +259,7 @@ class _Lie(NamedTuple):
 
     def heights(self, curve: Curve) -> CurveHeights:
         """Return where along Z a curve of a block lies that is seen edge-on."""
-        x0, y0, x1, y1 = bounds(curve)
-        corners = (curve.start, curve.end) if isinstance(curve, Line) else ((x0, y0), (x1, y0), (x0, y1), (x1, y1))
-        heights = [self.z + self.x * x + self.y * y for x, y in corners]
+        heights = [self.z + self.x * x + self.y * y for x, y in held_by(curve)]
         return CurveHeights(min(heights), max(heights))
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from ...geometry.affine import IDENTITY, Affine, ellipse, transformed
 from ...geometry.sample import bounds
-from ...model.curves import Arc, Circle, Curve, Line, Point
+from ...model.curves import Arc, Circle, Curve, Line, Point, Spline
 from ..drawing_account import LEVEL_ZERO, CurveHeights
 from .splines import spline_curve
 
@@ -312,9 +312,18 @@ def is_lost(curve: Curve, seen: Curve) -> bool:
 
 
 def _span(curve: Curve) -> float:
-    """Return the longer side of the box round a curve, drawing units."""
+    """Return the longer side of the box round what holds a curve, drawing units."""
+    points = held_by(curve)
+    xs, ys = [x for x, _ in points], [y for _, y in points]
+    return max(max(xs) - min(xs), max(ys) - min(ys))
+
+
+def held_by(curve: Curve) -> tuple[Point, ...]:
+    """Return points whose hull holds a curve, drawing units; none is worked out for a spline, which may have any."""
+    if isinstance(curve, Line | Spline):
+        return (curve.start, curve.end) if isinstance(curve, Line) else curve.control_points
     x0, y0, x1, y1 = bounds(curve)
-    return max(x1 - x0, y1 - y0)
+    return (x0, y0), (x1, y0), (x0, y1), (x1, y1)
 
 
 _READERS: dict[str, Callable[[Any], list[Curve] | None]] = {
