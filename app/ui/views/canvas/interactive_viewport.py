@@ -21,8 +21,8 @@ from .marker_mode import MarkerMode, place_near
 from .modes import CanvasTool
 from .painting.grid import grid_steps
 from .painting.part_layer import PartLayer
-from .selection import SelectionCycle, band_line, click_line
 from .prompt_tool import PromptTool
+from .selection import SelectionCycle, band_line, click_line
 from .snap import SNAP_NAMES, SNAP_WORDS, best
 from .snap_state import SnapState
 from .snapped_point import SnappedPoint, rounded
