@@ -86,7 +86,7 @@ def test_a_layer_of_lines_that_bound_nothing_is_hidden_by_its_finding(qtbot, wir
 
 
 def test_a_run_that_failed_says_why_before_what_is_known_of_the_drawing(qtbot, wiring) -> None:
-    """The view sent to the badge, whose list was headed "No findings, 1 remark" and did not have the reason."""
+    """The view sent to the badge, whose list was headed "No findings" and did not have the reason."""
     wiring.document.run("rect 0,0 60,40")
     wiring.computation.forget((Finding(FindingKind.LEFT_OUT, "Left out: 2 TEXT.", counts=False),))
     wiring.display_controller.show_view(View.PATHS)
@@ -97,6 +97,6 @@ def test_a_run_that_failed_says_why_before_what_is_known_of_the_drawing(qtbot, w
     assert empty.button.isVisible() and empty.button.text() == "Compute again", "there may be more of it by then"
     wiring.display_controller.open_findings()
     said = [label.text() for label in wiring.window_.findings_list.findChildren(QLabel)]
-    assert said[:3] == ["Could not be computed", error, "No findings, 1 remark"] and "Left out: 2 TEXT." in said
+    assert said[:3] == ["Could not be computed", error, "1 remark"] and "Left out: 2 TEXT." in said
     qtbot.mouseClick(empty.button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)

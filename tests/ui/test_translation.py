@@ -31,12 +31,16 @@ from app.core.settings import Language, load_settings
 from app.drafting.document import Document
 from app.formats.drawing import LeftOutReason, LeftOutSort
 from app.formats.drawing_account import all_left_out
+from app.model.curve_selectors import ContourKind
+from app.model.finding import Finding, FindingKind
 from app.ui.framework.catalogue import set_language, tr
 from app.ui.framework.fields import LABEL_WIDTH, NumberField, NumberSpec
 from app.ui.framework.figures import counted
 from app.ui.framework.legend import LegendRow
 from app.ui.framework.samples import PathLineKind
 from app.ui.framework.theme import TEXT_PX
+from app.ui.framework.verdict import verdict_summary
+from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.library import about_tool
 from app.ui.shell.bars.actions import menus, plain
 from app.ui.shell.help.about import show_about
@@ -207,6 +211,30 @@ def test_what_an_empty_text_stands_for_is_looked_up_when_it_is_seen(qtbot, japan
     panel.text.setPlaceholderText("This step traces no line.")
     panel.text.viewport().grab()
     assert panel.text.placeholderText() == "この段階では線をたどりません。"
+
+
+def test_lists_of_curves_follow_the_language(wiring) -> None:
+    """Made of pieces in the language that was spoken then, they would stay in it."""
+    wiring.run("rect 0,0 60,40")
+    panel, (first, *others) = wiring.window_.panel, wiring.document.job.operations
+    cut = replace(first.cut, curves=(ContourKind.OUTER, ContourKind.INNER))
+    panel.change("Curves", lambda job: replace(job, operations=(replace(first, cut=cut), *others)))
+    panel.choose(Subject(SubjectKind.OPERATION, 0))
+    box, told = panel.operation_form.fields["curves"].field.box, []
+    for code in ("en", "ja", "en"):
+        wiring.window_.actions_[f"language_{code}"].trigger()
+        told.append(box.currentText())
+    assert told == ["outer contours, inner contours", "外側の輪郭、内側の輪郭", "outer contours, inner contours"]
+
+
+@pytest.mark.parametrize("more", [0, 2])
+@pytest.mark.parametrize("kind", FindingKind)
+def test_the_badge_tells_each_kind_of_finding_and_that_there_are_more(kind, more) -> None:
+    found = tuple(Finding(kind, "A sentence.", x=1.0, y=2.0, amount=0.1) for _ in range(more + 1))
+    words, japanese = verdict_summary(found, {"moves": {"line": 1}}).text, catalogue("ja")
+    told = japanese.look_up(words)
+    assert told is not None and not re.search("[a-z]{3}", told), (words, told)
+    assert japanese.look_up(f"Preview · {words}") == f"プレビュー · {told}"
 
 
 def test_english_comes_back_without_a_trace(wiring) -> None:

@@ -12,6 +12,7 @@ from typing import Any, Protocol
 from PySide6.QtCore import SignalInstance
 from PySide6.QtWidgets import QPushButton, QWidget
 
+from ...core.catalogue import catalogue
 from ...model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer, Selector
 from ...model.entry import EntryKind, LeadKind
 from ...model.fields import ParameterPlace, Unit, parameters_of
@@ -19,6 +20,7 @@ from ...model.job import Job
 from ...model.operation import Operation, Side
 from ...model.operation_kinds import parameters
 from ...model.tool import Tool
+from ..framework.catalogue import active_language, tr
 from ..framework.fields import ListField
 from ..framework.figures import counted
 from ..framework.form import FieldGroup
@@ -124,21 +126,29 @@ def _words(placed: ParameterPlace, operation: Operation) -> str:
 
 
 def curve_words(selectors: Sequence[Selector]) -> str:
-    """Return which curves an operation machines as a person says it, not as a job file does."""
+    """Return which curves an operation machines as a person says it, not as a job file does; several in the window's
+    language, whose catalogue has entries for each alone.
+    """
     numbers = [each for each in selectors if isinstance(each, CurveNumber)]
-    if len(numbers) > 1:
-        rest = [each for each in selectors if each not in numbers]
-        return ", ".join([*map(_selector_words, rest), counted(len(numbers), "curve")])
-    return ", ".join(map(_selector_words, selectors))
+    if len(numbers) < 2:
+        return _listed([_selector_words(each) for each in selectors])
+    rest = [_selector_words(each) for each in selectors if not isinstance(each, CurveNumber)]
+    return _listed([*rest, counted(len(numbers), "curve")])
+
+
+def _listed(names: Sequence[str]) -> str:
+    if len(names) < 2 or active_language() == "en":
+        return ", ".join(names)
+    return catalogue(active_language()).joined([tr(name) for name in names])
 
 
 def _selector_words(selector: Selector) -> str:
     if isinstance(selector, CirclesOf):
         ends = dict.fromkeys((selector.least, selector.most))
         return f"Ø {SPAN.join(f'{each:g}' for each in ends)} mm"
-    if selector is ContourKind.OPEN:
-        return "open lines"
-    return selector.words if isinstance(selector, OnLayer) else selector.text
+    if isinstance(selector, ContourKind):
+        return _PLACES[selector].lower()
+    return selector.words if isinstance(selector, OnLayer) else f"curve {selector.number}"
 
 
 def _floor(form: GroupHost) -> Show:

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QWidget
 
 from ...core.resources import resource
-from ...core.settings import ThemeChoice
+from ...core.settings import Language, ThemeChoice
 from ...drafting.document import DocumentChange
 from ...model.operation_kinds import OPERATION_KINDS
 from ..framework.commands import on_trigger
@@ -170,6 +170,8 @@ class WindowController(QObject):
         self.snap_controller = SnapController(window.canvas.snap_state, window.status, commands["polar"], preferences)
         self.shortcuts = Shortcuts(commands, preferences)
         self.translation_controller = TranslationController(window, preferences, commands)
+        for choice in Language:  # lists are made in the language that is spoken then
+            on_trigger(commands, f"language_{choice.value}", window.panel.refresh)
 
     def _make_drawing_parts(self, workspace: Workspace, commands: Actions) -> None:
         """Make what serves the drawing and its job."""

@@ -164,6 +164,14 @@ def test_a_second_tool_for_contours_alone_has_its_own_colour_in_text_picture_and
     assert [row.colour for row in key] == [LIGHT.tools[inks[1]], LIGHT.tools[inks[2]]]
 
 
+def test_a_tool_has_the_colour_that_it_has_in_the_cut_in_the_text_of_each_file():
+    """Of a program with a file for each tool each text began with the first colour."""
+    texts = [f"G21 G90\nT{number} M6\nG1 X{number} F100\nM2\n".encode() for number in (1, 2)]
+    files = [shape_motions(read_program(text, ReadOptions())) for text in texts]
+    assert tool_inks(*files) == {1: 0, 2: 1}
+    assert [line_marks(4, each, files=files).by_tool[2] - CUT for each in files] == [0, 1]
+
+
 def test_a_program_that_does_not_tell_its_contours_has_the_cycle_of_tools():
     text = b"G21 G90\nT4 M6\nG1 X1 F100\nT2 M6\nG1 X2\nM2\n"
     assert tool_inks(shape_motions(read_program(text, ReadOptions()))) == {4: 0, 2: 1}

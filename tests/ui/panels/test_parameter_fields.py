@@ -14,6 +14,7 @@ from app.model.job import Job
 from app.model.operation import CutParameters, Side
 from app.model.operation_kinds import OPERATION_KINDS, register
 from app.model.part import Part
+from app.ui.framework.catalogue import set_language, tr
 from app.ui.framework.fields import ChoiceField, ListField, NumberField
 from app.ui.framework.form import SwitchField
 from app.ui.panels.operation_form import OperationForm
@@ -89,8 +90,29 @@ def test_what_a_kind_refuses_is_not_offered(form):
     assert offered(ContourOperation) == [Side.INSIDE, Side.OUTSIDE, Side.ON]
 
 
+@pytest.fixture
+def language():
+    """What switches the language of the window, until the test ends."""
+    yield set_language
+    set_language("en")
+
+
 def test_curves_of_an_operation_are_told_as_a_person_says_them():
-    curves = (CirclesOf(6.0, 6.0), CirclesOf(5.9, 6.1), OnLayer("holes"), ContourKind.OPEN, CurveNumber(12))
-    words = ["Ø 6 mm", f"Ø 5.9{SPAN}6.1 mm", "layer holes", "open lines", "#12"]
+    curves = (CirclesOf(6.0, 6.0), CirclesOf(5.9, 6.1), OnLayer("holes"), *ContourKind, CurveNumber(12))
+    places = ["outer contours", "inner contours", "open lines"]
+    words = ["Ø 6 mm", f"Ø 5.9{SPAN}6.1 mm", "layer holes", *places, "curve 12"]
     assert [curve_words([each]) for each in curves] == words
-    assert curve_words([CurveNumber(3), CurveNumber(4), ContourKind.OUTER]) == "outer, 2 curves"
+    assert curve_words([CurveNumber(3), CurveNumber(4), ContourKind.OUTER]) == "outer contours, 2 curves"
+
+
+def test_lists_of_curves_are_told_in_the_language_of_the_window(language):
+    ways = {
+        (ContourKind.OUTER, ContourKind.INNER): "外側の輪郭、内側の輪郭",
+        (CirclesOf(5.0, 6.0), ContourKind.OPEN): f"Ø 5{SPAN}6 mm、開いた線",
+        (ContourKind.OUTER, OnLayer("A")): "外側の輪郭、レイヤー A",
+        (ContourKind.OUTER, *map(CurveNumber, (3, 4, 5))): "外側の輪郭、図形 3 個",
+        (ContourKind.INNER, CurveNumber(3)): "内側の輪郭、図形 3",
+    }
+    language("ja")
+    assert {each: curve_words(each) for each in ways} == ways
+    assert [tr(curve_words([each])) for each in (ContourKind.OUTER, CurveNumber(7))] == ["外側の輪郭", "図形 7"]

@@ -153,8 +153,8 @@ class FindingsList(QFrame):
         self._layers, self._mends = layers, _no_mends
         self._add_title("Could not be computed")
         self._column.addWidget(self._sentence(error))
-        if findings:
-            self._add_title(_count_words(findings))
+        if findings:  # that there is none else is not known
+            self._add_title(_count_words(findings, none=""))
             self._column.addWidget(self._list(findings))
         self._open_above(above)
 
@@ -239,11 +239,11 @@ class FindingsList(QFrame):
         self.picked.emit(finding)
 
 
-def _count_words(findings: tuple[Finding, ...]) -> str:
-    """Return how many findings there are, and remarks: "2 findings, 1 remark"."""
+def _count_words(findings: tuple[Finding, ...], none: str = "No findings") -> str:
+    """Return how many findings there are, and remarks: "2 findings, 1 remark"; `none` stands for 0 findings."""
     counting = sum(f.counts for f in findings)
     remarks = counted(len(findings) - counting, "remark") if len(findings) > counting else ""
-    return ", ".join(filter(None, (counted(counting, "finding") if counting else "No findings", remarks)))
+    return ", ".join(filter(None, (counted(counting, "finding") if counting else none, remarks)))
 
 
 def _no_mends(_: Finding) -> tuple[OfferedMend, ...]:

@@ -251,7 +251,7 @@ class CutPanel(Themed, QWidget):
             self._add_mend(row)
 
     def show_trial(self, mend: Mend, told: VerdictSummary) -> None:
-        """Say that what is shown is what a mend would make, and ask whether it is taken; `told` is the verdict on it."""
+        """Say that what is shown is what a mend would make, with the verdict on it, and ask whether it is taken."""
         self._clear_mends()
         if self.shown is not None:
             self.title.setText(f"Preview · {title_of(self.shown, told)}")

@@ -149,7 +149,7 @@ def shown_cut(
         tuple(file.name for file in files),
         texts,
         tuple(counts.tolist()),
-        tuple(line_marks(len(text), each) for text, each in zip(texts, shapes, strict=True)),
+        tuple(line_marks(len(text), each, files=shapes) for text, each in zip(texts, shapes, strict=True)),
         histogram=histogram_of(picture, cut.judgement) if cut.judgement is not None else None,
     )
 

@@ -38,29 +38,36 @@ class LineMarks:
     differing: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
-def line_marks(count: int, shapes: MotionShapes | None = None, problems: Sequence[ProgramProblem] = ()) -> LineMarks:
+def line_marks(
+    count: int,
+    shapes: MotionShapes | None = None,
+    problems: Sequence[ProgramProblem] = (),
+    files: Sequence[MotionShapes] = (),
+) -> LineMarks:
     """Return the looks of the lines of a text.
 
     Args:
         count: lines of the text.
         shapes: what they move; None = not known yet.
         problems: what is wrong with them.
+        files: what all texts of the program move, in the order of cutting; a tool has one colour in all of them.
+            None: it is this text alone.
     """
     by_tool, by_motion = np.zeros(count, np.uint8), np.zeros(count, np.uint8)
     if shapes is not None and len(shapes):
         rows = np.clip(shapes.lines - 1, 0, count - 1)
-        by_tool[rows], by_motion[rows] = (codes[shapes.by_line] for codes in _codes(shapes))
+        by_tool[rows], by_motion[rows] = (codes[shapes.by_line] for codes in _codes(shapes, files or (shapes,)))
     by_row: dict[int, list[ProgramProblem]] = {}
     for problem in problems:
         by_row.setdefault(problem.line - 1, []).append(problem)
     return LineMarks(by_tool, by_motion, by_row)
 
 
-def _codes(shapes: MotionShapes) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+def _codes(shapes: MotionShapes, files: Sequence[MotionShapes]) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
     tools, at = np.unique(shapes.tool, return_inverse=True)
     of_tool, of_contour = (
         np.array([CUT + min(inks.get(int(tool), 0), 200) for tool in tools])[at]
-        for inks in (tool_inks(shapes), contour_inks(shapes))
+        for inks in (tool_inks(*files), contour_inks(*files))
     )
     of_tool = np.where(shapes.look == MotionLineStyle.CONTOUR, of_contour, of_tool)
     plain = np.where(shapes.look == MotionLineStyle.RAPID, RAPID, PLUNGE)
