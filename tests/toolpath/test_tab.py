@@ -94,8 +94,8 @@ def test_short_paths_have_fewer_and_that_is_told() -> None:
 def test_paths_with_neighbours_on_two_sides_have_fewer_for_want_of_metal_and_that_is_told() -> None:
     program = compute(job_with(Tabs(8), [square(40, 44.0 * k, 0.0) for k in range(3)]))
     (told,) = [finding.text for finding in program.findings if "fewer than 8 tabs" in finding.text]
-    assert told.startswith("1 path of T2") and "because no metal stands on the far side of the cut" in told
-    alone = compute(job_with(Tabs(8, width=9.0), [square(40)]))
+    assert told.startswith("3 paths of T2") and "because no metal stands on the far side of the cut" in told
+    alone = compute(job_with(Tabs(8, width=20.0), [square(40)]))
     assert about(alone, "fewer than 8 tabs") and not about(alone, "no metal stands")
 
 

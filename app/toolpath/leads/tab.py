@@ -471,14 +471,21 @@ def _too_few(paths: Sequence[ContourPath], shape: TabShape, loose: bool, lacks_m
     x, y = paths[0].rows[0, :2]
     what = "no tab though a part comes loose there" if loose else f"fewer than {shape.tabs.count} tabs"
     who = f"of T{shape.tool.number} {shape.tool.label}"
-    why = "it is too short for them" if len(paths) == 1 else "they are too short for them"
     if lacks_metal:
-        why = "no metal stands on the far side of the cut"
-    text = (
-        f"1 path {who} has {what}, because {why}; it begins at {in_plane(x, y)}."
-        if len(paths) == 1
-        else f"{len(paths)} paths {who} have {what}, because {why}; the first begins at {in_plane(x, y)}."
-    )
+        text = (
+            f"1 path {who} has {what}, because no metal stands on the far side of the cut; it begins at "
+            f"{in_plane(x, y)}."
+            if len(paths) == 1
+            else f"{len(paths)} paths {who} have {what}, because no metal stands on the far side of the cut; the first "
+            f"begins at {in_plane(x, y)}."
+        )
+    else:
+        text = (
+            f"1 path {who} has {what}, because it is too short for them; it begins at {in_plane(x, y)}."
+            if len(paths) == 1
+            else f"{len(paths)} paths {who} have {what}, because they are too short for them; the first begins at "
+            f"{in_plane(x, y)}."
+        )
     return Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=loose, amount=float(len(paths)))
 
 
