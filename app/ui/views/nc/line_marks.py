@@ -51,7 +51,7 @@ def line_marks(
         shapes: what they move; None = not known yet.
         problems: what is wrong with them.
         files: what all texts of the program move, in the order of cutting; a tool has one colour in all of them.
-            None: it is this text alone.
+            Empty: it is this text alone.
     """
     by_tool, by_motion = np.zeros(count, np.uint8), np.zeros(count, np.uint8)
     if shapes is not None and len(shapes):
