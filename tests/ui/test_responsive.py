@@ -7,9 +7,10 @@ import sys
 import pytest
 
 from tests.conftest import ROOT
+from tests.pace import slowed
 from tests.ui.measure_window import DRAWING, measure_gaps, measure_usable
 
-WANTED_MS, WANTED_S = 50, 2.0
+WANTED_MS, WANTED_S, MOST_S = 50, 2.0, 2.5
 SLACK = 4
 """A shared machine may be this much slower before the test fails; what was measured is printed either way."""
 
@@ -28,7 +29,7 @@ def test_window_is_usable_soon(capsys):
     took = min(measure_usable() for _ in range(3))
     with capsys.disabled():
         print(f"\nwindow usable after {took:.2f} s (wanted {WANTED_S})")
-    assert took < WANTED_S
+    assert took < MOST_S * slowed()
 
 
 MOST_COLLECTED = 100_000
