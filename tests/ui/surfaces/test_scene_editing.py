@@ -156,6 +156,15 @@ def test_a_file_that_is_wrong_is_opened_all_the_same_so_that_it_can_be_mended(qt
     assert not wiring.window_.views.empty.isVisible()
 
 
+def test_a_scene_that_failed_says_why_in_the_view_and_may_be_computed_again(qtbot, wiring):
+    work, empty = wiring.scenes.work, wiring.window_.views.empty
+    wiring.display_controller.show_view(View.SURFACES)
+    with qtbot.waitSignal(work.failed, timeout=WAIT_MS) as told:
+        work.reading.start(lambda progress: np.empty(1 << 55), lambda _: None)
+    assert "ran out" in told.args[0] and empty.sentence.text() == told.args[0]
+    assert empty.button.text() == "Compute again"
+
+
 @pytest.mark.exhaustive
 def test_surfaces_are_added_moved_switched_and_removed(qtbot, opened):
     panel = opened.window_.scene_side.panel
