@@ -227,7 +227,7 @@ def test_what_computing_again_cannot_help_offers_no_such_button(qtbot, wiring):
     window, empty = wiring.window_, wiring.window_.views.empty
     for view in (View.PATHS, View.CUT, View.NC):
         wiring.display_controller.show_view(view)
-        assert "could not be computed" in empty.sentence.text() and not empty.button.isVisible()
+        assert "reduce the depth" in empty.sentence.text() and not empty.button.isVisible()
     qtbot.mouseClick(window.status.badge, Qt.MouseButton.LeftButton)
     told = [label.text() for label in window.findings_list.findChildren(QLabel)]
     assert any("11 mm" in text for text in told), told
