@@ -1,4 +1,4 @@
-"""Which places lie at others: by cells, so that many of both take no longer than to sort them."""
+"""Which places lie at others, and which rows of numbers are alike: many take no longer than to sort them."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ _CELL = 2.5
 """Reaches that a cell is wide; with two alone rounding might put the ends of a reach two cells apart, and what is
 between in neither.
 """
+
+_MIX = np.uint64(0x9E3779B97F4A7C15)
+"""An odd number that spreads what it multiplies over 64 bits."""
 
 
 def near(places: Floats, others: Floats, reach: float) -> NDArray[np.bool_]:
@@ -29,11 +32,11 @@ def near(places: Floats, others: Floats, reach: float) -> NDArray[np.bool_]:
         return found
     others = np.unique(others, axis=0)
     width = _CELL * reach
-    keys = _keys(np.floor(others / width))
+    keys = row_keys(np.floor(others / width))  # different cells that are alike only cost a distance more
     order = np.argsort(keys, kind="stable")
     others, keys = others[order], keys[order]
     for side in product((-reach, reach), repeat=3):
-        requested = _keys(np.floor((places + np.array(side)) / width))
+        requested = row_keys(np.floor((places + np.array(side)) / width))
         at, stop = np.searchsorted(keys, requested), np.searchsorted(keys, requested, side="right")
         open_ = np.flatnonzero(~found & (at < stop))
         while len(open_):
@@ -43,10 +46,13 @@ def near(places: Floats, others: Floats, reach: float) -> NDArray[np.bool_]:
     return found
 
 
-def _keys(cells: Floats) -> NDArray[np.uint64]:
-    """Return a number of each cell (n, 3); few of different cells are alike, and those only cost a distance more."""
-    whole = cells.astype(np.int64).astype(np.uint64)
-    keys: NDArray[np.uint64] = (
-        whole[:, 0] * np.uint64(0x9E3779B97F4A7C15) ^ whole[:, 1] * np.uint64(0xC2B2AE3D27D4EB4F) ^ whole[:, 2]
-    )
-    return keys
+def row_keys(rows: Floats) -> NDArray[np.uint64]:
+    """Return 64 bits mixed from the numbers of each row (n, k), alike where rows are; few of different rows are alike.
+
+    They sort many times faster than rows, and without stopping every thread, as numpy's own way through rows does.
+    """
+    mixed = np.zeros(len(rows), np.uint64)
+    for column in (rows + 0.0).T:  # 0 and -0 are one number
+        mixed = (mixed ^ np.ascontiguousarray(column).view(np.uint64)) * _MIX
+        mixed ^= mixed >> np.uint64(29)
+    return mixed

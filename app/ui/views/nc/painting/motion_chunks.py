@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtGui import QPainterPath
 
+from .....geometry.coincident_points import row_keys
 from .....model.motion import MotionKind
 from ...canvas.painting.curve_path import path_of
 from ...canvas.painting.move_shapes import RUN
@@ -23,9 +24,6 @@ meet.
 
 _SAME_PLACE = 1e-3
 """mm; a path that comes so near a place is there again."""
-
-_MIX = (0x9E3779B97F4A7C1, 0xC2B2AE3D27D4EB5, 0x165667B19E3779F)
-"""Odd numbers that spread what they multiply over 64 bits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +71,12 @@ def chunks_by_style(shapes: MotionShapes, side: ViewSide, rows: Ints) -> MotionC
     codes = (shapes.tool[rows].astype(np.int64) * len(MotionLineStyle) + shapes.look[rows]) * len(
         MotionKind
     ) + shapes.program.motions.kind[rows]
-    return MotionChunks.joined(_cut(shapes, side, own, np.arange(0, len(own), RUN)) for own in _alike(rows, codes))
+    parts = []
+    for own in _alike(rows, codes):
+        contour = shapes.look[own[0]] == MotionLineStyle.CONTOUR
+        along = _dashes(shapes, side, own).along if contour else np.zeros(len(own))
+        parts.append(_cut(shapes, side, own, np.arange(0, len(own), RUN), along))
+    return MotionChunks.joined(parts)
 
 
 def contour_chunks(shapes: MotionShapes, side: ViewSide, rows: Ints, by_kind: bool) -> MotionChunks:
@@ -90,12 +93,12 @@ def contour_chunks(shapes: MotionShapes, side: ViewSide, rows: Ints, by_kind: bo
         return chunks_by_style(shapes, side, rows)
     parts = []
     for own in _alike(rows, shapes.tool[rows]):
-        begun = _begun(shapes, side, own)
+        begun, along = _dashes(shapes, side, own)
         # counted from where a path begins, so that all passes are cut alike: fine pens count dashes in steps of pixels
         count = np.arange(len(own))
         heads = (count - np.maximum.accumulate(np.where(begun, count, 0))) % RUN == 0
         heads[1:] |= by_kind & (np.diff(kinds[own]) != 0)
-        parts.append(_cut(shapes, side, own, _with_ends(np.flatnonzero(heads), begun)))
+        parts.append(_cut(shapes, side, own, _with_ends(np.flatnonzero(heads), begun), along))
     return MotionChunks.joined(parts)
 
 
@@ -115,18 +118,17 @@ def _with_ends(heads: Ints, breaks: NDArray[np.bool_]) -> Ints:
     return np.unique(np.concatenate([heads, ends[ends < len(breaks)]]))
 
 
-def _cut(shapes: MotionShapes, side: ViewSide, own: Ints, heads: Ints) -> MotionChunks:
-    """Cut some motions of one style before each of the heads."""
+def _cut(shapes: MotionShapes, side: ViewSide, own: Ints, heads: Ints, along: Floats) -> MotionChunks:
+    """Cut some motions of one style before each of the heads; `along`: (n,) where in its dashes each begins, mm."""
     elements, at = shapes.elements(own, side, heads)
     edges = np.append(at[heads], at[-1])
     data, columns = elements.tobytes(), list(side.value)
-    begins = _begins(shapes, side, own, heads)
     kinds, look, tool = (
         shapes.program.motions.kind[own[heads]],
         MotionLineStyle(int(shapes.look[own[0]])),
         int(shapes.tool[own[0]]),
     )
-    pieces = zip(pairwise((edges * elements.itemsize).tolist()), kinds.tolist(), begins, strict=True)
+    pieces = zip(pairwise((edges * elements.itemsize).tolist()), kinds.tolist(), along[heads].tolist(), strict=True)
     chunks = [
         MotionChunk(path_of(data[first:last]), look, tool, MotionKind(kind), begin)
         for (first, last), kind, begin in pieces
@@ -140,70 +142,55 @@ def _cut(shapes: MotionShapes, side: ViewSide, own: Ints, heads: Ints) -> Motion
     return MotionChunks(chunks, boxes, np.diff(edges))
 
 
-def _begins(shapes: MotionShapes, side: ViewSide, own: Ints, heads: Ints) -> list[float]:
-    """Return how long the path is before each head, from where its dashes last began anew, as it is seen, mm; 0 but for
-    contours.
+class _Dashes(NamedTuple):
+    """Of motions along contours (n,): whether dashes begin anew with each, and where in its dashes each begins, mm as
+    it is seen.
     """
-    if shapes.look[own[0]] != MotionLineStyle.CONTOUR:
-        return [0.0] * len(heads)
+
+    begun: NDArray[np.bool_]
+    along: Floats
+
+
+def _dashes(shapes: MotionShapes, side: ViewSide, own: Ints) -> _Dashes:
+    """Return how dashes go along contours, so that all passes over one have theirs over each other.
+
+    They begin anew where another path begins, and where a path comes by the first of its places that it comes by again,
+    as one that goes down without a lift does. Where a path was before they begin as far as they were there.
+    """
     motions, columns = shapes.program.motions, list(side.value)
     chord = np.hypot(*(motions.end[own] - motions.start[own])[:, columns].T)
-    before = np.concatenate(
-        [[0.0], np.cumsum(np.where(motions.kind[own] == MotionKind.LINE, chord, shapes.length[own]))]
-    )
-    begun = np.flatnonzero(_begun(shapes, side, own))
-    at_begin = _phases(before, begun, _numbers(_places(shapes, side, own)).first)
-    last = np.searchsorted(begun, heads, side="right") - 1
-    return list((before[heads] - before[begun[last]] + at_begin[last]).tolist())
+    length = np.where(motions.kind[own] == MotionKind.LINE, chord, shapes.length[own])
+    before = np.cumsum(length) - length
+    broken = shapes.breaks(own)
+    path: Ints = np.cumsum(broken, dtype=np.int64)
+    places = np.round(motions.start[own][:, columns] / _SAME_PLACE)
+    begun = broken | _at_first_again(row_keys(np.column_stack([path, places])), path)
+    _, first, number = np.unique(row_keys(places), return_index=True, return_inverse=True)
+    return _Dashes(begun, before + _shifts(before, np.flatnonzero(begun), first[number])[np.cumsum(begun) - 1])
 
 
-def _phases(before: Floats, begun: Ints, first: Ints) -> Floats:
-    """Return how far in its dashes each path begins, mm: at a place where one was before, as far as that one was there,
-    so that all passes over a contour have theirs over each other.
+def _at_first_again(places: NDArray[np.uint64], path: Ints) -> NDArray[np.bool_]:
+    """Tell of motions (n,) whether each begins at the first place of its path that the path comes by again.
 
     Args:
-        before: (n + 1,) length before each motion, mm.
-        begun: numbers of the motions with which paths begin.
+        places: (n,) a number of the place and the path of each.
+    """
+    _, number, counts = np.unique(places, return_inverse=True, return_counts=True)
+    again = np.flatnonzero(counts[number] > 1)
+    _, first = np.unique(path[again], return_index=True)
+    return np.isin(number, number[again[first]])
+
+
+def _shifts(before: Floats, begun: Ints, first: Ints) -> Floats:
+    """Return how much farther dashes are than the length before them, mm, from each motion on with which they begin.
+
+    Args:
+        before: (n,) length before each motion, mm.
+        begun: numbers of the motions with which dashes begin anew.
         first: (n,) the first motion that begins at the place of each.
     """
-    phases = np.zeros(len(begun))
+    shifts = -before[begun]
     of_first = np.searchsorted(begun, first[begun], side="right") - 1
     for k in np.flatnonzero(first[begun] < begun).tolist():
-        j = of_first[k]
-        phases[k] = before[first[begun[k]]] - before[begun[j]] + phases[j]
-    return phases
-
-
-class _Numbers(NamedTuple):
-    """Of each of some keys (n,): which number it is of the different ones, how often it is there, and where first."""
-
-    number: Ints
-    times: Ints
-    first: Ints
-
-
-def _numbers(keys: Ints) -> _Numbers:
-    _, first, number, counts = np.unique(keys, return_index=True, return_inverse=True, return_counts=True)
-    return _Numbers(number, counts[number], first[number])
-
-
-def _places(shapes: MotionShapes, side: ViewSide, own: Ints) -> Ints:
-    """Return a number (n,) for the place at which each motion begins: one, as rows of two take ten times as long to
-    sort; two places that had the same would shift some dashes.
-    """
-    x, y = np.round(shapes.program.motions.start[own][:, list(side.value)] / _SAME_PLACE).astype(np.int64).T
-    mixed: Ints = (x * _MIX[0]) ^ (y * _MIX[1])
-    return mixed
-
-
-def _begun(shapes: MotionShapes, side: ViewSide, own: Ints) -> NDArray[np.bool_]:
-    """Tell of motions along contours (n,) where dashes begin anew: where another path begins, and where a path comes by
-    the first of its places that it comes by again, so that all passes of one that goes down without a lift have their
-    dashes over each other.
-    """
-    begun = shapes.breaks(own)
-    path = np.cumsum(begun)
-    found = _numbers((path * _MIX[2]) ^ _places(shapes, side, own))
-    again = np.flatnonzero(found.times > 1)
-    _, first = np.unique(path[again], return_index=True)
-    return begun | np.isin(found.number, found.number[again[first]])
+        shifts[k] += before[first[begun[k]]] + shifts[of_first[k]]
+    return shifts

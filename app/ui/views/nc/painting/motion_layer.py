@@ -14,6 +14,7 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QPainter
 
 from .....gcode.interpreter.program import StockNote, ToolNote
+from .....geometry.coincident_points import row_keys
 from .....geometry.sample import Box
 from .....model.motion import MotionKind
 from ....framework.theme import Theme
@@ -43,7 +44,6 @@ _MOST_TOOLS = 8
 _PORTION = 15_000
 """Elements of paths that are painted before the window listens again."""
 
-_MIX = np.uint64(0x9E3779B97F4A7C15)
 _KIND_NAMES = {
     MotionKind.RAPID: "G0 rapid",
     MotionKind.LINE: "G1 line",
@@ -254,12 +254,5 @@ class MotionLayer:
 
 
 def _once(rows: Floats) -> Floats:
-    """Return (n, k) rows, each once, sorted by nothing in particular.
-
-    Rows are told apart by 64 bits mixed from their numbers: numpy's own way through rows stops every thread.
-    """
-    mixed = np.zeros(len(rows), np.uint64)
-    for column in (rows + 0.0).T:
-        mixed = (mixed ^ np.ascontiguousarray(column).view(np.uint64)) * _MIX
-        mixed ^= mixed >> np.uint64(29)
-    return rows[np.unique(mixed, return_index=True)[1]]
+    """Return (n, k) rows, each once, sorted by nothing in particular."""
+    return rows[np.unique(row_keys(rows), return_index=True)[1]]
