@@ -5,10 +5,10 @@ columns.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 from itertools import compress
-from math import cos, isfinite, radians, sin, sqrt
+from math import cos, isfinite, radians, sin
 from typing import Any, NamedTuple
 
 from ...core.errors import HitofudeError, InputError
@@ -18,6 +18,18 @@ from ...model.curves import Curve, Point
 from ..drawing import LeftOutReason, LeftOutSort
 from ..drawing_account import LEVEL_ZERO, MOST_CURVES, CurveHeights, LayeredCurve
 from .block_clips import hidden_layers
+from .content import (
+    BrokenLine,
+    ClippedBlock,
+    DxfContent,
+    HiddenInsert,
+    LayeredPoint,
+    NegativeRadius,
+    UnreadText,
+    WidePolyline,
+    layer_within,
+    layers_within,
+)
 from .curves import (
     DamagedCurveError,
     NegativeRadiusError,
@@ -51,68 +63,6 @@ MOST_POINTS = 100_000
 """Points of a drawing; more of them come from blocks in blocks, and nobody drills them."""
 
 
-@dataclass(frozen=True)
-class HiddenInsert:
-    """An inserted block that no CAD program shows, since the layer that it is inserted on is frozen.
-
-    Attributes:
-        layer: that is frozen. block: its name. at: its place, drawing units, None where it has none.
-        curves: layers of the curves that are not drawn for it.
-    """
-
-    layer: str
-    block: str
-    at: Point | None
-    curves: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class NegativeRadius:
-    """A circle or an arc with a radius below 0; lengths in drawing units."""
-
-    at: Point
-    radius: float
-    layer: str
-
-
-@dataclass(frozen=True)
-class WidePolyline:
-    """A polyline that is drawn as wide as told, whose middle line is read; lengths in drawing units.
-
-    Attributes:
-        at: where it begins. least, most: its widths.
-    """
-
-    at: Point
-    least: float
-    most: float
-    layer: str
-
-    def moved(self, place: Affine, outer: str) -> WidePolyline:
-        """Return it under a map; what is on layer 0 goes to `outer`."""
-        scale = sqrt(abs(place.xx * place.yy - place.xy * place.yx))
-        layer = outer if self.layer == "0" else self.layer
-        return WidePolyline(place.point(self.at), self.least * scale, self.most * scale, layer)
-
-
-@dataclass(frozen=True)
-class BrokenLine:
-    """A curve that is drawn in a line type with gaps; where it begins, in drawing units."""
-
-    at: Point
-    line_type: str
-    layer: str
-
-
-@dataclass(frozen=True)
-class UnreadText:
-    """A text of a sort that is not read, or a curve that cannot be drawn; its place in drawing units."""
-
-    at: Point
-    sort: LeftOutSort
-    layer: str
-
-
 def _sort_of(kind: str) -> LeftOutSort:
     """Return what an entity of a kind that is not read is left out as."""
     name = kind.removesuffix(DAMAGED)
@@ -123,120 +73,6 @@ def _place_of(entity: Any) -> Point:
     """Return where a text is, seen from above."""
     at = entity.dxf.get("insert", (0.0, 0.0))
     return (float(at[0]), float(at[1]))
-
-
-class ClippedBlock(NamedTuple):
-    """A block that is read whole although a clip hides a part of it: its name and place, drawing units, and the layers
-    of what is hidden.
-    """
-
-    name: str
-    at: Point
-    layers: tuple[str, ...]
-
-    def moved(self, place: Affine, outer: str) -> ClippedBlock:
-        """Return it under a map; what is on layer 0 goes to `outer`."""
-        return ClippedBlock(self.name, place.point(self.at), _on(self.layers, outer))
-
-
-def _on(layers: Iterable[str], outer: str) -> tuple[str, ...]:
-    """Return layers of a block as they are where it is inserted on the layer `outer`."""
-    return tuple(outer if layer == "0" else layer for layer in layers)
-
-
-class LayeredPoint(NamedTuple):
-    """A point and the name of its layer."""
-
-    at: Point
-    layer: str
-
-
-@dataclass
-class DxfContent:
-    """What a space or a block draws.
-
-    Attributes:
-        curves: in the sheet's own coordinates, drawing units.
-        points: its points, each on its layer. letterings: what its texts draw. hatches: boundaries of its hatches.
-        left_out: entities that are no curves.
-        without_length: places of entities that draw nothing, None where there is no place.
-        upright: how many entities are seen edge-on from above, wholly or in part, by layer.
-        hidden: blocks inserted on frozen layers.
-        negative: circles and arcs that nobody knows how to draw.
-        bands: polylines with a width. broken: curves with gaps.
-        unread: texts that are left out for what they are, and curves that cannot be drawn.
-        clipped: inserted blocks that are cut by a clip.
-        heights: least and greatest Z seen, drawing units.
-    """
-
-    curves: list[LayeredCurve] = field(default_factory=list)
-    points: list[LayeredPoint] = field(default_factory=list)
-    letterings: list[TextCurves] = field(default_factory=list)
-    hatches: list[Hatch] = field(default_factory=list)
-    left_out: Counter[LeftOutSort] = field(default_factory=Counter)
-    without_length: list[Point | None] = field(default_factory=list)
-    upright: Counter[str] = field(default_factory=Counter)
-    hidden: list[HiddenInsert] = field(default_factory=list)
-    negative: list[NegativeRadius] = field(default_factory=list)
-    bands: list[WidePolyline] = field(default_factory=list)
-    broken: list[BrokenLine] = field(default_factory=list)
-    unread: list[UnreadText] = field(default_factory=list)
-    clipped: list[ClippedBlock] = field(default_factory=list)
-    heights: tuple[float, float] = (0.0, 0.0)
-    any_height: bool = False
-    _more: int = 0
-
-    @property
-    def size(self) -> int:
-        """How many curves there are, with those of texts and hatches."""
-        return len(self.curves) + self._more
-
-    @property
-    def is_empty(self) -> bool:
-        """True where nothing is drawn, and nothing is to be said of a place."""
-        return not (
-            self.size
-            or self.points
-            or self.letterings
-            or self.without_length
-            or self.upright
-            or self.hidden
-            or self.negative
-            or self.unread
-        )
-
-    def more(self) -> Iterator[TextCurves | Hatch]:
-        """Yield its texts and hatches."""
-        yield from self.letterings
-        yield from self.hatches
-
-    def drawn(self) -> Iterator[Curve]:
-        """Yield every curve, those of texts and hatches too."""
-        yield from (each.curve for each in self.curves)
-        for each in self.more():
-            yield from each.drawn()
-
-    def layers(self) -> Iterator[str]:
-        """Yield the layer of every curve."""
-        yield from (each.layer for each in self.curves)
-        for each in self.more():
-            yield from (each.layer for _ in range(each.size))
-
-    def add(self, made: TextCurves | Hatch) -> None:
-        """Note what a text or a hatch draws, if it does; one of which letters are missing alone counts as a curve."""
-        if not made.size and not (isinstance(made, TextCurves) and made.lacking):
-            return
-        if isinstance(made, Hatch):
-            self.hatches.append(made)
-        else:
-            self.letterings.append(made)
-        self._more += max(made.size, 1)
-
-    def see(self, heights: Iterable[float]) -> None:
-        """Note some Z."""
-        for z in heights:
-            self.heights = (min(self.heights[0], z), max(self.heights[1], z)) if self.any_height else (z, z)
-            self.any_height = True
 
 
 class _Lie(NamedTuple):
@@ -283,13 +119,13 @@ def _lay(inner: DxfContent, place: Affine, outer: str, content: DxfContent, lift
             content.without_length.append(place.point(curve.start))
         else:
             lies = heights.lifted(lift) if lift else heights
-            content.curves.append(LayeredCurve(moved, outer if layer == "0" else layer, lies))
+            content.curves.append(LayeredCurve(moved, layer_within(layer, outer), lies))
 
 
 def _stand(inner: DxfContent, place: Affine, outer: str, content: DxfContent, lie: _Lie) -> None:
     """Add the curves of a block that is seen edge-on from above, and count those of which nothing is seen."""
     for curve, layer, _ in inner.curves:
-        moved, own = transformed(curve, place), outer if layer == "0" else layer
+        moved, own = transformed(curve, place), layer_within(layer, outer)
         if moved is None or is_lost(curve, moved):
             content.upright[own] += 1
         else:
@@ -439,7 +275,7 @@ class DxfWalker:
         self._bounded(content.size + inner.size * places, insert)
         self._bounded(places, insert)
         if self._is_hidden(insert):
-            layers = _on(inner.layers(), insert.dxf.layer)
+            layers = layers_within(inner.layers(), insert.dxf.layer)
             content.hidden.append(
                 HiddenInsert(insert.dxf.layer, insert.dxf.name, next(iter(_origins(insert)), None), layers * places)
             )
@@ -457,12 +293,14 @@ class DxfWalker:
             content.left_out[LeftOutSort("INSERT", LeftOutReason.DAMAGED)] += 1
             return
         content.points += [
-            LayeredPoint(place.point(at), insert.dxf.layer if layer == "0" else layer)
+            LayeredPoint(place.point(at), layer_within(layer, insert.dxf.layer))
             for place in copies
             for at, layer in points
         ]
         if clipped := hidden_layers(insert, zip(inner.drawn(), inner.layers(), strict=True)):
-            clip = ClippedBlock(insert.dxf.name, _inserted_at(insert, copies[0]), _on(clipped, insert.dxf.layer))
+            clip = ClippedBlock(
+                insert.dxf.name, _inserted_at(insert, copies[0]), layers_within(clipped, insert.dxf.layer)
+            )
             content.clipped.append(clip)
         for place in copies:
             self._copy(inner, place, insert.dxf.layer, content, lie)
@@ -496,25 +334,22 @@ class DxfWalker:
     def _copy(self, inner: DxfContent, place: Affine, outer: str, content: DxfContent, lie: _Lie = _LEVEL) -> None:
         """Add what a block draws in one place, on the layer `outer` where it names none."""
         for layer, count in inner.upright.items():
-            content.upright[outer if layer == "0" else layer] += count
+            content.upright[layer_within(layer, outer)] += count
         content.without_length += [None if p is None else place.point(p) for p in inner.without_length]
         content.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
         content.negative += [
-            replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
-            for each in inner.negative
+            replace(each, at=place.point(each.at), layer=layer_within(each.layer, outer)) for each in inner.negative
         ]
         content.clipped += [each.moved(place, outer) for each in inner.clipped]
         content.bands += [each.moved(place, outer) for each in inner.bands if not lie.is_edge_on]
         content.unread += [
-            replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
-            for each in inner.unread
+            replace(each, at=place.point(each.at), layer=layer_within(each.layer, outer)) for each in inner.unread
         ]
         content.broken += [
-            replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
-            for each in inner.broken
+            replace(each, at=place.point(each.at), layer=layer_within(each.layer, outer)) for each in inner.broken
         ]
         if lie.is_edge_on:
-            content.upright.update(_on((each.layer for each in inner.more()), outer))
+            content.upright.update(layers_within((each.layer for each in inner.more()), outer))
             _stand(inner, place, outer, content, lie)
         else:
             for each in inner.more():

@@ -49,8 +49,9 @@ from ..reading_question import (
     layouts_question,
     units_question,
 )
-from .blocks import DrawnCurves, DxfContent, DxfWalker, all_drawn
+from .blocks import DrawnCurves, DxfWalker, all_drawn
 from .code_pages import with_told_letters
+from .content import DxfContent
 from .findings import (
     about_unread,
     band_findings,

@@ -15,7 +15,8 @@ from ...geometry.sample import bounds, bounds_of_all
 from ...model.curves import Curve
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
-from .blocks import BrokenLine, ClippedBlock, DrawnCurves, DxfContent, HiddenInsert, WidePolyline
+from .blocks import DrawnCurves
+from .content import BrokenLine, ClippedBlock, DxfContent, HiddenInsert, WidePolyline
 from .curves import is_unbroken
 from .letters import TextCurves
 from .numbers import DecimalCommas
