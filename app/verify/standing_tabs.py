@@ -50,7 +50,7 @@ _AT_WALL = 1e-6
 
 
 def cut_off_tabs(
-    part: FlatPart, path: PathProbe, cutters: Iterable[Cutter], where: Callable[[int], str]
+    part: FlatPart, path: PathProbe, cutters: Iterable[Cutter], where: Callable[[int], str], lines: Sequence[int]
 ) -> Iterator[Finding]:
     """Yield the tabs across whose middle, or at whose end, something is cut below their top, so that they hold less
     than they were made for, or nothing.
@@ -61,6 +61,7 @@ def cut_off_tabs(
         path: all motions that cut, program coordinates.
         cutters: of these motions.
         where: says in words where the motion of a row is.
+        lines: of each motion.
     """
     if not part.tabs:
         return
@@ -77,20 +78,21 @@ def cut_off_tabs(
         if len(some):
             k = int(some[np.argmax(deep[some])])
             place = int(np.argmin(heights[k]))
-            told = _CutOff(len(some), float(tops[k]), float(heights[k, place]), where(int(motions[k, place])))
-            tab = part.tabs[k]
+            motion, tab = int(motions[k, place]), part.tabs[k]
+            told = _CutOff(len(some), float(tops[k]), float(heights[k, place]), where(motion), int(lines[motion]))
             yield told.finding((tab.x - part.origin[0], tab.y - part.origin[1]), counts)
 
 
 class _CutOff(NamedTuple):
     """How many tabs are cut off, and of the worst of them: its top and how deep is cut across it or at its end, mm,
-    program coordinates, and where in the program.
+    program coordinates, and where in the program, in words and as a line.
     """
 
     tabs: int
     top: float
     height: float
     where: str
+    line: int
 
     def finding(self, place: Sequence[float], counts: bool) -> Finding:
         """Return it in words, with the middle of the worst tab, mm."""
@@ -101,7 +103,7 @@ class _CutOff(NamedTuple):
             f"down to Z {self.height:.3f} across it or at its end. Give tabs at the same places to all "
             "operations that come there, or let one operation with a finish width go along the wall."
         )
-        return Finding(FindingKind.TAB, text, x, y, counts, amount=self.top - self.height)
+        return Finding(FindingKind.TAB, text, x, y, counts, amount=self.top - self.height, line=self.line)
 
 
 def _places_across(part: FlatPart, spacing: float) -> Floats:

@@ -51,7 +51,7 @@ def test_another_contour_without_tabs_cuts_them_off(first: Operation, then: Oper
     (told,) = cut_off([square(40.0)], (first, then))
     assert told.counts and told.amount == pytest.approx(1.0)
     assert told.text.startswith("3 tabs do not stand") and "its top is at Z -3.000" in told.text
-    assert "cuts down to Z -4.000 across it or at its end" in told.text
+    assert f"NC line {told.line} cuts down to Z -4.000 across it or at its end" in told.text
 
 
 def test_what_goes_over_the_same_tabs_leaves_them() -> None:

@@ -46,8 +46,7 @@ Floats = NDArray[np.float64]
 _SAME = 1e-9
 """mm; lengths that differ by no more are equal."""
 _BEYOND = 1e-3
-"""mm of the metal behind the end of a line, more than the chamfer is wide, that the cutter need not keep off: more than
-a circle of 64 chords a quarter lacks."""
+"""mm of the metal behind the end of a line, more than the chamfer is wide, that the cutter need not keep off."""
 _STRAIGHT = 1e-6
 """Radians by which rows of one straight edge may turn."""
 _DENSE = 0.01
@@ -229,10 +228,9 @@ def _behind_lines(area: MachiningArea, operation: ChamferOperation) -> Rows:
     following = np.argsort(before)
     for k in np.flatnonzero(area.bare != area.bare[before]).tolist():
         ahead = bool(area.bare[k])
-        for row, much in _edge_at(
-            k if ahead else int(before[k]), following if ahead else before, rows, operation.width
-        ):
-            taken[row, 0 if ahead else 1] = much
+        begins, links = (k, following) if ahead else (int(before[k]), before)
+        for each in _edge_at(begins, links, rows, operation.width):
+            taken[each.row, 0 if ahead else 1] = each.length
     shares = taken / np.maximum(lengths_of, _WELD)[:, None]
     left = np.flatnonzero(straight & (lengths_of - taken.sum(axis=1) > _WELD))
     starts, ends = points_at(rows[left], shares[left, 0]), points_at(rows[left], 1 - shares[left, 1])
@@ -244,9 +242,15 @@ def _behind_lines(area: MachiningArea, operation: ChamferOperation) -> Rows:
     )
 
 
-def _edge_at(row: int, links: NDArray[np.int64], rows: Rows, width: float) -> Iterator[tuple[int, float]]:
-    """Yield the straight rows of the edge that begins with one, and how much of each, mm, a chamfer of a width takes
-    off.
+class _TakenOff(NamedTuple):
+    """A row, and how much of it a chamfer takes off at the end of a line, mm."""
+
+    row: int
+    length: float
+
+
+def _edge_at(row: int, links: NDArray[np.int64], rows: Rows, width: float) -> Iterator[_TakenOff]:
+    """Yield what a chamfer of a width takes off the straight rows of the edge that begins with one.
 
     Args:
         links: from each row to the next one on the edge.
@@ -257,7 +261,7 @@ def _edge_at(row: int, links: NDArray[np.int64], rows: Rows, width: float) -> It
         long = float(np.hypot(*way))
         if abs(first[0] * way[1] - first[1] * way[0]) > _STRAIGHT * long * np.hypot(*first):
             return
-        yield row, min(long, left)
+        yield _TakenOff(row, min(long, left))
         row, left = int(links[row]), left - long
 
 

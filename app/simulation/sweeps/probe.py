@@ -24,6 +24,10 @@ from .pieces import PieceSplitter, SweepPieces
 _WORTH_TWO_CORES = 500
 """Points from which a second core is worth its start."""
 
+PROVING_HELIX_CHORD = 1e-3
+"""mm that chords of helices may be off where it is asked what stands of tabs and threads: a tenth of what counts there.
+"""
+
 
 class LowestReach(NamedTuple):
     """The lowest heights (m,) at points, infinite where nothing comes, and the motions' rows, -1 = none."""

@@ -23,7 +23,7 @@ from ...simulation.cutter import Cutter, cutter_of
 from ...simulation.engines import CutStep, Engine, EngineReport, Graphics, HeightEngine, hardware
 from ...simulation.field.workpiece import Grid, Heights, Workpiece, ensure_memory
 from ...simulation.sweeps.course import TrimOptions
-from ...simulation.sweeps.probe import LowestReach, PathProbe
+from ...simulation.sweeps.probe import PROVING_HELIX_CHORD, LowestReach, PathProbe
 from ...simulation.sweeps.trim import CutResult, trim
 from ...verify.accidents import ProgramStage, accidents
 from ...verify.course import FineStock, KnownCourse, course_of
@@ -38,9 +38,6 @@ from ...verify.wall_probe import WallProbe, unseen_walls
 from .setup import CELLS, CutOptions, CutSetup
 
 __all__ = ["CELLS", "CutOptions", "CutProgram", "CutSetup", "Engine", "cut"]
-
-_HELIX_CHORD = 1e-3
-"""mm that chords of helices may be off where tabs are asked for: a tenth of what counts of their heights."""
 
 GRAPHICS, AS_USUAL = Graphics(), CutOptions()
 
@@ -122,8 +119,8 @@ def _findings(context: CutContext, done: CutOutcome, judgement: Judgement | None
     if judgement is not None:
         yield from findings_of(judgement, setup.where)
     if isinstance(setup.part, FlatPart) and setup.part.tabs and options.judge:
-        path = PathProbe.of([known.course for known in context.courses], context.cutters, _HELIX_CHORD)
-        yield from cut_off_tabs(setup.part, path, context.cutters.values(), setup.where)
+        path = PathProbe.of([known.course for known in context.courses], context.cutters, PROVING_HELIX_CHORD)
+        yield from cut_off_tabs(setup.part, path, context.cutters.values(), setup.where, setup.lines().tolist())
     if isinstance(setup.part, SolidPart) and context.closely:
         yield from unseen_walls(setup.part, context.workpiece.grid.pitch)
     yield from _fallen_back(done.engine_report, options.engine)

@@ -11,11 +11,8 @@ from ....model.job import Job
 from ....model.motion import Floats
 from ....simulation.cutter import Cutter, cutter_of, sure_spacing
 from ....simulation.sweeps.course import Course
-from ....simulation.sweeps.probe import PathProbe
+from ....simulation.sweeps.probe import PROVING_HELIX_CHORD, PathProbe
 from ..written import WrittenMotions
-
-_HELIX_CHORD = 1e-3
-"""mm that chords of helices may be off: a tenth of what counts of a thread."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +32,7 @@ class WrittenPlainCuts:
     def _path(self) -> PathProbe:
         tools = np.array([each.cut.tool for each in self.job.operations], np.int32)
         files = zip(self.motions.files, self.motions.operations, strict=True)
-        return PathProbe.of([Course(each, tools[own]) for each, own in files], self._cutters, _HELIX_CHORD)
+        return PathProbe.of([Course(each, tools[own]) for each, own in files], self._cutters, PROVING_HELIX_CHORD)
 
     def lowest(self, points: Floats) -> Floats:
         """Return the lowest heights (m,) that are cut at points (m, 2), mm, part coordinates; infinite where nothing
