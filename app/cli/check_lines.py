@@ -15,6 +15,9 @@ LEAST_TOLD_S = 0.5
 TOLD = 20
 """Problems and differences that are printed; the report has all."""
 
+UNNAMED_UNITS = "  units: the program names none (G20, G21) and is read in mm; say --units in if it is in inches"
+"""The line about a program whose units nobody has said."""
+
 
 def examined_lines(examined: ExaminedProgram) -> list[str]:
     """Return the problems, and what was measured, for people."""
@@ -31,7 +34,7 @@ def examined_lines(examined: ExaminedProgram) -> list[str]:
         f"in {counted(report['lines'], 'line')}, {length['cut']:.1f} mm cut, {length['rapid']:.1f} mm rapid",
     )
     if examined.unnamed:
-        lines.append("  units: the program names none (G20, G21) and is read in mm; say --units in if it is in inches")
+        lines.append(UNNAMED_UNITS)
     for title, box in (("cuts", examined.cut_box), ("all", examined.box)):
         sides = (
             f"{axis} {low:.3f} to {high:.3f}"

@@ -13,6 +13,7 @@ from ..gcode.interpreter.foreign_codes import names_units
 from ..gcode.interpreter.options import ToolOffset
 from ..model.part import Units
 from ..usecases.examine import CONTROLS, ExamineOptions
+from .check_lines import UNNAMED_UNITS
 from .command import MACHINE_HELP, OptionParser, machine_named, typed
 from .files import check_outputs, named_files
 
@@ -42,7 +43,7 @@ def units_taken(arguments: argparse.Namespace, data: bytes) -> list[str]:
     """Return a line about the units of a program, where neither it nor anybody says them."""
     if arguments.units or names_units(data):
         return []
-    return ["  it names no units (G20, G21), and mm are taken; say --units in if it is in inches"]
+    return [UNNAMED_UNITS]
 
 
 def add_check_options(parser: OptionParser) -> None:

@@ -56,7 +56,7 @@ def _late(compiled: Callable[[], Method]) -> Method:
         made.__qualname__ = first.__qualname__
         for each in type(self).__mro__:
             if each.__dict__.get("__init__") is first:
-                each.__init__ = made  # type: ignore[misc]
+                each.__init__ = made  # type: ignore[misc]  # of the class that it was made for: `first` was found there
         made(self, *values, **named)
 
     return _named("__init__", first)

@@ -5,6 +5,7 @@ import math
 import re
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -30,7 +31,7 @@ def ring(count: int = 720, radius: float = 50.0) -> str:
     return "\n".join(["G1 " + lines[0] + " F600", *lines[1:], ""])
 
 
-def smoothed(folder: Path, text: str, *options: str, status: int = 0) -> tuple[str, dict[str, object]]:
+def smoothed(folder: Path, text: str, *options: str, status: int = 0) -> tuple[str, dict[str, Any]]:
     source, out, report = folder / "in.ngc", folder / "out.ngc", folder / "r.json"
     source.write_text(text)
     assert main(["smooth", str(source), "-o", str(out), "--report", str(report), "--quiet", *options]) == status
@@ -54,12 +55,12 @@ def assert_paths_near(before: NcProgram, after: NcProgram, limit: float) -> None
 def test_a_program_that_names_no_units_is_in_inches_as_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     unnamed = (HEAD + ring(radius=2.0)).replace("G21 ", "").replace("X50", "X2") + TAIL
     text, report = smoothed(tmp_path, unnamed, "--tolerance", "0.01", "--units", "in")
-    assert report["tolerance"]["proven_mm"] <= 0.01  # type: ignore[index]
+    assert report["tolerance"]["proven_mm"] <= 0.01
     after = read_program(text.encode(), ReadOptions(units=Units.INCH))
     inch = read_program(("G20\n" + unnamed).encode())
     assert_paths_near(inch, after, 0.01)
     assert main(["smooth", str(tmp_path / "in.ngc"), "-o", str(tmp_path / "out.ngc")]) == 0
-    assert "it names no units (G20, G21), and mm are taken; say --units in" in capsys.readouterr().out
+    assert "the program names none (G20, G21) and is read in mm; say --units in" in capsys.readouterr().out
 
 
 def test_a_ring_of_chords_becomes_two_arcs_and_all_else_stays(tmp_path: Path) -> None:
@@ -67,8 +68,8 @@ def test_a_ring_of_chords_becomes_two_arcs_and_all_else_stays(tmp_path: Path) ->
     lines = text.splitlines()
     for line in (HEAD + TAIL).splitlines():
         assert line in lines
-    assert report["blocks"]["before"] == 720 and report["blocks"]["after"] <= 5  # type: ignore[index]
-    assert report["tolerance"]["proven_mm"] <= 0.01  # type: ignore[index]
+    assert report["blocks"]["before"] == 720 and report["blocks"]["after"] <= 5
+    assert report["tolerance"]["proven_mm"] <= 0.01
     before, after = (read_program(part.encode()) for part in (HEAD + ring() + TAIL, text))
     assert after.error is None
     assert np.sum(after.motions.kind >= MotionKind.ARC_CW) == 2
@@ -81,8 +82,8 @@ def test_a_real_engraving_takes_fewer_blocks_and_is_proven(tmp_path: Path, data:
     source = (data / "nc" / "jsdc.gcode").read_text()
     text, report = smoothed(tmp_path, source, "--tolerance", "0.05", "--as", form)
     most = {"lines": 190, "arcs": 81, "nurbs": 520}[form]
-    assert report["blocks"]["after"] <= most < report["blocks"]["before"]  # type: ignore[index]
-    assert report["tolerance"]["proven_mm"] <= 0.05  # type: ignore[index]
+    assert report["blocks"]["after"] <= most < report["blocks"]["before"]
+    assert report["tolerance"]["proven_mm"] <= 0.05
     again, _ = smoothed(tmp_path, text, "--tolerance", "0.05", "--as", form)
     assert len(again.splitlines()) <= len(text.splitlines()) + 8, "smoothing twice never adds motions"
     if form != "nurbs":
@@ -95,9 +96,9 @@ def test_a_real_engraving_takes_as_few_arcs_as_neighbours_may_bend(
 ) -> None:
     """Five stretches of 2,355 moves; ten blocks are plunges that nothing can be made of."""
     text, report = smoothed(tmp_path, (data / "nc" / "jsdc.gcode").read_text(), "--tolerance", "0.05", "--bend", bend)
-    assert report["blocks"]["after"] <= most + 10  # type: ignore[index]
-    assert report["tolerance"]["proven_mm"] <= 0.05  # type: ignore[index]
-    assert report["largest_bend_deg"]["after"] <= float(bend) + 0.1  # type: ignore[index]
+    assert report["blocks"]["after"] <= most + 10
+    assert report["tolerance"]["proven_mm"] <= 0.05
+    assert report["largest_bend_deg"]["after"] <= float(bend) + 0.1
     assert f"where up to {bend} deg" in text
 
 
@@ -108,7 +109,7 @@ def test_splines_of_degree_5_go_out_as_cubics_that_are_proven(tmp_path: Path, po
     options = ["--tolerance", "0.02", "--as", "nurbs", "--post", post, "--dialect", post]
     text, report = smoothed(tmp_path, HEAD + lines + TAIL, *options, "--degree", "5")
     plain, _ = smoothed(tmp_path, HEAD + lines + TAIL, *options)
-    assert report["blocks"]["after"] < 400 and report["tolerance"]["proven_mm"] <= 0.02  # type: ignore[index]
+    assert report["blocks"]["after"] < 400 and report["tolerance"]["proven_mm"] <= 0.02
     assert ("G5.2" if post == "linuxcnc" else "G6.2 P4") in text
     assert text != plain
 
@@ -119,7 +120,7 @@ def test_every_control_reads_back_what_is_written_for_it(tmp_path: Path, post: s
     head = HEAD.replace("T1 M6\n", "") if post == "grbl" else HEAD
     text, report = smoothed(tmp_path, head + ring() + TAIL, "--post", post, "--dialect", post, "--as", form)
     assert read_program(text.encode(), ReadOptions(Dialect(post))).error is None
-    assert report["blocks"]["after"] < 70  # type: ignore[index]
+    assert report["blocks"]["after"] < 70
 
 
 def test_inches_and_a_work_offset_and_other_planes(tmp_path: Path) -> None:
@@ -128,7 +129,7 @@ def test_inches_and_a_work_offset_and_other_planes(tmp_path: Path) -> None:
     text = f"G20 G90 G17 G94\nG10 L2 P2 X1 Y2 Z0\nG55\nT1 M6\nS5000 M3\nG0 X0 Y0 Z1\nG1 Z-0.2 F20\n{lines}\nG0 Z1\nM2\n"
     out, report = smoothed(tmp_path, text, "--tolerance", "0.001in")
     assert "G18" in out and "G17" in out.split("G18", 1)[1], "the plane in force comes back"
-    assert report["blocks"]["after"] < 20  # type: ignore[index]
+    assert report["blocks"]["after"] < 20
     before, after = (read_program(part.encode()) for part in (text, out))
     assert np.allclose(before.motions.end[-1], after.motions.end[-1])
 
@@ -147,7 +148,7 @@ def test_lines_that_nobody_can_vouch_for_stay(tmp_path: Path, stretch: str, reas
     text = HEAD + stretch + TAIL
     out, report = smoothed(tmp_path, text, "--tolerance", "0.01")
     assert [line for line in out.splitlines() if not line.startswith("(hitofude")] == text.splitlines()
-    assert any(reason in told for told in report["blocks"]["moves_left_alone"])  # type: ignore[index]
+    assert any(reason in told for told in report["blocks"]["moves_left_alone"])
 
 
 def test_feeds_keep_their_places(tmp_path: Path) -> None:
@@ -210,13 +211,13 @@ def test_points_within_facets_are_left_out_or_moved_within_the_tolerance(tmp_pat
     lines = "G1 F600 " + "".join(f"X{x:.4f} Y{y:.4f}\n" for x, y in [*places[1:], places[0]])
     options = ["--method", "effective-points", "--epsilon", "0.005", "--tolerance", "0.2", *embodiment]
     text, report = smoothed(tmp_path, HEAD + lines + TAIL, *options)
-    assert report["tolerance"]["proven_mm"] <= 0.2  # type: ignore[index]
+    assert report["tolerance"]["proven_mm"] <= 0.2
     inner = 660 if embodiment[1] == "2" else 0
     effective = 61 if inner else 61 + 2 * 60
     told = {"effective": effective, "corrected": inner, "left_out": 721 - effective - inner, "all": 721}
-    assert told.items() <= report["points"].items()  # type: ignore[union-attr]
+    assert told.items() <= report["points"].items()
     nearness = 0.003 if inner else 0.03  # a cubic by six points, least squares, is 1.3 um off this circle
-    assert report["points"]["farthest_mm"] <= report["points"]["nearness_mm"] == nearness  # type: ignore[index]
+    assert report["points"]["farthest_mm"] <= report["points"]["nearness_mm"] == nearness
     assert f"effective points: {report['points']['effective']} of 721, {inner} corrected" in text
     after = read_program(text.encode()).motions
     cut = after.kind >= MotionKind.ARC_CW
@@ -231,7 +232,7 @@ def test_effective_points_go_by_sides_between_corners(tmp_path: Path) -> None:
     options = ["--method", "effective-points", "--epsilon", "0.01", "--tolerance", "0.02"]
     head = HEAD.replace("G0 X50 Y0", "G0 X0 Y0")
     text, report = smoothed(tmp_path, head + sides + arc + TAIL, *options)
-    assert report["tolerance"]["proven_mm"] <= 0.02  # type: ignore[index]
+    assert report["tolerance"]["proven_mm"] <= 0.02
     after = read_program(text.encode()).motions
     for corner in ((30, 0), (30, 20), (0, 20), (0, 0)):
         assert np.hypot(*(after.end[:, :2] - corner).T).min() < 1e-3
@@ -252,7 +253,7 @@ def test_points_that_are_one_in_the_other_control_s_digits_keep_no_stretch_from_
     rest.insert(401, f"X{x + 0.0003:.4f} Y{y:.4f}")
     source = HEAD + "\n".join([first, *rest, ""]) + TAIL
     text, report = smoothed(tmp_path, source, "--tolerance", "0.02", "--post", "fanuc")
-    assert report["blocks"]["after"] <= 5 and report["stretches"]["changed"] == 1  # type: ignore[index]
+    assert report["blocks"]["after"] <= 5 and report["stretches"]["changed"] == 1
     after = read_program(text.encode(), ReadOptions(Dialect.FANUC))
     assert_paths_near(read_program(source.encode()), after, 0.02 + 1e-6)
 
@@ -358,4 +359,4 @@ def test_where_the_control_has_no_splines_in_space_arcs_of_the_other_planes_stan
         tmp_path, HEAD + "\n".join(rows) + "\n" + TAIL, "--post", "linuxcnc", "--as", "nurbs", "--tolerance", "0.02"
     )
     assert "G18" in text and "G5.2" not in text
-    assert report["blocks"]["after"] <= 8  # type: ignore[index]
+    assert report["blocks"]["after"] <= 8

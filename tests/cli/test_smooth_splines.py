@@ -51,14 +51,14 @@ def test_what_was_written_is_said_where_a_spline_would_take_more(tmp_path: Path)
     assert "written anew as nurbs" not in text.lower() and "G6.2" not in text
     kinds, _ = cutting(text, "fanuc")
     arcs, lines = int(np.sum(kinds > MotionKind.LINE)), int(np.sum(kinds == MotionKind.LINE))
-    assert arcs > 0 and report["written"] == {  # type: ignore[comparison-overlap]
+    assert arcs > 0 and report["written"] == {
         "lines": lines,
         "arcs": arcs,
         "splines": 0,
         "words": f"{arcs} arcs" + (f" and {lines} line{'s' if lines > 1 else ''}" if lines else ""),
     }
     assert f"written anew as {arcs} arcs".upper() in text.upper()
-    refused = [each for each in report["not_splines"] if each["spline_blocks"]]  # type: ignore[attr-defined]
+    refused = [each for each in report["not_splines"] if each["spline_blocks"]]
     would = int(re.search(r"AS MANY BLOCKS OR MORE. (\d+) BLOCKS", text.upper().replace("\n", " "))[1])  # type: ignore[index]
     assert would == sum(each["spline_blocks"] for each in refused) >= 60
 
@@ -70,7 +70,7 @@ def test_who_insists_gets_splines_all_along_continuous_in_curvature(tmp_path: Pa
     text, report = smoothed(tmp_path, program(points), *options("fanuc", "--insist"))
     kinds, splines = cutting(text, "fanuc")
     assert np.all(kinds == MotionKind.SPLINE), report["written"]
-    assert report["written"]["splines"] == len(splines)  # type: ignore[index]
+    assert report["written"]["splines"] == len(splines)
     places = []
     for curve in splines:
         spline = BSpline(curve.knots, curve.points, curve.degree)
@@ -93,13 +93,13 @@ def test_a_control_that_drives_splines_as_arcs_gets_lines_only_where_they_are_st
     kinds, _ = cutting(text, "linuxcnc")
     assert np.all((kinds == MotionKind.SPLINE) | (kinds == MotionKind.LINE))
     assert np.sum(kinds == MotionKind.LINE) < 0.1 * len(kinds)
-    assert report["largest_bend_deg"]["after"] < 0.3 < report["largest_bend_deg"]["before"]  # type: ignore[index]
+    assert report["largest_bend_deg"]["after"] < 0.3 < report["largest_bend_deg"]["before"]
 
 
 def test_what_rises_is_told_where_the_control_has_splines_at_one_height_only(tmp_path: Path) -> None:
     rising = ELLIPSE + np.linspace(0, 0.9, len(ELLIPSE))[:, None] * [0, 0, 1]
     text, report = smoothed(tmp_path, program(rising), *options("linuxcnc", "--insist"), status=1)
-    assert report["written"]["splines"] == 0 and "AT ONE HEIGHT ONLY" in text.upper()  # type: ignore[index]
+    assert report["written"]["splines"] == 0 and "AT ONE HEIGHT ONLY" in text.upper()
 
 
 def test_where_a_path_rises_on_its_way_the_rest_of_it_is_splines(tmp_path: Path) -> None:
@@ -112,14 +112,14 @@ def test_where_a_path_rises_on_its_way_the_rest_of_it_is_splines(tmp_path: Path)
     )
     kinds, splines = cutting(text, "linuxcnc")
     assert len(splines) > 20 and np.sum(kinds == MotionKind.SPLINE) == len(splines)
-    assert [each["reason"] for each in report["not_splines"]] == ["the control knows splines at one height only"]  # type: ignore[attr-defined]
+    assert [each["reason"] for each in report["not_splines"]] == ["the control knows splines at one height only"]
     assert min(spline.points[0, 1] for spline in splines) >= 0
 
 
 def test_lines_are_told_where_nothing_bends(tmp_path: Path) -> None:
     zigzag = np.column_stack([np.arange(9) * 4.0, np.arange(9) % 2 * 10.0, np.full(9, -1.0)])
     text, report = smoothed(tmp_path, program(zigzag), *options("linuxcnc", "--insist"))
-    assert report["written"]["splines"] == 0  # type: ignore[index]
+    assert report["written"]["splines"] == 0
     assert "8 LINES WHERE A SPLINE IS STRAIGHT TO THE LAST DECIMAL" in text.upper()
 
 
@@ -145,10 +145,10 @@ def test_any_outline_of_the_region_is_used_proven_and_told(tmp_path: Path, form:
     more = ["--post", "fanuc", "--dialect", "fanuc", "--as", form, "--region"]
     text, report = smoothed(tmp_path, program(ELLIPSE), *more, outline)
     _, narrow = smoothed(tmp_path, program(ELLIPSE), *more, "cylinder", "--tolerance", "0.006")
-    assert report["blocks"]["after"] < narrow["blocks"]["after"]  # type: ignore[index]
+    assert report["blocks"]["after"] < narrow["blocks"]["after"]
     assert "REGION BY ITS OUTLINE" in text.upper()
-    [stretch] = report["stretches"]["listed"]  # type: ignore[index]
-    assert report["tolerance"]["asked_mm"] < report["tolerance"]["proven_mm"] <= 0.03  # type: ignore[index]
+    [stretch] = report["stretches"]["listed"]
+    assert report["tolerance"]["asked_mm"] < report["tolerance"]["proven_mm"] <= 0.03
     assert len(stretch["joints"]) == stretch["blocks"]["after"] - 1 if form == "arcs" else not stretch["joints"]
     assert (form == "arcs") == ("rounds" not in stretch)
     if form == "nurbs":

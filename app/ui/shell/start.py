@@ -23,6 +23,7 @@ from ...core.progress import Progress
 from ...core.resources import PACKAGE
 from ...core.settings import Settings, config_folder, load_settings, state_folder
 from ...drafting.document import Document
+from ..framework.file_dialogs import search_no_icon_themes
 from ..framework.icons import pixmap
 from ..framework.worker import Worker
 from .main_window import MainWindow
@@ -77,6 +78,7 @@ def _warm(settings: Settings, progress: Progress) -> None:
 
 def build() -> tuple[MainWindow, WindowController]:
     """Return a window with an empty document, not shown yet, and its wiring."""
+    search_no_icon_themes()
     window = MainWindow(Document(), load_settings())
     wiring = WindowController(window)
     window.set_theme_choice(window.preferences.settings.theme)

@@ -12,7 +12,7 @@ from PySide6.QtCore import QObject, Signal
 
 from ....core.atomic import write_together
 from ....core.errors import HitofudeError
-from ....gcode.posts import load_post, post_titles
+from ....gcode.posts import load_post, post_names
 from ...framework.computation import Computation, ComputationState
 from ...framework.notice import Notice
 from .proof import proof, warning
@@ -24,9 +24,10 @@ if TYPE_CHECKING:
 def post_filters() -> dict[str, str]:
     """Return what the file dialog offers, and the post of each; posts that are damaged are left out."""
     found = {}
-    for name, title in post_titles().items():
+    for name in post_names():
         with suppress(HitofudeError):
-            found[f"{title} (*{load_post(name).extension})"] = name
+            post = load_post(name)
+            found[f"{post.title} (*{post.extension})"] = name
     return found
 
 
